@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What every shadow algorithm returns, whatever kernel it ran on: per light and part, classified
+// fragments, with exact or nearest points on request.
+#ifndef GNOMON_ALGORITHMS_SHADOW_RESULT_H
+#define GNOMON_ALGORITHMS_SHADOW_RESULT_H
+
+#include <gmpxx.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gnomon/kernel/sign.h"
+
+namespace gnomon {
+
+enum class LightState : std::uint8_t { kLit, kShadow, kPenumbra, kUmbra };
+
+/// Why a whole part is in shadow without any caster.
+enum class ShadowReason : std::uint8_t { kNone, kFacesAway, kLightInPlane, kBehindLight };
+
+/// Certified bounds: the true value is in [lower, upper].
+struct Interval {
+  double lower = 0, upper = 0;
+  double middle() const { return lower + (upper - lower) / 2; }
+};
+
+struct Fragment {
+  static constexpr std::uint32_t kNoCaster = 0xffffffffu;
+  LightState state = LightState::kLit;
+  std::uint32_t caster = kNoCaster;  // part index of the witness
+  std::uint32_t first = 0, count = 0;  // into points / exact_points of the LightResult, if kept
+};
+
+/// The side of one part that was classified, and its fragments.
+struct PartResult {
+  std::uint32_t part = 0;
+  Side side = Side::kFront;  // the part's side that faces the light; kFront if none does
+  ShadowReason reason = ShadowReason::kNone;  // set: the whole part is in shadow, no fragments
+  std::uint32_t first_fragment = 0, fragment_count = 0;
+  Interval lit;              // fraction of the part's area; for rounded kernels lower == upper
+  Interval shadow;
+  mpq_class exact_lit;       // exact kernels on request (ShadowOptions::exact_fractions), else 0
+  mpq_class exact_shadow;
+};
+
+struct LightResult {
+  std::uint32_t light = 0;   // index into PreparedScene::lights
+  std::vector<PartResult> parts;  // one a part, in order
+  std::vector<Fragment> fragments;
+  std::vector<std::array<double, 3>> points;            // nearest doubles, scene units
+  std::vector<std::array<mpq_class, 3>> exact_points;   // scene units
+  // Counts of the papers' tables.
+  std::uint64_t facing_parts = 0, facing_edges = 0, tree_nodes = 0, fragment_total = 0;
+  // What a rounded kernel could not do: loops that vanished, and so on. Zero on exact kernels.
+  std::uint64_t dropped_slivers = 0;
+};
+
+struct ShadowResult {
+  std::string kernel;     // id of formats: "plane", "double", ...
+  std::string algorithm;  // "svbsp"
+  bool exact = false;
+  bool identity = false;
+  double thickness = 0;   // relative plane thickness (float kernels)
+  std::vector<LightResult> lights;
+  double scene_bsp_seconds = 0, shadow_seconds = 0;  // CPU time
+  std::uint64_t bsp_nodes = 0, bsp_fragments = 0, bsp_depth = 0;
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SHADOW_RESULT_H

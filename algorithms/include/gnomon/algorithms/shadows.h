@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The one entry point: classify a prepared scene on a kernel chosen at run time.
+#ifndef GNOMON_ALGORITHMS_SHADOWS_H
+#define GNOMON_ALGORITHMS_SHADOWS_H
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "gnomon/algorithms/shadow_result.h"
+#include "gnomon/kernel/error.h"
+#include "gnomon/kernel/kernel_list.h"
+#include "gnomon/scene/prepare.h"
+
+namespace gnomon {
+
+struct ShadowOptions {
+  KernelId kernel = KernelId::kPlane;
+  bool identity = false;          // for rounded kernels; `plane` always knows
+  double thickness = kDefaultThickness;  // relative to the scene's diagonal; rounded kernels only
+  std::vector<std::uint32_t> lights;  // indices into PreparedScene::lights; empty: all that are not area
+  bool keep_points = false;        // fragments with nearest doubles
+  bool keep_exact_points = false;  // fragments with exact rationals
+  bool exact_fractions = false;    // sum exact rational fractions per part (exact kernels)
+  bool merge = true;               // merge sibling fragments, collapse parts that agree
+  bool prefix = true;              // balanced prefix of light space
+  std::uint64_t seed = 1;          // of the root choice of the scene BSP
+  std::function<void(double)> progress;         // fraction of the work done, 0..1; may be empty
+  const std::atomic<bool>* interrupted = nullptr;  // checked between polygons
+};
+
+/// Classifies every part for every light asked for. Errors: kUsage (area light asked for),
+/// kInterrupted, kLimit.
+Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options);
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SHADOWS_H

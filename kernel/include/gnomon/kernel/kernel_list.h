@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The kernels by name, and what each guarantees.
+#ifndef GNOMON_KERNEL_KERNEL_LIST_H
+#define GNOMON_KERNEL_KERNEL_LIST_H
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace gnomon {
+
+enum class KernelId : std::uint8_t {
+  kFloat, kDouble, kLongDouble, kEpick, kEpeck, kRational, kPlane
+};
+
+struct KernelInfo {
+  KernelId id;
+  std::string_view name;        // as on the command line
+  bool exact;                   // every answer equals the definition
+  std::string_view points;      // the vertices that algorithms make
+  std::string_view decisions;   // how a side of a plane is found
+};
+
+/// In the order of docs; `exact` on the command line is an alias of kDefaultExactKernel.
+const std::array<KernelInfo, 7>& kernel_list();
+const KernelInfo& kernel_info(KernelId id);
+std::optional<KernelId> kernel_by_name(std::string_view name);
+inline constexpr KernelId kDefaultExactKernel = KernelId::kPlane;
+
+/// Relative plane thickness of the rounded kernels unless told otherwise (docs/exactness.md says why).
+inline constexpr double kDefaultThickness = 1e-12;
+
+}  // namespace gnomon
+
+#endif  // GNOMON_KERNEL_KERNEL_LIST_H

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the oracle judges: a partition of polygons into classified loops, whoever made it. Points are
+// exact rationals in scene units: of a float kernel or of a foreign file they are the numbers it wrote.
+#ifndef GNOMON_ORACLE_CANDIDATE_H
+#define GNOMON_ORACLE_CANDIDATE_H
+
+#include <gmpxx.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gnomon::oracle {
+
+using ExactPoint = std::array<mpq_class, 3>;
+
+enum class ShadeClass : std::uint8_t { kLit, kShadow, kPenumbra, kUmbra };
+enum class PolygonSide : std::uint8_t { kFront, kBack };
+
+struct CandidateFragment {
+  ShadeClass shade = ShadeClass::kLit;
+  std::vector<ExactPoint> loop;         // any orientation, not closed (first point not repeated)
+  std::string caster;                   // polygon id of the witness, empty if none is named
+  std::string reason;                   // "faces-away", "light-in-plane", "behind-light", or empty
+};
+
+struct CandidatePolygon {
+  std::string id;
+  PolygonSide side = PolygonSide::kFront;
+  std::optional<mpq_class> lit_fraction, shadow_fraction;  // as claimed, if claimed exactly
+  std::vector<CandidateFragment> fragments;
+};
+
+struct CandidateLight {
+  std::string id;
+  std::optional<ShadeClass> background;  // everything not covered has this class
+  std::vector<CandidatePolygon> polygons;
+};
+
+struct Candidate {
+  std::string name;  // kernel or file, for messages
+  std::vector<CandidateLight> lights;
+};
+
+}  // namespace gnomon::oracle
+
+#endif  // GNOMON_ORACLE_CANDIDATE_H

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// One coordinate as the scene means it: exactly a dyadic rational (a double) or exactly a decimal
+// fraction. 16 bytes; a mantissa beyond 63 bits lives on the heap.
+//
+// Exactness: exact() is the coordinate itself; nearest() is the double nearest to it, ties to even.
+#ifndef GNOMON_SCENE_NUMBER_H
+#define GNOMON_SCENE_NUMBER_H
+
+#include <gmpxx.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "gnomon/kernel/error.h"
+
+namespace gnomon {
+
+/// How a scene's numbers are meant (docs: semantics, "numbers").
+enum class NumberMeaning : std::uint8_t { kDouble, kDecimal };
+
+class Number {
+ public:
+  Number() = default;
+  /// Requires: finite. -0 becomes 0.
+  explicit Number(double value);
+  Number(const Number& other);
+  Number(Number&& other) noexcept;
+  Number& operator=(Number other) noexcept;
+  ~Number();
+
+  /// mantissa * base^exponent, base 2 or 10; normalised (no factor of the base left in the mantissa).
+  static Number from_decimal(mpz_class mantissa, std::int32_t exponent);
+  static Number from_dyadic(mpz_class mantissa, std::int32_t exponent);
+
+  /// Reads [+-]digits[.digits][(e|E)[+-]digits], also "2." and ".5". kDouble: the double nearest to the
+  /// text. Errors: kNumber (malformed, NaN, infinity, overflow), kLimit (decimal exponent beyond
+  /// +-4096 or more than 1000 digits). `underflow`, if given, is set when a non-zero text became a
+  /// subnormal that is not exact, or 0.
+  static Expected<Number> parse(std::string_view text, NumberMeaning meaning,
+                                bool* underflow = nullptr);
+
+  double nearest() const;
+  mpq_class exact() const;
+  bool is_decimal() const { return base_ == 10; }
+  /// Shortest text that reads back to the same value under the meaning that made it.
+  std::string to_text() const;
+  /// Equal as numbers, whatever the base.
+  friend bool operator==(const Number& a, const Number& b);
+
+ private:
+  union {
+    std::int64_t small_ = 0;
+    mpz_class* big_;
+  };
+  std::int32_t exponent_ = 0;
+  std::uint8_t base_ = 2;
+  bool is_big_ = false;
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_SCENE_NUMBER_H
