@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: LGPL-3.0-or-later
+# Libraries that the components link: GMP::GMP, GMP::GMPXX, MPFR::MPFR, tl::expected, fmt::fmt,
+# TBB::tbb, OpenSSL::Crypto, CLI11::CLI11, gnomon_rapidjson (headers), CGAL::CGAL (headers; only
+# through CGAL_SOURCES, since its interface carries -frounding-math).
+
+find_package(Threads REQUIRED)
+find_package(GMP REQUIRED)
+find_package(MPFR REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(fmt REQUIRED)
+find_package(TBB REQUIRED)
+
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
+set(CGAL_DATA_DIR "${PROJECT_SOURCE_DIR}" CACHE INTERNAL "CGAL asks for it; not used")
+find_package(CGAL REQUIRED QUIET)
+
+# Debian's RapidJSON configuration has no target in older versions.
+find_package(RapidJSON REQUIRED)
+if(NOT TARGET gnomon_rapidjson)
+  add_library(gnomon_rapidjson INTERFACE)
+  target_include_directories(gnomon_rapidjson SYSTEM INTERFACE ${RAPIDJSON_INCLUDE_DIRS})
+endif()
+
+if(GNOMON_BUILD_TOOLS)
+  find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+  find_package(CLI11 REQUIRED)
+endif()
+if(GNOMON_BUILD_BENCH)
+  find_package(benchmark REQUIRED)
+endif()
