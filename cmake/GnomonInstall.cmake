@@ -29,6 +29,7 @@ set(gnomon_find_dependencies "")
 foreach(dependency IN LISTS gnomon_dependencies)
   string(APPEND gnomon_find_dependencies "find_dependency(${dependency})\n")
 endforeach()
+string(REPLACE ";" " " gnomon_components_installed "${gnomon_installed}")
 
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/gnomonConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/cmake/gnomonConfig.cmake"
@@ -43,4 +44,24 @@ install(FILES
   DESTINATION "${gnomon_package_dir}")
 if(gnomon_installed)
   install(EXPORT gnomonTargets NAMESPACE gnomon:: DESTINATION "${gnomon_package_dir}")
+endif()
+
+# The manual page is the command's own help, put into form by help2man where that is installed.
+if(TARGET gnomon)
+  find_program(GNOMON_HELP2MAN help2man)
+  mark_as_advanced(GNOMON_HELP2MAN)
+  if(GNOMON_HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
+    set(gnomon_manual "${PROJECT_BINARY_DIR}/man/gnomon.1")
+    add_custom_command(OUTPUT "${gnomon_manual}"
+      COMMAND "${CMAKE_COMMAND}" -E make_directory "${PROJECT_BINARY_DIR}/man"
+      COMMAND "${GNOMON_HELP2MAN}" --no-info --no-discard-stderr
+              "--name=exact shadows of polygons, and the verdict on every other number type"
+              --version-string=${PROJECT_VERSION} "--help-option=--help-all"
+              "--output=${gnomon_manual}" "$<TARGET_FILE:gnomon>"
+      DEPENDS gnomon
+      COMMENT "Writing the manual page gnomon.1"
+      VERBATIM)
+    add_custom_target(gnomon_manual_page ALL DEPENDS "${gnomon_manual}")
+    install(FILES "${gnomon_manual}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+  endif()
 endif()
