@@ -12,7 +12,9 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -30,6 +32,15 @@ class GridPositions {
   GridPositions() = default;
   /// Takes 3 n coordinates x0 y0 z0 x1 ..., all non-negative.
   static GridPositions from(std::vector<mpz_class> coordinates);
+  /// The same from 64-bit coordinates, without a copy. Requires: all in [0, 2^kNarrowBits - 1].
+  static GridPositions from_narrow(std::vector<std::int64_t> coordinates) {
+    std::uint64_t all = 0;
+    for (std::int64_t coordinate : coordinates) all |= static_cast<std::uint64_t>(coordinate);
+    GridPositions result;
+    result.bits_ = static_cast<unsigned>(std::bit_width(all));
+    result.narrow_ = std::move(coordinates);
+    return result;
+  }
 
   std::size_t size() const { return (is_narrow() ? narrow_.size() : wide_.size()) / 3; }
   unsigned bits() const { return bits_; }

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The kernels whose vertices are coordinates: float, double, long double (rounded), and GMP rationals
+// (exact). The same formulas, plainly written, as the papers and most programs have them: a plane is
+// n . x - d, its value is compared with a thickness, a crossing is a + t (b - a).
+//
+// Guarantee: with T = mpq_class every decision and construction is exact. With a float type nothing is
+// guaranteed: `identity` and `thickness` (kernel_options.h) are the two policies that practice knows,
+// and what remains wrong is what the oracle measures.
+// Reference: Chin & Feiner 1989, sec. 7 (planes of input polygons are copied to their fragments).
+#ifndef GNOMON_KERNEL_COORDINATE_SPACE_H
+#define GNOMON_KERNEL_COORDINATE_SPACE_H
+
+#include <gmpxx.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gnomon/kernel/ball.h"
+#include "gnomon/kernel/corner.h"
+#include "gnomon/kernel/geometry.h"
+#include "gnomon/kernel/kernel_options.h"
+#include "gnomon/kernel/light_space.h"
+#include "gnomon/kernel/predicate_stats.h"
+#include "gnomon/kernel/sign.h"
+
+namespace gnomon {
+
+template <class T>
+struct CoordinateVertex {
+  std::array<T, 3> x{};
+  VertexId source = kMadeVertex;
+};
+
+template <class T>
+struct CoordinatePlane {
+  std::array<T, 3> n{};
+  T d{};
+  VertexId a = kMadeVertex, b = kMadeVertex;  // input vertices it was made from (shadow planes)
+};
+
+/// The arithmetic that both spaces share.
+template <class T>
+class CoordinatePlanes {
+ public:
+  using Vertex = CoordinateVertex<T>;
+  static constexpr bool kExact = std::is_same_v<T, mpq_class>;
+
+  CoordinatePlanes(const Geometry& geometry, const KernelOptions& options);
+
+  /// Normal (b - a) x (c - a), of unit length if T rounds and the plane is used with a thickness.
+  CoordinatePlane<T> plane_through(const Vertex& a, const Vertex& b, const Vertex& c) const;
+  CoordinatePlane<T> plane_from(std::array<T, 3> normal, const std::array<T, 3>& point) const;
+  T value(const CoordinatePlane<T>& plane, const Vertex& vertex) const {
+    return T(plane.n[0] * vertex.x[0] + plane.n[1] * vertex.x[1] + plane.n[2] * vertex.x[2] -
+             plane.d);
+  }
+  Side side(const CoordinatePlane<T>& plane, const Vertex& vertex) const {
+    const T v = value(plane, vertex);
+    return v > thickness_ ? Side::kFront : v < -thickness_ ? Side::kBack : Side::kOn;
+  }
+  Vertex crossing(const CoordinatePlane<T>& plane, const Vertex& from, const Vertex& to) const;
+  Vertex input_vertex(VertexId v) const;
+  bool identity() const { return identity_; }
+
+ private:
+  const Geometry* geometry_;
+  bool identity_;
+  T thickness_;  // in scene units; 0 for exact T
+};
+
+template <class T>
+class CoordinateSceneSpace {
+ public:
+  using Vertex = CoordinateVertex<T>;
+  static constexpr bool kExact = CoordinatePlanes<T>::kExact;
+
+  CoordinateSceneSpace(const Geometry& geometry, const KernelOptions& options);
+
+  Vertex input_vertex(VertexId v) const { return planes_.input_vertex(v); }
+  Side side_of_plane(PlaneId plane, const Corner<Vertex>& corner);
+  Vertex crossing(PlaneId plane, const Corner<Vertex>& from, const Corner<Vertex>& to) const {
+    return planes_.crossing(support_[plane], from.vertex, to.vertex);
+  }
+  const Geometry& geometry() const { return *geometry_; }
+  SceneEdges edges() const { return {static_cast<std::uint32_t>(geometry_->planes.size())}; }
+  std::array<double, 3> approximate(const Vertex& vertex) const;
+  const CoordinatePlane<T>& support(PlaneId plane) const { return support_[plane]; }
+  const CoordinatePlanes<T>& arithmetic() const { return planes_; }
+  StageCounts stage_counts() const { return {}; }
+
+ private:
+  const Geometry* geometry_;
+  CoordinatePlanes<T> planes_;
+  std::vector<CoordinatePlane<T>> support_;
+};
+
+template <class T>
+class CoordinateLightSpace {
+ public:
+  using SceneSpace = CoordinateSceneSpace<T>;
+  using Vertex = CoordinateVertex<T>;
+  static constexpr bool kExact = SceneSpace::kExact;
+
+  CoordinateLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options);
+
+  Sign light_side(PlaneId plane) const;
+  PlaneRef import_edge(PlaneRef scene_edge, PlaneId support, bool reversed, const Vertex& from,
+                       const Vertex& to);
+  Vertex import_vertex(const typename SceneSpace::Vertex& vertex) const { return vertex; }
+  void finish_vertex(Vertex&, PlaneRef, PlaneRef) const {}
+  /// With identity an edge keeps its plane; without, a new one is computed from the two vertices.
+  PlaneRef shadow_plane(PlaneRef edge, const Vertex& from, const Vertex& to);
+  PlaneRef add_prefix_plane(const PrefixPlane& plane);
+  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
+  Vertex crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
+                  const Corner<Vertex>& to) const {
+    return scene_->arithmetic().crossing(planes_[plane.index()], from.vertex, to.vertex);
+  }
+  std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
+  /// Scene units.
+  std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
+  std::string describe(PlaneRef plane) const;
+  std::size_t plane_count() const { return planes_.size(); }
+  StageCounts stage_counts() const { return {}; }
+
+ private:
+  PlaneRef add(CoordinatePlane<T> plane) {
+    planes_.push_back(std::move(plane));
+    return PlaneRef(static_cast<std::uint32_t>(planes_.size() - 1));
+  }
+  CoordinatePlane<T> shadow_plane_of(const Vertex& from, const Vertex& to) const;
+
+  SceneSpace* scene_;
+  bool identity_;
+  bool directional_;
+  std::array<T, 3> light_;  // position or to_light
+  LightAxes axes_;
+  std::vector<CoordinatePlane<T>> planes_;
+  std::vector<std::uint32_t> plane_of_edge_;
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_KERNEL_COORDINATE_SPACE_H

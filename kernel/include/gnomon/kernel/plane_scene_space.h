@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The kernel `plane` in three dimensions, where the scene BSP decides: on which side of the support
+// plane P_j does a vertex of a fragment lie?
+//
+// A vertex is never constructed. It is an input vertex, or where an input edge meets a support plane,
+// or where two support planes cut the support plane of the loop; its doubles are a hint with a proven
+// error bound. Decisions: identity, then the filter, then exact integers of the width that the
+// precision plan allows.
+//
+// Guarantee: every side is exact, on every input.
+// Degree: 3 (input vertex), 6 (edge and plane), 9 (three planes). Reference: docs/exactness.md.
+#ifndef GNOMON_KERNEL_PLANE_SCENE_SPACE_H
+#define GNOMON_KERNEL_PLANE_SCENE_SPACE_H
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "gnomon/kernel/ball.h"
+#include "gnomon/kernel/corner.h"
+#include "gnomon/kernel/exact_integer.h"
+#include "gnomon/kernel/geometry.h"
+#include "gnomon/kernel/kernel_options.h"
+#include "gnomon/kernel/precision_plan.h"
+#include "gnomon/kernel/predicate_stats.h"
+#include "gnomon/kernel/sign.h"
+
+namespace gnomon {
+
+/// A support plane with exact integer coefficients on the grid: n . x - d.
+template <class Int>
+struct ExactPlane {
+  Vector3<Int> n;
+  Int d;
+};
+
+/// Reads the grid's integers as Int. Requires: they fit (Int128, Int512: narrow grids only).
+template <class Int>
+class ExactGeometry {
+ public:
+  explicit ExactGeometry(const Geometry& geometry) : geometry_(&geometry) {}
+
+  Vector3<Int> position(VertexId v) const {
+    const GridPositions& grid = geometry_->grid;
+    if constexpr (std::is_same_v<Int, mpz_class>) {
+      return {grid.at(v, 0), grid.at(v, 1), grid.at(v, 2)};
+    } else {
+      return {integer_from<Int>(grid.narrow(v, 0)), integer_from<Int>(grid.narrow(v, 1)),
+              integer_from<Int>(grid.narrow(v, 2))};
+    }
+  }
+  ExactPlane<Int> plane(PlaneId id) const {
+    const SupportTriple& triple = geometry_->planes[id];
+    const Vector3<Int> a = position(triple.a);
+    const Vector3<Int> n =
+        cross(difference(position(triple.b), a), difference(position(triple.c), a));
+    return {n, dot(n, a)};
+  }
+
+ private:
+  const Geometry* geometry_;
+};
+
+/// A homogeneous point x / w, w > 0.
+template <class Int>
+struct ExactPoint {
+  Vector3<Int> x;
+  Int w;
+};
+
+template <class Stats = NoStats>
+class PlaneSceneSpace {
+ public:
+  static constexpr bool kExact = true;
+
+  /// Doubles in grid units times 2^-b, so that every coordinate is in [0, 1]; `error` bounds the
+  /// distance of each to the true coordinate (infinite: the doubles say nothing).
+  struct Vertex {
+    std::array<double, 3> x{};
+    double error = 0;
+    VertexId source = kMadeVertex;
+  };
+
+  PlaneSceneSpace(const Geometry& geometry, const KernelOptions& options);
+
+  Vertex input_vertex(VertexId v) const;
+  /// Side of the corner's vertex; kOn is exact. Identities: (1) the support plane itself and the planes
+  /// of the corner's two edges contain it; (2) a plane contains the input vertices that define it.
+  Side side_of_plane(PlaneId plane, const Corner<Vertex>& corner);
+  /// Where the edge from `from` to `to`, which has the two ends strictly on different sides of `plane`,
+  /// meets it. Only the doubles are computed; the vertex is the corner that the caller puts it in.
+  Vertex crossing(PlaneId plane, const Corner<Vertex>& from, const Corner<Vertex>& to) const;
+
+  /// Exact position on the grid, as a homogeneous point.
+  template <class Int>
+  ExactPoint<Int> exact_point(const Corner<Vertex>& corner) const;
+
+  const Geometry& geometry() const { return *geometry_; }
+  SceneEdges edges() const { return {static_cast<std::uint32_t>(geometry_->planes.size())}; }
+  /// In scene units, for heuristics only.
+  std::array<double, 3> approximate(const Vertex& vertex) const {
+    std::array<double, 3> point;
+    for (int k = 0; k < 3; ++k) point[k] = origin_[k] + scale_ * vertex.x[k];
+    return point;
+  }
+  /// Enclosures of n and d of a support plane for positions in grid units times 2^-b, up to a common
+  /// positive factor; of infinite radius where doubles cannot hold it.
+  std::array<Ball, 4> plane_enclosure(PlaneId plane) const;
+  StageCounts stage_counts() const { return stats_.counts(); }
+
+ private:
+  struct FilteredPlane {
+    std::array<double, 3> n{};  // |n_k| < 1
+    double d = 0;               // |d| < 3
+    bool usable = false;
+  };
+  /// |computed n . x - d - true value| for plane and vertex below: 3 (error of x) + (error of n and d:
+  /// 3 * 2u + 6u) + rounding of 3 products and 3 sums of values below 3 (18u), doubled for slack.
+  static double error_bound(double vertex_error) { return 3.01 * vertex_error + 64 * Ball::kUnit; }
+
+  template <class Int>
+  Sign exact_side(PlaneId plane, const Corner<Vertex>& corner) const;
+
+  const Geometry* geometry_;
+  std::vector<FilteredPlane> planes_;
+  std::array<double, 3> origin_{};
+  double scale_ = 1;
+  unsigned bits_;
+  Stats stats_;
+};
+
+extern template class PlaneSceneSpace<NoStats>;
+extern template class PlaneSceneSpace<CountStats>;
+
+}  // namespace gnomon
+
+#endif  // GNOMON_KERNEL_PLANE_SCENE_SPACE_H

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Bodies of coordinate_space.h, instantiated one number type a source.
+#ifndef GNOMON_KERNEL_SRC_COORDINATE_SPACE_IMPL_H
+#define GNOMON_KERNEL_SRC_COORDINATE_SPACE_IMPL_H
+
+#include <cmath>
+
+#include "gnomon/kernel/coordinate_space.h"
+
+namespace gnomon {
+namespace coordinate_detail {
+
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+
+template <class T>
+std::array<T, 3> cross(const std::array<T, 3>& a, const std::array<T, 3>& b) {
+  return {T(a[1] * b[2] - a[2] * b[1]), T(a[2] * b[0] - a[0] * b[2]),
+          T(a[0] * b[1] - a[1] * b[0])};
+}
+template <class T>
+std::array<T, 3> minus(const std::array<T, 3>& a, const std::array<T, 3>& b) {
+  return {T(a[0] - b[0]), T(a[1] - b[1]), T(a[2] - b[2])};
+}
+template <class T>
+T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
+  return T(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+inline double to_double(const mpq_class& value) { return value.get_d(); }
+template <class T>
+  requires std::is_floating_point_v<T>
+double to_double(T value) {
+  return static_cast<double>(value);
+}
+/// Scene's diagonal in scene units, from the nearest doubles.
+inline double diagonal(const Geometry& geometry) {
+  std::array<double, 3> low{}, high{};
+  bool first = true;
+  for (const auto& p : geometry.positions) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = first ? p[k] : std::fmin(low[k], p[k]);
+      high[k] = first ? p[k] : std::fmax(high[k], p[k]);
+    }
+    first = false;
+  }
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+}  // namespace coordinate_detail
+
+template <class T>
+CoordinatePlanes<T>::CoordinatePlanes(const Geometry& geometry, const KernelOptions& options)
+    : geometry_(&geometry), identity_(kExact || options.identity), thickness_(0) {
+  if constexpr (!kExact) {
+    if (options.thickness > 0) {
+      thickness_ = static_cast<T>(options.thickness * coordinate_detail::diagonal(geometry));
+    }
+  }
+}
+
+template <class T>
+CoordinatePlane<T> CoordinatePlanes<T>::plane_from(std::array<T, 3> normal,
+                                                   const std::array<T, 3>& point) const {
+  CoordinatePlane<T> plane;
+  if constexpr (!kExact) {
+    if (thickness_ > 0) {  // a thickness is a distance, so the normal needs unit length
+      const T length = std::hypot(normal[0], normal[1], normal[2]);
+      if (length > 0) {
+        for (T& x : normal) x /= length;
+      }
+    }
+  }
+  plane.n = std::move(normal);
+  plane.d = coordinate_detail::dot(plane.n, point);
+  return plane;
+}
+
+template <class T>
+CoordinatePlane<T> CoordinatePlanes<T>::plane_through(const Vertex& a, const Vertex& b,
+                                                      const Vertex& c) const {
+  using namespace coordinate_detail;
+  return plane_from(cross(minus(b.x, a.x), minus(c.x, a.x)), a.x);
+}
+
+template <class T>
+CoordinateVertex<T> CoordinatePlanes<T>::crossing(const CoordinatePlane<T>& plane,
+                                                  const Vertex& from, const Vertex& to) const {
+  const T at_from = value(plane, from), at_to = value(plane, to);
+  const T t = at_from / T(at_from - at_to);
+  Vertex result;
+  for (int k = 0; k < 3; ++k) result.x[k] = from.x[k] + t * T(to.x[k] - from.x[k]);
+  return result;
+}
+
+template <class T>
+CoordinateVertex<T> CoordinatePlanes<T>::input_vertex(VertexId v) const {
+  Vertex vertex;
+  vertex.source = v;
+  for (int k = 0; k < 3; ++k) {
+    if constexpr (kExact) {
+      vertex.x[k] = geometry_->origin[k] + geometry_->step * geometry_->grid.at(v, k);
+    } else {
+      vertex.x[k] = static_cast<T>(geometry_->positions[v][k]);
+    }
+  }
+  return vertex;
+}
+
+template <class T>
+CoordinateSceneSpace<T>::CoordinateSceneSpace(const Geometry& geometry,
+                                              const KernelOptions& options)
+    : geometry_(&geometry), planes_(geometry, options) {
+  support_.reserve(geometry.planes.size());
+  for (const SupportTriple& triple : geometry.planes) {
+    CoordinatePlane<T> plane = planes_.plane_through(planes_.input_vertex(triple.a),
+                                                     planes_.input_vertex(triple.b),
+                                                     planes_.input_vertex(triple.c));
+    support_.push_back(std::move(plane));
+  }
+}
+
+template <class T>
+Side CoordinateSceneSpace<T>::side_of_plane(PlaneId plane, const Corner<Vertex>& corner) {
+  if (planes_.identity()) {
+    if (plane == corner.support || corner.before.index() == plane ||
+        corner.after.index() == plane) {
+      return Side::kOn;
+    }
+    const VertexId source = corner.vertex.source;
+    const SupportTriple& triple = geometry_->planes[plane];
+    if (source != kMadeVertex && (source == triple.a || source == triple.b || source == triple.c)) {
+      return Side::kOn;
+    }
+  }
+  return planes_.side(support_[plane], corner.vertex);
+}
+
+template <class T>
+std::array<double, 3> CoordinateSceneSpace<T>::approximate(const Vertex& vertex) const {
+  using coordinate_detail::to_double;
+  return {to_double(vertex.x[0]), to_double(vertex.x[1]), to_double(vertex.x[2])};
+}
+
+template <class T>
+CoordinateLightSpace<T>::CoordinateLightSpace(SceneSpace& scene, const LightPoint& light,
+                                              const KernelOptions&)
+    : scene_(&scene),
+      identity_(scene.arithmetic().identity()),
+      directional_(light.directional),
+      axes_(LightAxes::of(light)) {
+  const Geometry& geometry = scene.geometry();
+  for (int k = 0; k < 3; ++k) {
+    if constexpr (kExact) {
+      light_[k] = light.directional ? mpq_class(light.grid[k])
+                                    : mpq_class(geometry.origin[k] + geometry.step * light.grid[k]);
+    } else {
+      light_[k] = static_cast<T>(light.nearest[k]);
+    }
+  }
+  plane_of_edge_.assign(geometry.edges.size(), coordinate_detail::kNone);
+}
+
+template <class T>
+Sign CoordinateLightSpace<T>::light_side(PlaneId id) const {
+  const CoordinatePlane<T>& plane = scene_->support(id);
+  const T value = coordinate_detail::dot(plane.n, light_);
+  if (directional_) return sign_of(value);
+  Vertex light;
+  light.x = light_;
+  return static_cast<Sign>(scene_->arithmetic().side(plane, light));
+}
+
+template <class T>
+CoordinatePlane<T> CoordinateLightSpace<T>::shadow_plane_of(const Vertex& from,
+                                                            const Vertex& to) const {
+  using namespace coordinate_detail;
+  const std::array<T, 3> towards = directional_ ? light_ : minus(light_, from.x);
+  return scene_->arithmetic().plane_from(coordinate_detail::cross(towards, minus(to.x, from.x)),
+                                         from.x);
+}
+
+template <class T>
+PlaneRef CoordinateLightSpace<T>::import_edge(PlaneRef scene_edge, PlaneId, bool reversed,
+                                              const Vertex& from, const Vertex& to) {
+  if (!identity_) return {};  // shadow_plane computes it if and when the fragment is inserted
+  const SceneEdges names = scene_->edges();
+  if (!names.is_input_edge(scene_edge)) return add(shadow_plane_of(from, to));
+  const EdgeId edge = names.edge(scene_edge);
+  const EdgeEnds ends = scene_->geometry().edges[edge];
+  if (plane_of_edge_[edge] == coordinate_detail::kNone) {
+    plane_of_edge_[edge] = static_cast<std::uint32_t>(planes_.size());
+    CoordinatePlane<T> plane =
+        shadow_plane_of(scene_->input_vertex(ends.a), scene_->input_vertex(ends.b));
+    plane.a = ends.a;
+    plane.b = ends.b;
+    add(std::move(plane));
+  }
+  return PlaneRef(plane_of_edge_[edge], scene_edge.flipped() != reversed);
+}
+
+template <class T>
+PlaneRef CoordinateLightSpace<T>::shadow_plane(PlaneRef edge, const Vertex& from,
+                                               const Vertex& to) {
+  return identity_ ? edge : add(shadow_plane_of(from, to));
+}
+
+// n . q with q = L - v is n . L - n . v; for a directional light q = (x d_z - z d_x, y d_z - z d_y, d_z).
+template <class T>
+PlaneRef CoordinateLightSpace<T>::add_prefix_plane(const PrefixPlane& prefix) {
+  std::array<T, 3> n;
+  for (int k = 0; k < 3; ++k) n[k] = static_cast<T>(static_cast<long>(prefix.n[k]));
+  CoordinatePlane<T> plane;
+  if (!directional_) {
+    std::array<T, 3> opposite{T(-n[0]), T(-n[1]), T(-n[2])};
+    plane = scene_->arithmetic().plane_from(std::move(opposite), light_);
+  } else {
+    const auto [x, y, z] = axes_;
+    std::array<T, 3> normal;
+    normal[x] = n[0] * light_[z];
+    normal[y] = n[1] * light_[z];
+    normal[z] = -(n[0] * light_[x] + n[1] * light_[y]);
+    // n_z q_z = n_z d_z is the offset: a point of the plane along normal.
+    std::array<T, 3> point{};
+    const T length = coordinate_detail::dot(normal, normal);
+    const T offset = -(n[2] * light_[z]);
+    for (int k = 0; k < 3; ++k) point[k] = normal[k] * offset / length;
+    plane = scene_->arithmetic().plane_from(std::move(normal), point);
+  }
+  return add(std::move(plane));
+}
+
+template <class T>
+Side CoordinateLightSpace<T>::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+  const CoordinatePlane<T>& plane = planes_[ref.index()];
+  if (identity_) {
+    if (ref.same_plane(corner.before) || ref.same_plane(corner.after)) return Side::kOn;
+    const VertexId source = corner.vertex.source;
+    if (source != kMadeVertex && (source == plane.a || source == plane.b)) return Side::kOn;
+  }
+  const Side side = scene_->arithmetic().side(plane, corner.vertex);
+  return ref.flipped() ? opposite(side) : side;
+}
+
+template <class T>
+std::array<Ball, 3> CoordinateLightSpace<T>::position(const Corner<Vertex>& corner) const {
+  std::array<Ball, 3> point;
+  for (int k = 0; k < 3; ++k) {
+    const double x = coordinate_detail::to_double(corner.vertex.x[k]);
+    point[k] = kExact ? Ball(x, 2 * Ball::kUnit * std::fabs(x)) : Ball(x);
+  }
+  return point;
+}
+
+template <class T>
+std::array<mpq_class, 3> CoordinateLightSpace<T>::exact_position(
+    const Corner<Vertex>& corner) const {
+  std::array<mpq_class, 3> point;
+  for (int k = 0; k < 3; ++k) {
+    if constexpr (kExact) {
+      point[k] = corner.vertex.x[k];
+    } else if constexpr (std::is_same_v<T, long double>) {
+      // A long double has 64 bits: two doubles hold it exactly.
+      const double high = static_cast<double>(corner.vertex.x[k]);
+      const double low = static_cast<double>(corner.vertex.x[k] - static_cast<long double>(high));
+      point[k] = std::isfinite(high) ? mpq_class(mpq_class(high) + mpq_class(low)) : mpq_class(0);
+    } else {
+      const double x = static_cast<double>(corner.vertex.x[k]);
+      point[k] = std::isfinite(x) ? mpq_class(x) : mpq_class(0);
+    }
+  }
+  return point;
+}
+
+template <class T>
+std::string CoordinateLightSpace<T>::describe(PlaneRef ref) const {
+  const CoordinatePlane<T>& plane = planes_[ref.index()];
+  if (plane.a == kMadeVertex) return "a shadow plane through two computed vertices";
+  return "the shadow plane of edge " + std::to_string(plane.a) + "-" + std::to_string(plane.b);
+}
+
+}  // namespace gnomon
+
+#define GNOMON_INSTANTIATE_COORDINATE_SPACE(T)  \
+  template class CoordinatePlanes<T>;           \
+  template class CoordinateSceneSpace<T>;       \
+  template class CoordinateLightSpace<T>
+
+#endif  // GNOMON_KERNEL_SRC_COORDINATE_SPACE_IMPL_H
