@@ -3,6 +3,9 @@
 # TBB::tbb, OpenSSL::Crypto, CLI11::CLI11, gnomon_rapidjson (headers), CGAL::CGAL (headers; only
 # through CGAL_SOURCES, since its interface carries -frounding-math).
 
+# Whoever adds this project as a subdirectory links these libraries through ours.
+set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL TRUE)
+
 find_package(Threads REQUIRED)
 find_package(GMP REQUIRED)
 find_package(MPFR REQUIRED)
