@@ -51,6 +51,9 @@ class Number {
   /// factor of the base, and 0 is 0 * base^0.
   mpz_class mantissa() const;
   std::int32_t exponent() const { return exponent_; }
+  /// The mantissa as it is stored: most fit into 63 bits. small_mantissa() requires that.
+  bool has_small_mantissa() const { return !is_big_; }
+  std::int64_t small_mantissa() const { return small_; }
   bool is_zero() const { return !is_big_ && small_ == 0; }
   /// -1, 0 or 1.
   int sign() const;

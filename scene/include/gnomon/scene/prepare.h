@@ -56,6 +56,12 @@ struct PreparationNote {
   std::string detail;  // such as "3.2 scene units off its plane; 2 parts"
 };
 
+/// What was done to an area light; the point set that it emits from is never changed.
+struct LightNote {
+  std::uint32_t light = 0;  // index into Scene::lights
+  std::string detail;
+};
+
 struct PreparedScene {
   Geometry geometry;
   std::vector<VertexId> loop_vertices;  // of parts; geometry vertex ids
@@ -66,6 +72,7 @@ struct PreparedScene {
                                           // first_part[p] .. first_part[p+1]-1; none if dropped
   std::vector<PreparedLight> lights;    // in order of Scene::lights
   std::vector<PreparationNote> notes;   // sorted by polygon
+  std::vector<LightNote> light_notes;   // sorted by light
   std::vector<std::uint32_t> vertex_of_input;  // Scene::vertices index -> geometry vertex id (kUnused)
   unsigned position_bits = 0;           // b: bits of the grid
   unsigned direction_bits = 0;          // e: bits of the largest directional component
