@@ -16,8 +16,8 @@ const std::array<KernelInfo, 7>& kernel_list() {
       {KernelId::kEpick, "epick", false, kRounded, "CGAL's exact predicates, on rounded points"},
       {KernelId::kEpeck, "epeck", true, "CGAL lazy exact", "exact"},
       {KernelId::kRational, "rational", true, "GMP rationals", "exact"},
-      {KernelId::kPlane, "plane", true,
-       "never constructed: a vertex is the planes that meet in it", "filtered, then exact"},
+      {KernelId::kPlane, "plane", true, "never constructed: a vertex is the planes that meet in it",
+       "filtered, then exact"},
   }};
   return kList;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The layers: kernel <- scene <- algorithms <- (report, fuzz, cli, bench), and oracle <- scene only. Reads
-// the includes of every source of every component. The oracle shares no predicate, no splitting and no
-// tree with what it judges: of the kernel it may use the four headers that hold no arithmetic.
+// The layers: kernel <- scene <- algorithms <- (report, fuzz, cli, bench), and oracle <- scene
+// only. Reads the includes of every source of every component. The oracle shares no predicate, no
+// splitting and no tree with what it judges: of the kernel it may use the four headers that hold no
+// arithmetic.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
