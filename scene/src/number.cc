@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-
 namespace gnomon {
 
 namespace {
@@ -30,13 +29,13 @@ mpz_class power_of(unsigned base, unsigned long exponent) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A text taken apart: the digits lie in `digits` (which may hold one point), from the first that is
-/// not 0 to the last that is not 0; the value is +-digits * 10^exponent.
+/// A text taken apart: the digits lie in `digits` (which may hold one point), from the first that
+/// is not 0 to the last that is not 0; the value is +-digits * 10^exponent.
 struct DecimalText {
   bool negative = false;
   std::string_view digits;
   std::size_t digit_count = 0;
-  std::int64_t exponent = 0;         // of the last significant digit
+  std::int64_t exponent = 0;               // of the last significant digit
   std::int64_t leading_exponent() const {  // of the first significant digit
     return exponent + static_cast<std::int64_t>(digit_count) - 1;
   }
@@ -82,14 +81,14 @@ bool take_apart(std::string_view text, DecimalText& result) {
   }
   if (first_significant == std::string_view::npos) return true;  // zero
   result.digits = text.substr(first_significant, last_significant - first_significant + 1);
-  const bool point_inside = point != std::string_view::npos && point > first_significant &&
-                            point < last_significant;
+  const bool point_inside =
+      point != std::string_view::npos && point > first_significant && point < last_significant;
   result.digit_count = result.digits.size() - (point_inside ? 1 : 0);
   const std::size_t units = point == std::string_view::npos ? mantissa_end : point;
   // The digit before the point stands for 10^0.
-  const std::int64_t last_place =
-      last_significant < units ? static_cast<std::int64_t>(units - last_significant) - 1
-                               : -static_cast<std::int64_t>(last_significant - units);
+  const std::int64_t last_place = last_significant < units
+                                      ? static_cast<std::int64_t>(units - last_significant) - 1
+                                      : -static_cast<std::int64_t>(last_significant - units);
   result.exponent = written + last_place;
   return true;
 }
@@ -123,7 +122,8 @@ bool says_not_finite(std::string_view text) {
   return lower.starts_with("nan") || lower.starts_with("inf") || lower.starts_with("1.#");
 }
 
-/// The double nearest to a text without leading plus sign; the magnitude tells overflow from underflow.
+/// The double nearest to a text without leading plus sign; the magnitude tells overflow from
+/// underflow.
 double nearest_to_text(std::string_view text, std::int64_t leading_exponent, bool is_zero) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -275,12 +275,11 @@ Expected<Number> Number::parse(std::string_view text, NumberMeaning meaning, boo
                   "a magnitude of at most 1.7976931348623157e308");
     }
     Number result(value);
-    if (underflow != nullptr && !is_zero &&
-        std::abs(value) < std::numeric_limits<double>::min()) {
-      const bool exact = value != 0 && parts.digit_count >= kFewestSubnormalDigits &&
-                         parts.digit_count <= kMostSubnormalDigits &&
-                         from_decimal(digits_value(parts),
-                                      static_cast<std::int32_t>(parts.exponent)) == result;
+    if (underflow != nullptr && !is_zero && std::abs(value) < std::numeric_limits<double>::min()) {
+      const bool exact =
+          value != 0 && parts.digit_count >= kFewestSubnormalDigits &&
+          parts.digit_count <= kMostSubnormalDigits &&
+          from_decimal(digits_value(parts), static_cast<std::int32_t>(parts.exponent)) == result;
       if (!exact) *underflow = true;
     }
     return result;

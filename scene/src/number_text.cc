@@ -8,8 +8,8 @@ namespace gnomon {
 
 namespace {
 
-/// Writes +-digits * 10^exponent, digits without zeros at the ends; without an exponent where that adds
-/// few zeros (the rule of ECMAScript, and for long integers also their own length).
+/// Writes +-digits * 10^exponent, digits without zeros at the ends; without an exponent where that
+/// adds few zeros (the rule of ECMAScript, and for long integers also their own length).
 std::string layout(bool negative, std::string_view digits, std::int64_t exponent) {
   constexpr std::int64_t kMostPlaces = 21;
   constexpr std::int64_t kMostLeadingZeros = 6;

@@ -30,15 +30,16 @@ class Number {
   Number& operator=(Number other) noexcept;
   ~Number();
 
-  /// mantissa * base^exponent, base 2 or 10; normalised (no factor of the base left in the mantissa).
+  /// mantissa * base^exponent, base 2 or 10; normalised (no factor of the base left in the
+  /// mantissa).
   static Number from_decimal(mpz_class mantissa, std::int32_t exponent);
   static Number from_dyadic(mpz_class mantissa, std::int32_t exponent);
 
-  /// Reads [+-]digits[.digits][(e|E)[+-]digits], also "2." and ".5". kDouble: the double nearest to the
-  /// text. Errors: kNumber (malformed, NaN, infinity, overflow), kLimit (a decimal whose first digit
-  /// stands beyond 10^+-kMaxDecimalExponent, or with more than kMaxDecimalDigits digits, zeros at
-  /// both ends not counted). `underflow`, if given, is set when a non-zero text became a subnormal
-  /// that is not exact, or 0, and is left alone otherwise.
+  /// Reads [+-]digits[.digits][(e|E)[+-]digits], also "2." and ".5". kDouble: the double nearest to
+  /// the text. Errors: kNumber (malformed, NaN, infinity, overflow), kLimit (a decimal whose first
+  /// digit stands beyond 10^+-kMaxDecimalExponent, or with more than kMaxDecimalDigits digits,
+  /// zeros at both ends not counted). `underflow`, if given, is set when a non-zero text became a
+  /// subnormal that is not exact, or 0, and is left alone otherwise.
   static constexpr std::int32_t kMaxDecimalExponent = 4096;
   static constexpr std::size_t kMaxDecimalDigits = 1000;
   static Expected<Number> parse(std::string_view text, NumberMeaning meaning,
@@ -47,8 +48,8 @@ class Number {
   double nearest() const;
   mpq_class exact() const;
   bool is_decimal() const { return base_ == 10; }
-  /// The value is mantissa() * base^exponent(), base 10 if is_decimal(), else 2; the mantissa has no
-  /// factor of the base, and 0 is 0 * base^0.
+  /// The value is mantissa() * base^exponent(), base 10 if is_decimal(), else 2; the mantissa has
+  /// no factor of the base, and 0 is 0 * base^0.
   mpz_class mantissa() const;
   std::int32_t exponent() const { return exponent_; }
   /// The mantissa as it is stored: most fit into 63 bits. small_mantissa() requires that.
@@ -63,8 +64,8 @@ class Number {
   /// Shortest text that reads back to the same value under the meaning that made it; for a dyadic
   /// value that is no double, its whole decimal expansion.
   std::string to_text() const;
-  /// Shortest text that reads back to the same value under `meaning`. Errors: kNumber (a value that is
-  /// no double, to be read as one), kLimit (more digits than a decimal may have).
+  /// Shortest text that reads back to the same value under `meaning`. Errors: kNumber (a value that
+  /// is no double, to be read as one), kLimit (more digits than a decimal may have).
   Expected<std::string> to_text(NumberMeaning meaning) const;
   /// Equal as numbers, whatever the base.
   friend bool operator==(const Number& a, const Number& b);

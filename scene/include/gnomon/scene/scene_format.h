@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The file formats of scenes, by name and by extension.
+#ifndef GNOMON_SCENE_SCENE_FORMAT_H
+#define GNOMON_SCENE_SCENE_FORMAT_H
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+namespace gnomon {
+
+/// For reading, the two kinds of PLY are one: the file says which it is.
+enum class SceneFormat : std::uint8_t { kJson, kObj, kOff, kPlyAscii, kPlyBinary };
+
+/// "json", "obj", "off", "ply" (ascii), "ply-binary".
+std::string_view format_name(SceneFormat format);
+std::optional<SceneFormat> format_by_name(std::string_view name);
+/// By .json, .obj, .off or .ply, in any case.
+std::optional<SceneFormat> format_by_extension(const std::filesystem::path& path);
+/// By the first bytes; nothing if they fit none.
+std::optional<SceneFormat> format_by_content(std::string_view text);
+
+}  // namespace gnomon
+
+#endif  // GNOMON_SCENE_SCENE_FORMAT_H
