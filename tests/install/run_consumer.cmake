@@ -32,8 +32,9 @@ if(WAY STREQUAL "find_package")
     endforeach()
   endforeach()
 else()
-  # Kept from run to run: the whole library is compiled again here.
-  list(APPEND options "-DGNOMON_DIR=${GNOMON_SOURCE_DIR}")
+  # The whole library is compiled again here. The folder is kept from run to run, and with the same
+  # flags as in the presets a compiler cache answers the first time too.
+  list(APPEND options "-DGNOMON_DIR=${GNOMON_SOURCE_DIR}" -DGNOMON_WARNINGS_AS_ERRORS=ON)
 endif()
 
 run("${CMAKE_COMMAND}" -S "${CONSUMER_DIR}" -B "${WORK_DIR}/build" -G "${GENERATOR}"
