@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gnomon/scene/digest.h"
+
+#include <openssl/evp.h>
+
+#include <charconv>
+#include <memory>
+#include <new>
+#include <span>
+
+namespace gnomon {
+
+namespace {
+
+class Sha256 {
+ public:
+  Sha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
+    if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1) {
+      throw std::bad_alloc();
+    }
+  }
+  void add(const std::string& text) { EVP_DigestUpdate(context_.get(), text.data(), text.size()); }
+  std::string hex() {
+    constexpr char kHex[] = "0123456789abcdef";
+    unsigned char bytes[EVP_MAX_MD_SIZE];
+    unsigned int size = 0;
+    EVP_DigestFinal_ex(context_.get(), bytes, &size);
+    std::string text;
+    for (const unsigned char byte : std::span(bytes, size)) {
+      text += kHex[byte >> 4];
+      text += kHex[byte & 15];
+    }
+    return text;
+  }
+
+ private:
+  std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+};
+
+template <class Integer>
+void append_integer(std::string& text, Integer value, int base = 10) {
+  char buffer[72];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, base);
+  text.append(buffer, result.ptr);
+}
+
+void append_canonical(std::string& text, const Number& number) {
+  if (number.is_zero()) {
+    text += '0';
+    return;
+  }
+  std::int64_t twos = number.exponent();
+  std::int64_t fives = number.is_decimal() ? number.exponent() : 0;
+  if (number.has_small_mantissa()) {
+    std::int64_t mantissa = number.small_mantissa();
+    for (; mantissa % 2 == 0; mantissa /= 2) ++twos;
+    for (; mantissa % 5 == 0; mantissa /= 5) ++fives;
+    append_integer(text, mantissa, 16);
+  } else {
+    mpz_class mantissa = number.mantissa();
+    const mp_bitcnt_t zeros = mpz_scan1(mantissa.get_mpz_t(), 0);
+    mantissa >>= zeros;
+    twos += static_cast<std::int64_t>(zeros);
+    const mpz_class five = 5;
+    fives += static_cast<std::int64_t>(
+        mpz_remove(mantissa.get_mpz_t(), mantissa.get_mpz_t(), five.get_mpz_t()));
+    text += mantissa.get_str(16);
+  }
+  text += ':';
+  append_integer(text, twos);
+  text += ':';
+  append_integer(text, fives);
+}
+
+void append_loop(std::string& text, const std::vector<VertexId>& loop) {
+  for (const VertexId vertex : loop) {
+    text += ' ';
+    append_integer(text, vertex);
+  }
+  text += '\n';
+}
+
+}  // namespace
+
+std::string geometry_digest(const Scene& scene) {
+  Sha256 hash;
+  std::string text = "gnomon-geometry 1\n";
+  const auto pass_on = [&] {
+    constexpr std::size_t kEnough = std::size_t{1} << 16;
+    if (text.size() < kEnough) return;
+    hash.add(text);
+    text.clear();
+  };
+  for (const Position& vertex : scene.vertices) {
+    text += 'v';
+    for (const Number& number : vertex) {
+      text += ' ';
+      append_canonical(text, number);
+    }
+    text += '\n';
+    pass_on();
+  }
+  for (const Polygon& polygon : scene.polygons) {
+    text += "p ";
+    const bool two_sided = scene.is_two_sided(polygon);
+    if (polygon.casts) text += 'c';
+    if (two_sided) text += 't';
+    if (!polygon.casts && !two_sided) text += '-';
+    append_loop(text, polygon.loop);
+    for (const auto& hole : polygon.holes) {
+      text += 'h';
+      append_loop(text, hole);
+    }
+    pass_on();
+  }
+  hash.add(text);
+  return "sha256:" + hash.hex();
+}
+
+}  // namespace gnomon
