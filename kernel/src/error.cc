@@ -13,7 +13,7 @@ std::string to_string(const Error& error) {
   }
   if (!text.empty()) text += ": ";
   text += error.what;
-  if (!error.expected.empty()) text += "; " + error.expected;
+  if (!error.expected.empty()) text += "; expected " + error.expected;
   if (!error.where.pointer.empty()) text += " (at " + error.where.pointer + ")";
   return text;
 }

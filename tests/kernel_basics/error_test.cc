@@ -12,7 +12,7 @@ TEST(ErrorText, HasEveryPartThatIsKnown) {
                     "index 9 is outside the vertices",
                     "0 to 7"};
   EXPECT_EQ(to_string(error),
-            "a.json:3:14: index 9 is outside the vertices; 0 to 7 (at /polygons/0/loop/2)");
+            "a.json:3:14: index 9 is outside the vertices; expected 0 to 7 (at /polygons/0/loop/2)");
 }
 
 TEST(ErrorText, LeavesOutWhatIsNotKnown) {
@@ -27,7 +27,7 @@ TEST(ErrorText, FailMakesTheValue) {
   const Expected<int> answer = fail(ErrorCode::kNumber, "not a number", "digits", {"a", 1, 2, ""});
   ASSERT_FALSE(answer.has_value());
   EXPECT_EQ(answer.error().code, ErrorCode::kNumber);
-  EXPECT_EQ(to_string(answer.error()), "a:1:2: not a number; digits");
+  EXPECT_EQ(to_string(answer.error()), "a:1:2: not a number; expected digits");
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ inline tl::unexpected<Error> fail(ErrorCode code, std::string what, std::string 
       Error{code, std::move(where), std::move(what), std::move(expected)});
 }
 
-/// "FILE:LINE:COLUMN: what is wrong; what was expected (at /json/pointer)", without program name.
+/// "FILE:LINE:COLUMN: what is wrong; expected that (at /json/pointer)", without program name.
 std::string to_string(const Error& error);
 
 }  // namespace gnomon
