@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What the generators build with: a scene whose equal vertices are shared, boxes, lights. Private
+// to scene/src.
+#ifndef GNOMON_SCENE_SRC_SCENE_MAKER_H
+#define GNOMON_SCENE_SRC_SCENE_MAKER_H
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gnomon/scene/generate.h"
+#include "gnomon/scene/random.h"
+#include "index_table.h"
+
+namespace gnomon::scene_detail {
+
+struct Int3 {
+  std::int64_t x = 0, y = 0, z = 0;
+  friend bool operator==(const Int3&, const Int3&) = default;
+};
+inline Int3 operator+(Int3 a, Int3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Int3 operator-(Int3 a, Int3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Int3 operator*(std::int64_t k, Int3 a) { return {k * a.x, k * a.y, k * a.z}; }
+inline Int3 cross(Int3 a, Int3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline std::int64_t dot(Int3 a, Int3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline bool is_zero(Int3 a) { return a == Int3{}; }
+
+/// Coordinates are given as integers; the scene's are these times 2^-fraction_bits.
+class SceneMaker {
+ public:
+  explicit SceneMaker(std::string name, int fraction_bits = 0) : fraction_bits_(fraction_bits) {
+    scene_.name = std::move(name);
+  }
+  void set_fraction_bits(int bits) { fraction_bits_ = bits; }
+
+  /// The polygon as it is written to the scene, to be changed further.
+  Polygon& face(std::string id, const std::vector<Int3>& loop);
+
+  enum BoxFaces : unsigned {
+    kBottom = 1,
+    kTop = 2,
+    kFront = 4,
+    kBack = 8,
+    kLeft = 16,
+    kRight = 32,
+    kSides = kFront | kBack | kLeft | kRight,
+    kNoBottom = kSides | kTop,
+    kAll = kNoBottom | kBottom
+  };
+  /// Faces of the box [low, high], seen from outside, or from inside: left and right are -x and +x,
+  /// front and back -y and +y. Ids are id.top and so on.
+  void box(const std::string& id, Int3 low, Int3 high, unsigned faces = kAll, bool inside = false);
+
+  void lamp(Int3 position);
+  void sun(Int3 to_light);
+  void panel(const std::vector<Int3>& loop);
+  /// 0: the lamp, 1: the sun, 2: both.
+  void lights(std::int64_t which, Int3 lamp_position, Int3 to_sun) {
+    if (which != 1) lamp(lamp_position);
+    if (which != 0) sun(to_sun);
+  }
+
+  void set_two_sided(bool two_sided) { scene_.two_sided = two_sided; }
+  void shuffle_polygons(Random& random) { random.shuffle(std::span(scene_.polygons)); }
+  std::size_t polygon_count() const { return scene_.polygons.size(); }
+  Scene take() { return std::move(scene_); }
+
+ private:
+  VertexId vertex(Int3 p);
+  Number number(std::int64_t value) const;
+  Light& light(LightType type, const char* name);
+
+  Scene scene_;
+  int fraction_bits_;
+  IndexTable table_;
+  std::vector<Int3> points_;
+  std::map<std::string, int> light_counts_;
+};
+
+using Values = std::map<std::string, std::int64_t, std::less<>>;
+
+/// One generator: what it is, and the function that fills the scene.
+struct Generator {
+  GeneratorInfo info;
+  void (*make)(SceneMaker& maker, const Values& values, Random& random);
+};
+
+std::vector<Generator> paper_generators();
+std::vector<Generator> large_generators();
+std::vector<Generator> hard_generators();
+std::vector<Generator> repair_generators();
+
+}  // namespace gnomon::scene_detail
+
+#endif  // GNOMON_SCENE_SRC_SCENE_MAKER_H

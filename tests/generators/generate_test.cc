@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Polygon counts of the papers, the same scene everywhere, and: every generated scene can be
+// prepared.
+#include "gnomon/scene/generate.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <set>
+
+#include "builder.h"
+#include "gnomon/scene/random.h"
+
+namespace gnomon::test {
+namespace {
+
+Scene make(const std::string& name, const std::map<std::string, std::int64_t>& parameters = {},
+           std::uint64_t seed = 1) {
+  auto scene = generate(name, parameters, seed);
+  EXPECT_TRUE(scene) << name << ": " << (scene ? "" : to_string(scene.error()));
+  return scene ? *scene : Scene{};
+}
+
+std::uint64_t checksum(const Scene& scene) {
+  std::uint64_t sum = 14695981039346656037u;
+  const auto add = [&](std::uint64_t word) { sum = (sum ^ word) * 1099511628211u; };
+  for (const Position& p : scene.vertices) {
+    for (const Number& n : p) add(std::bit_cast<std::uint64_t>(n.nearest()));
+  }
+  for (const Polygon& p : scene.polygons) {
+    for (const VertexId v : p.loop) add(v);
+    for (const auto& hole : p.holes) {
+      for (const VertexId v : hole) add(v);
+    }
+  }
+  return sum;
+}
+
+TEST(Counts, AreThoseOfThePapers) {
+  const auto polygons = [](const std::string& name,
+                           const std::map<std::string, std::int64_t>& p = {}) {
+    return make(name, p).polygons.size();
+  };
+  EXPECT_EQ(polygons("solids"), 27u);
+  EXPECT_EQ(make("solids").lights.size(), 3u);
+  EXPECT_EQ(polygons("tetra-staircase"), 126u);
+  EXPECT_EQ(polygons("table-chair"), 65u);
+  EXPECT_EQ(make("table-chair").lights.size(), 2u);
+  EXPECT_EQ(polygons("room"), 106u);
+  EXPECT_EQ(make("room").lights.size(), 2u);
+  EXPECT_EQ(polygons("tetra"), 258u);
+  EXPECT_EQ(polygons("tetra", {{"level", 5}}), 1026u);
+  for (const auto& [level, count] :
+       std::map<std::int64_t, std::size_t>{{3, 65}, {4, 257}, {5, 1025}}) {
+    EXPECT_EQ(polygons("tetra", {{"level", level}, {"ground", 1}}), count);
+  }
+  for (const std::int64_t n : {12, 17, 138, 200, 318}) {
+    EXPECT_EQ(polygons("slater-room", {{"n", n}}), static_cast<std::size_t>(n));
+  }
+  EXPECT_EQ(polygons("city", {{"n", 24000}}), 120001u);
+  EXPECT_EQ(polygons("quads", {{"n", 50}}), 51u);
+  EXPECT_EQ(polygons("comb", {{"n", 5}}), 7u);
+  EXPECT_EQ(polygons("stairs", {{"n", 5}}), 22u);
+  EXPECT_EQ(polygons("nested-boxes", {{"n", 5}}), 26u);
+  EXPECT_EQ(polygons("coplanar-tiles", {{"n", 5}}), 6u);
+  EXPECT_EQ(polygons("radial-fan", {{"n", 5}}), 6u);
+}
+
+TEST(Counts, EveryGeneratorIsDescribed) {
+  std::set<std::string> names;
+  for (const GeneratorInfo& info : generators()) {
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+    EXPECT_FALSE(info.summary.empty()) << info.name;
+    EXPECT_FALSE(info.source.empty()) << info.name;
+    EXPECT_EQ(generator_by_name(info.name)->name, info.name);
+    for (const GeneratorParameter& p : info.parameters) {
+      EXPECT_LE(p.minimum, p.default_value) << info.name << " " << p.name;
+      EXPECT_GE(p.maximum, p.default_value) << info.name << " " << p.name;
+      EXPECT_FALSE(p.meaning.empty());
+    }
+  }
+}
+
+TEST(Counts, BadRequestsAreUsageErrors) {
+  EXPECT_EQ(generate("no-such-scene").error().code, ErrorCode::kUsage);
+  EXPECT_EQ(generate("city", {{"m", 3}}).error().code, ErrorCode::kUsage);
+  EXPECT_EQ(generate("city", {{"n", 0}}).error().code, ErrorCode::kUsage);
+}
+
+/// Ids are unique, lights exist, the scene is prepared without a flaw, and nothing that should be
+/// planar and convex was repaired.
+void expect_sound(const GeneratorInfo& info, const std::map<std::string, std::int64_t>& parameters,
+                  std::uint64_t seed) {
+  SCOPED_TRACE(info.name + " seed " + std::to_string(seed));
+  const Scene scene = make(info.name, parameters, seed);
+  EXPECT_EQ(scene.name, info.name);
+  EXPECT_FALSE(scene.lights.empty());
+  std::set<std::string> ids;
+  for (const Polygon& p : scene.polygons) EXPECT_TRUE(ids.insert(p.id).second) << p.id;
+  const auto prepared = prepare(scene);
+  ASSERT_TRUE(prepared) << to_string(prepared.error());
+  EXPECT_EQ(first_flaw(*prepared, scene), "");
+  const bool needs_repair =
+      info.name == "holed-wall" || info.name == "spiral" || info.name == "terrain";
+  if (needs_repair) {
+    EXPECT_FALSE(prepared->notes.empty());
+  } else {
+    EXPECT_TRUE(prepared->notes.empty())
+        << scene.polygons[prepared->notes[0].polygon].id << ": " << prepared->notes[0].detail;
+  }
+  for (std::uint32_t p = 0; p < scene.polygons.size(); ++p) {
+    EXPECT_EQ(part_area_sum(*prepared, p), input_area(*prepared, scene, p)) << scene.polygons[p].id;
+  }
+}
+
+TEST(Sound, Defaults) {
+  for (const GeneratorInfo& info : generators()) expect_sound(info, {}, 1);
+}
+
+TEST(Sound, SmallFamiliesByManySeeds) {
+  for (const GeneratorInfo& info : generators()) {
+    if (!info.small) continue;
+    for (std::uint64_t seed = 2; seed < 60; ++seed) expect_sound(info, {}, seed);
+  }
+}
+
+TEST(Sound, Variants) {
+  const auto check = [](const std::string& name,
+                        const std::map<std::string, std::int64_t>& parameters) {
+    expect_sound(*generator_by_name(name), parameters, 3);
+  };
+  check("radial-fan", {{"kind", 1}});
+  check("radial-fan", {{"kind", 2}, {"n", 7}});
+  check("spiral", {{"n", 1}});
+  check("spiral", {{"n", 2}});
+  check("spiral", {{"n", 60}});
+  check("holed-wall", {{"n", 100}});
+  check("needles", {{"thinness", 40}});
+  check("near-coplanar", {{"closeness", 44}});
+  check("tetra", {{"level", 1}});
+  check("lattice", {{"n", 200}, {"size", 2}, {"light", 2}});
+}
+
+TEST(Random, IsTheSameEverywhere) {
+  Random random(1);
+  EXPECT_EQ(random.next(), 12966619160104079557u);
+  EXPECT_EQ(random.next(), 9600361134598540522u);
+  Random other(1);
+  EXPECT_EQ(Random(1).next(), other.next());
+  std::array<int, 6> counts{};
+  for (int i = 0; i < 60000; ++i) ++counts[random.below(6)];
+  for (const int c : counts) EXPECT_NEAR(c, 10000, 500);
+  for (int i = 0; i < 1000; ++i) {
+    const std::int64_t v = random.between(-3, 5);
+    EXPECT_TRUE(v >= -3 && v <= 5);
+  }
+}
+
+TEST(Random, SeedsGiveDifferentScenesAndTheSameSeedTheSame) {
+  for (const char* name : {"city", "quads", "lattice", "slater-room", "holed-wall", "needles"}) {
+    EXPECT_EQ(checksum(make(name, {}, 7)), checksum(make(name, {}, 7))) << name;
+    EXPECT_NE(checksum(make(name, {}, 7)), checksum(make(name, {}, 8))) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::test
