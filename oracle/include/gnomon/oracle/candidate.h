@@ -29,6 +29,7 @@ struct CandidateFragment {
 struct CandidatePolygon {
   std::string id;
   PolygonSide side = PolygonSide::kFront;
+  bool side_given = true;               // false: a foreign file that names no side means the only one
   std::optional<mpq_class> lit_fraction, shadow_fraction;  // as claimed, if claimed exactly
   std::vector<CandidateFragment> fragments;
 };

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The exact answer of a scene, computed once and compared with as many candidates as there are: for every
+// point or directional light, the sides that a result must list, and every shadow on every part.
+//
+// Exactness: regions are those of point_regions.h. Everything is computed when it is first asked for;
+// all member functions may be called from several threads at once.
+#ifndef GNOMON_ORACLE_EXACT_ANSWER_H
+#define GNOMON_ORACLE_EXACT_ANSWER_H
+
+#include <gmpxx.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gnomon/kernel/sign.h"
+#include "gnomon/oracle/candidate.h"
+#include "gnomon/oracle/enclosure.h"
+#include "gnomon/oracle/point_regions.h"
+#include "gnomon/scene/prepare.h"
+#include "gnomon/scene/scene.h"
+
+namespace gnomon::oracle {
+
+/// Coplanar parts of one polygon: one plane, one chart, one comparison.
+struct ReceiverGroup {
+  std::vector<std::uint32_t> parts;
+  bool faces = false;           // some light can arrive; otherwise all of it is in shadow
+  bool light_in_plane = false;
+  bool optional = false;        // of another side than the entry's: may be listed here, as shadow
+};
+
+/// One polygon side that a result lists.
+struct AnswerEntry {
+  std::uint32_t polygon = 0;
+  PolygonSide side = PolygonSide::kFront;
+  std::vector<ReceiverGroup> groups;
+};
+
+/// Area as a share of the polygon and in scene units squared. `exact` is the share, where known.
+struct AreaShare {
+  Enclosure fraction;
+  Enclosure area;
+  std::optional<mpq_class> exact;
+  /// True iff no area at all: decided by the subdivision, not by the enclosure.
+  bool zero = true;
+};
+
+struct TrueFractions {
+  AreaShare lit, shadow;
+};
+
+class ExactAnswer {
+ public:
+  /// Keeps references to both.
+  ExactAnswer(const Scene& scene, const PreparedScene& prepared);
+  ~ExactAnswer();
+
+  const Scene& scene() const;
+  const PreparedScene& prepared() const;
+  /// Index into PreparedScene::lights; area lights have no entries here.
+  const std::vector<AnswerEntry>& entries(std::uint32_t light) const;
+  const PointRegions& regions(std::uint32_t light) const;
+  /// All shadows on a part; empty if it faces nothing.
+  const std::vector<ShadowPiece>& shadows(std::uint32_t light, std::uint32_t part) const;
+  /// Drops what was kept of one light, for scenes with many.
+  void forget(std::uint32_t light) const;
+
+  /// Lit and shadow fractions of an entry, from the true regions alone; `exact` is set for an entry whose
+  /// parts are coplanar.
+  TrueFractions fractions(std::uint32_t light, const AnswerEntry& entry, bool exact = true) const;
+  /// The same of one group.
+  TrueFractions group_fractions(std::uint32_t light, const ReceiverGroup& group,
+                                bool exact = true) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace gnomon::oracle
+
+#endif  // GNOMON_ORACLE_EXACT_ANSWER_H

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene_builder.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "group_overlay.h"
+
+namespace gnomon::oracle {
+
+SceneBuilder& SceneBuilder::polygon(const std::string& id, const std::vector<Triple>& loop,
+                                    bool two_sided, bool casts) {
+  Polygon polygon;
+  polygon.id = id;
+  for (const Triple& vertex : loop) {
+    polygon.loop.push_back(static_cast<VertexId>(scene_.vertices.size()));
+    scene_.vertices.push_back({Number(vertex[0]), Number(vertex[1]), Number(vertex[2])});
+  }
+  polygon.two_sided = two_sided;
+  polygon.casts = casts;
+  scene_.polygons.push_back(std::move(polygon));
+  return *this;
+}
+
+SceneBuilder& SceneBuilder::box(const std::string& id, Triple a, Triple b) {
+  polygon(id + ".0", {{a[0], a[1], a[2]}, {a[0], b[1], a[2]}, {b[0], b[1], a[2]}, {b[0], a[1], a[2]}});
+  polygon(id + ".1", {{a[0], a[1], b[2]}, {b[0], a[1], b[2]}, {b[0], b[1], b[2]}, {a[0], b[1], b[2]}});
+  polygon(id + ".2", {{a[0], a[1], a[2]}, {b[0], a[1], a[2]}, {b[0], a[1], b[2]}, {a[0], a[1], b[2]}});
+  polygon(id + ".3", {{b[0], b[1], a[2]}, {a[0], b[1], a[2]}, {a[0], b[1], b[2]}, {b[0], b[1], b[2]}});
+  polygon(id + ".4", {{a[0], b[1], a[2]}, {a[0], a[1], a[2]}, {a[0], a[1], b[2]}, {a[0], b[1], b[2]}});
+  polygon(id + ".5", {{b[0], a[1], a[2]}, {b[0], b[1], a[2]}, {b[0], b[1], b[2]}, {b[0], a[1], b[2]}});
+  return *this;
+}
+
+SceneBuilder& SceneBuilder::point(const std::string& id, Triple position) {
+  Light light;
+  light.id = id;
+  light.type = LightType::kPoint;
+  light.position = {Number(position[0]), Number(position[1]), Number(position[2])};
+  scene_.lights.push_back(std::move(light));
+  return *this;
+}
+
+SceneBuilder& SceneBuilder::sun(const std::string& id, Triple to_light) {
+  point(id, to_light);
+  scene_.lights.back().type = LightType::kDirectional;
+  return *this;
+}
+
+BuiltScene SceneBuilder::build() const {
+  Expected<PreparedScene> prepared = prepare(scene_);
+  if (!prepared) throw std::runtime_error(to_string(prepared.error()));
+  return {scene_, std::move(*prepared)};
+}
+
+std::uint64_t Random::next() {
+  std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  return z ^ (z >> 31);
+}
+
+int Random::integer(int low, int high) {
+  return low + static_cast<int>(next() % static_cast<std::uint64_t>(high - low + 1));
+}
+
+BuiltScene lattice_soup(std::uint64_t seed, int polygons, int size) {
+  Random random(seed);
+  SceneBuilder builder;
+  const auto vertex = [&]() -> Triple {
+    return {double(random.integer(0, size)), double(random.integer(0, size)),
+            double(random.integer(0, size))};
+  };
+  for (int i = 0; i < polygons; ++i) {
+    const Triple a = vertex(), b = vertex(), c = vertex();
+    std::vector<Triple> loop{a, b, c};
+    if (random.integer(0, 1) == 1) {  // a parallelogram
+      loop.push_back({a[0] + c[0] - b[0], a[1] + c[1] - b[1], a[2] + c[2] - b[2]});
+    }
+    builder.polygon(std::to_string(i), loop, random.integer(0, 2) == 0,
+                    random.integer(0, 5) != 0);
+  }
+  builder.point("lamp", vertex());
+  builder.sun("sun", {double(random.integer(-3, 3)), double(random.integer(-3, 3)),
+                      double(random.integer(1, 4))});
+  return builder.build();
+}
+
+ExactPoint at(double x, double y, double z) { return {mpq_class(x), mpq_class(y), mpq_class(z)}; }
+
+namespace {
+
+using Loop = std::vector<ChartPoint>;
+
+/// The part of a convex counter-clockwise loop with sign * line >= 0; empty without area.
+Loop half(const Loop& loop, const ChartLine& line, int sign) {
+  Loop result;
+  bool inside = false;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const ChartPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    const int here = sign * sign_at(line, a), next = sign * sign_at(line, b);
+    inside = inside || here > 0;
+    if (here >= 0) result.push_back(a);
+    if (here * next < 0) result.push_back(meet(line, line_through(a, b)));
+  }
+  return inside ? result : Loop{};
+}
+
+}  // namespace
+
+Candidate exact_candidate(const ExactAnswer& answer) {
+  Candidate candidate;
+  candidate.name = "exact";
+  const PreparedScene& prepared = answer.prepared();
+  for (std::uint32_t light = 0; light < prepared.lights.size(); ++light) {
+    CandidateLight found;
+    found.id = answer.scene().lights[prepared.lights[light].light].id;
+    for (const AnswerEntry& entry : answer.entries(light)) {
+      CandidatePolygon polygon;
+      polygon.id = answer.scene().polygons[entry.polygon].id;
+      polygon.side = entry.side;
+      for (const ReceiverGroup& group : entry.groups) {
+        if (group.optional) continue;
+        for (std::uint32_t part : group.parts) {
+          const Chart chart(support_of(prepared, part));
+          Loop whole;
+          for (const Integers3& vertex : grid_loop(prepared, part)) {
+            whole.push_back(chart.at(vertex));
+          }
+          if (orientation(whole[0], whole[1], whole[2]) < 0) {
+            std::reverse(whole.begin(), whole.end());
+          }
+          const auto add = [&](const Loop& loop, ShadeClass shade, const std::string& caster) {
+            CandidateFragment fragment;
+            fragment.shade = shade;
+            fragment.caster = caster;
+            for (const ChartPoint& point : loop) {
+              fragment.loop.push_back(chart.lift_to_scene(prepared.geometry, point));
+            }
+            polygon.fragments.push_back(std::move(fragment));
+          };
+          if (!group.faces) {
+            add(whole, ShadeClass::kShadow, {});
+            polygon.fragments.back().reason =
+                group.light_in_plane ? "light-in-plane" : "faces-away";
+            continue;
+          }
+          std::vector<Loop> lit{whole};
+          for (const ShadowPiece& piece : answer.shadows(light, part)) {
+            const std::string caster =
+                answer.scene().polygons[prepared.parts[piece.caster].polygon].id;
+            std::vector<Loop> next;
+            for (Loop rest : lit) {
+              std::vector<Loop> outside;
+              for (std::size_t i = 0; i < piece.loop.size() && !rest.empty(); ++i) {
+                const ChartLine line =
+                    line_through(piece.loop[i], piece.loop[(i + 1) % piece.loop.size()]);
+                Loop beyond = half(rest, line, -1);
+                if (!beyond.empty()) outside.push_back(std::move(beyond));
+                rest = half(rest, line, 1);
+              }
+              if (rest.empty()) {
+                // Nothing in this shadow: outside's pieces tile what there was.
+              } else {
+                add(rest, ShadeClass::kShadow, caster);
+              }
+              next.insert(next.end(), outside.begin(), outside.end());
+            }
+            lit = std::move(next);
+          }
+          for (const Loop& loop : lit) add(loop, ShadeClass::kLit, {});
+        }
+      }
+      found.polygons.push_back(std::move(polygon));
+    }
+    candidate.lights.push_back(std::move(found));
+  }
+  return candidate;
+}
+
+}  // namespace gnomon::oracle

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scenes by hand and by chance for the oracle's tests, and candidates made from the oracle's own regions:
+// each lit piece is cut by the lines of every shadow, one after the other.
+#ifndef GNOMON_TESTS_ORACLE_SCENE_BUILDER_H
+#define GNOMON_TESTS_ORACLE_SCENE_BUILDER_H
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gnomon/oracle/candidate.h"
+#include "gnomon/oracle/exact_answer.h"
+#include "gnomon/scene/prepare.h"
+#include "gnomon/scene/scene.h"
+
+namespace gnomon::oracle {
+
+using Triple = std::array<double, 3>;
+
+struct BuiltScene {
+  Scene scene;
+  PreparedScene prepared;
+};
+
+class SceneBuilder {
+ public:
+  SceneBuilder& polygon(const std::string& id, const std::vector<Triple>& loop,
+                        bool two_sided = false, bool casts = true);
+  /// Axis-parallel box, six outward quads "<id>.0" .. "<id>.5".
+  SceneBuilder& box(const std::string& id, Triple low, Triple high);
+  SceneBuilder& point(const std::string& id, Triple position);
+  SceneBuilder& sun(const std::string& id, Triple to_light);
+  /// Throws std::runtime_error if the scene cannot be prepared.
+  BuiltScene build() const;
+
+ private:
+  Scene scene_;
+};
+
+/// splitmix64.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t next();
+  /// Uniform enough in [low, high].
+  int integer(int low, int high);
+
+ private:
+  std::uint64_t state_;
+};
+
+/// Random triangles and quads on a small lattice: full of touching, crossing and coplanar ones.
+BuiltScene lattice_soup(std::uint64_t seed, int polygons, int size);
+
+Candidate exact_candidate(const ExactAnswer& answer);
+ExactPoint at(double x, double y, double z);
+
+}  // namespace gnomon::oracle
+
+#endif  // GNOMON_TESTS_ORACLE_SCENE_BUILDER_H
