@@ -119,7 +119,8 @@ CoordinateSceneSpace<T>::CoordinateSceneSpace(const Geometry& geometry,
 }
 
 template <class T>
-Side CoordinateSceneSpace<T>::side_of_plane(PlaneId plane, const Corner<Vertex>& corner) {
+Side CoordinateSceneSpace<T>::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+  const PlaneId plane = ref.index();
   if (planes_.identity()) {
     if (plane == corner.support || corner.before.index() == plane ||
         corner.after.index() == plane) {
@@ -131,7 +132,8 @@ Side CoordinateSceneSpace<T>::side_of_plane(PlaneId plane, const Corner<Vertex>&
       return Side::kOn;
     }
   }
-  return planes_.side(support_[plane], corner.vertex);
+  const Side side = planes_.side(support_[plane], corner.vertex);
+  return ref.flipped() ? opposite(side) : side;
 }
 
 template <class T>
@@ -203,29 +205,39 @@ PlaneRef CoordinateLightSpace<T>::shadow_plane(PlaneRef edge, const Vertex& from
   return identity_ ? edge : add(shadow_plane_of(from, to));
 }
 
-// n . q with q = L - v is n . L - n . v; for a directional light q = (x d_z - z d_x, y d_z - z d_y, d_z).
+// Point light: n . q with q = L - v is n . L - n . v. Directional light: n_u q_u + n_z q_z is
+// d_z (n_u U + n_z) with U = x_u - x_z d_u / d_z in grid units: a plane with normal n_u (d_z e_u - d_u e_z)
+// through the grid point -n_z / n_u on axis u.
 template <class T>
 PlaneRef CoordinateLightSpace<T>::add_prefix_plane(const PrefixPlane& prefix) {
-  std::array<T, 3> n;
-  for (int k = 0; k < 3; ++k) n[k] = static_cast<T>(static_cast<long>(prefix.n[k]));
-  CoordinatePlane<T> plane;
+  const auto number = [](const auto& exact) {
+    if constexpr (kExact) {
+      return T(exact);
+    } else {
+      return static_cast<T>(exact.get_d());
+    }
+  };
+  std::array<T, 3> normal{}, point = light_;
   if (!directional_) {
-    std::array<T, 3> opposite{T(-n[0]), T(-n[1]), T(-n[2])};
-    plane = scene_->arithmetic().plane_from(std::move(opposite), light_);
+    for (int k = 0; k < 3; ++k) normal[k] = -number(prefix.n[k]);
   } else {
-    const auto [x, y, z] = axes_;
-    std::array<T, 3> normal;
-    normal[x] = n[0] * light_[z];
-    normal[y] = n[1] * light_[z];
-    normal[z] = -(n[0] * light_[x] + n[1] * light_[y]);
-    // n_z q_z = n_z d_z is the offset: a point of the plane along normal.
-    std::array<T, 3> point{};
-    const T length = coordinate_detail::dot(normal, normal);
-    const T offset = -(n[2] * light_[z]);
-    for (int k = 0; k < 3; ++k) point[k] = normal[k] * offset / length;
-    plane = scene_->arithmetic().plane_from(std::move(normal), point);
+    const bool first = sgn(prefix.n[0]) != 0;
+    const mpz_class& along = first ? prefix.n[0] : prefix.n[1];
+    const int u = first ? axes_.x : axes_.y, z = axes_.z;
+    normal[u] = number(along) * light_[z];
+    normal[z] = -(number(along) * light_[u]);
+    const Geometry& geometry = scene_->geometry();
+    for (int k = 0; k < 3; ++k) {
+      mpq_class coordinate = geometry.origin[k];
+      if (k == u) {
+        mpq_class ratio(prefix.n[2], along);
+        ratio.canonicalize();
+        coordinate -= geometry.step * ratio;
+      }
+      point[k] = number(coordinate);
+    }
   }
-  return add(std::move(plane));
+  return add(scene_->arithmetic().plane_from(std::move(normal), point));
 }
 
 template <class T>

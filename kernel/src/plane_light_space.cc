@@ -107,9 +107,7 @@ PlaneRef PlaneLightSpace<Stats>::add_explicit(Vector3<mpz_class> normal) {
 
 template <class Stats>
 PlaneRef PlaneLightSpace<Stats>::add_prefix_plane(const PrefixPlane& plane) {
-  return add_explicit({mpz_class(static_cast<long>(plane.n[0])),
-                       mpz_class(static_cast<long>(plane.n[1])),
-                       mpz_class(static_cast<long>(plane.n[2]))});
+  return add_explicit(plane.n);
 }
 
 // The plane through the light and the line in which support plane i is cut by plane j, positive on the

@@ -77,7 +77,8 @@ std::array<Ball, 4> PlaneSceneSpace<Stats>::plane_enclosure(PlaneId id) const {
 }
 
 template <class Stats>
-Side PlaneSceneSpace<Stats>::side_of_plane(PlaneId plane, const Corner<Vertex>& corner) {
+Side PlaneSceneSpace<Stats>::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+  const PlaneId plane = ref.index();
   const Vertex& vertex = corner.vertex;
   if (plane == corner.support || corner.before.index() == plane || corner.after.index() == plane) {
     stats_.count(Stage::kIdentity);
@@ -96,7 +97,7 @@ Side PlaneSceneSpace<Stats>::side_of_plane(PlaneId plane, const Corner<Vertex>& 
   const double bound = error_bound(vertex.error);
   if (filtered.usable && std::fabs(value) > bound) {
     stats_.count(Stage::kFilter);
-    return value > 0 ? Side::kFront : Side::kBack;
+    return (value > 0) != ref.flipped() ? Side::kFront : Side::kBack;
   }
   // All intermediates of the exact stage, by kind of vertex (docs/exactness.md).
   const bool made = vertex.source == kMadeVertex;
@@ -122,7 +123,7 @@ Side PlaneSceneSpace<Stats>::side_of_plane(PlaneId plane, const Corner<Vertex>& 
       break;
   }
   if (sign == Sign::kZero) stats_.count_zero();
-  return side_of(sign);
+  return side_of(ref.flipped() ? -sign : sign);
 }
 
 template <class Stats>
@@ -174,10 +175,10 @@ Sign PlaneSceneSpace<Stats>::exact_side(PlaneId plane, const Corner<Vertex>& cor
 
 template <class Stats>
 typename PlaneSceneSpace<Stats>::Vertex PlaneSceneSpace<Stats>::crossing(
-    PlaneId plane, const Corner<Vertex>& from, const Corner<Vertex>& to) const {
+    PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from, const Corner<Vertex>& to) const {
   Vertex vertex;
   vertex.error = kInfinity;
-  const FilteredPlane& filtered = planes_[plane];
+  const FilteredPlane& filtered = planes_[plane.index()];
   if (!filtered.usable) return vertex;
   const auto value = [&](const Vertex& v) {
     return filtered.n[0] * v.x[0] + filtered.n[1] * v.x[1] + filtered.n[2] * v.x[2] - filtered.d;

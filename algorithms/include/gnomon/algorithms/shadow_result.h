@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/kernel/predicate_stats.h"
 #include "gnomon/kernel/sign.h"
 
 namespace gnomon {
@@ -65,6 +66,7 @@ struct ShadowResult {
   double thickness = 0;   // relative plane thickness (float kernels)
   std::vector<LightResult> lights;
   double scene_bsp_seconds = 0, shadow_seconds = 0;  // CPU time
+  StageCounts stages;     // which stage answered; all zero unless ShadowOptions::count_stages
   std::uint64_t bsp_nodes = 0, bsp_fragments = 0, bsp_depth = 0;
 };
 

@@ -26,6 +26,7 @@ struct ShadowOptions {
   bool exact_fractions = false;    // sum exact rational fractions per part (exact kernels)
   bool merge = true;               // merge sibling fragments, collapse parts that agree
   bool prefix = true;              // balanced prefix of light space
+  bool count_stages = false;       // fill ShadowResult::stages (kernel plane)
   std::uint64_t seed = 1;          // of the root choice of the scene BSP
   std::function<void(double)> progress;         // fraction of the work done, 0..1; may be empty
   const std::atomic<bool>* interrupted = nullptr;  // checked between polygons

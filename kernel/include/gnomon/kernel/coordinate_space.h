@@ -79,9 +79,10 @@ class CoordinateSceneSpace {
   CoordinateSceneSpace(const Geometry& geometry, const KernelOptions& options);
 
   Vertex input_vertex(VertexId v) const { return planes_.input_vertex(v); }
-  Side side_of_plane(PlaneId plane, const Corner<Vertex>& corner);
-  Vertex crossing(PlaneId plane, const Corner<Vertex>& from, const Corner<Vertex>& to) const {
-    return planes_.crossing(support_[plane], from.vertex, to.vertex);
+  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
+  Vertex crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
+                  const Corner<Vertex>& to) const {
+    return planes_.crossing(support_[plane.index()], from.vertex, to.vertex);
   }
   const Geometry& geometry() const { return *geometry_; }
   SceneEdges edges() const { return {static_cast<std::uint32_t>(geometry_->planes.size())}; }
@@ -105,6 +106,7 @@ class CoordinateLightSpace {
 
   CoordinateLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options);
 
+  bool knows_identity() const { return identity_; }
   Sign light_side(PlaneId plane) const;
   PlaneRef import_edge(PlaneRef scene_edge, PlaneId support, bool reversed, const Vertex& from,
                        const Vertex& to);

@@ -16,11 +16,11 @@
 
 namespace gnomon {
 
-/// A plane through the light with small integer coefficients in q coordinates: n . q. Rounding the
-/// value at which the prefix splits is free, the plane itself is exact.
+/// A plane through the light with integer coefficients in q coordinates (of grid positions): n . q.
+/// Rounding the value at which the prefix splits is free, the plane itself is exact. For a directional
+/// light one of n[0] and n[1] is zero.
 struct PrefixPlane {
-  std::array<std::int64_t, 3> n{};  // |n_k| <= 2^kBits
-  static constexpr unsigned kBits = 24;
+  std::array<mpz_class, 3> n;
 };
 
 /// The axis permutation of the map q: component k of the formulas is component axis(k) of the scene.
@@ -40,12 +40,6 @@ struct LightAxes {
   static int cmpabs(const mpz_class& a, const mpz_class& b) {
     return mpz_cmpabs(a.get_mpz_t(), b.get_mpz_t());
   }
-};
-
-/// In which coordinate plane areas on a support plane are measured: drop the axis of the largest
-/// normal component. Fractions of a polygon's area do not depend on it.
-struct Chart {
-  int u = 0, v = 1, dropped = 2;
 };
 
 }  // namespace gnomon

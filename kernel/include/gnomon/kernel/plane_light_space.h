@@ -30,7 +30,6 @@ class PlaneLightSpace {
  public:
   using SceneSpace = PlaneSceneSpace<Stats>;
   static constexpr bool kExact = true;
-  static constexpr bool kIdentity = true;
 
   struct Vertex {
     std::array<double, 3> ray{};  // positive multiple of the direction in q coordinates
@@ -41,6 +40,8 @@ class PlaneLightSpace {
 
   PlaneLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options);
 
+  /// Whether an edge's plane is the one that cut it; always.
+  bool knows_identity() const { return true; }
   /// Sign of the support plane at the light: whether its front faces the light.
   Sign light_side(PlaneId plane) const;
 

@@ -86,10 +86,11 @@ class PlaneSceneSpace {
   Vertex input_vertex(VertexId v) const;
   /// Side of the corner's vertex; kOn is exact. Identities: (1) the support plane itself and the planes
   /// of the corner's two edges contain it; (2) a plane contains the input vertices that define it.
-  Side side_of_plane(PlaneId plane, const Corner<Vertex>& corner);
+  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
   /// Where the edge from `from` to `to`, which has the two ends strictly on different sides of `plane`,
   /// meets it. Only the doubles are computed; the vertex is the corner that the caller puts it in.
-  Vertex crossing(PlaneId plane, const Corner<Vertex>& from, const Corner<Vertex>& to) const;
+  Vertex crossing(PlaneRef plane, PlaneRef edge, bool leaving, const Corner<Vertex>& from,
+                  const Corner<Vertex>& to) const;
 
   /// Exact position on the grid, as a homogeneous point.
   template <class Int>

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Areas as fractions of a part: measured in a coordinate plane (a linear map, so that ratios of areas
+// on one support plane stay what they are), enclosed in doubles, exact rationals where asked for or
+// where the enclosure says too little.
+#ifndef GNOMON_ALGORITHMS_SRC_FRACTIONS_H
+#define GNOMON_ALGORITHMS_SRC_FRACTIONS_H
+
+#include <gmpxx.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "gnomon/algorithms/shadow_result.h"
+#include "gnomon/kernel/ball.h"
+#include "gnomon/kernel/geometry.h"
+#include "gnomon/kernel/kernel_concept.h"
+
+namespace gnomon {
+
+/// The two coordinates that remain when the axis of the largest normal component is dropped.
+struct Chart {
+  int u = 0, v = 1;
+};
+Chart chart_of(const Geometry& geometry, PlaneId plane);
+
+/// The double nearest to a rational, ties to even.
+double nearest_double(const mpq_class& value);
+std::array<double, 3> nearest_doubles(const std::array<mpq_class, 3>& point);
+
+struct Fraction {
+  Ball enclosure;
+  mpq_class exact;
+  bool has_exact = false;
+};
+
+/// Sums of fractions: enclosures in order, rationals in a balanced tree so that denominators grow
+/// late. Exactness: exact() is the sum of what was added with an exact value.
+class FractionSum {
+ public:
+  void add(Fraction fraction);
+  /// Certified bounds within [0, 1]; a rounded kernel's sum as it came out, both ends equal.
+  Interval interval(bool certified) const;
+  mpq_class exact() const;
+
+ private:
+  Ball sum_;
+  std::vector<mpq_class> partial_;  // partial_[k]: sum of 2^k terms, or 0
+  std::vector<bool> filled_;
+};
+
+/// Measures fragments against the area of their part.
+class PartMeasure {
+ public:
+  /// An enclosure wider than this fraction of the part is replaced by exact arithmetic.
+  static constexpr double kWidest = 0x1p-40;
+
+  template <LightSpaceModel Space>
+  PartMeasure(const Space& space, Chart chart, const LoopView<typename Space::Vertex>& part,
+              bool always_exact)
+      : chart_(chart), always_exact_(always_exact) {
+    area_ = enclosed_area(space, part);
+    if constexpr (Space::kExact) exact_area_ = exact_area(space, part);
+  }
+
+  template <LightSpaceModel Space>
+  Fraction fraction(const Space& space, const LoopView<typename Space::Vertex>& loop) const {
+    Fraction result;
+    result.enclosure = enclosed_area(space, loop) / area_;
+    if constexpr (Space::kExact) {
+      if (always_exact_ || !(result.enclosure.radius < kWidest)) {
+        result.exact = exact_area(space, loop) / exact_area_;
+        result.has_exact = true;
+        const double value = result.exact.get_d();  // truncated: within one unit in the last place
+        result.enclosure = Ball(value, 2 * Ball::kUnit * std::fabs(value) + Ball::kTiny);
+      }
+    }
+    return result;
+  }
+
+ private:
+  /// Twice the signed area in the chart.
+  template <LightSpaceModel Space>
+  Ball enclosed_area(const Space& space, const LoopView<typename Space::Vertex>& loop) const {
+    Ball sum;
+    const auto first = space.position(loop.corner(0));
+    auto previous = space.position(loop.corner(1));
+    for (std::uint32_t i = 2; i < loop.size(); ++i) {
+      const auto next = space.position(loop.corner(i));
+      sum = sum + (previous[chart_.u] - first[chart_.u]) * (next[chart_.v] - first[chart_.v]) -
+            (previous[chart_.v] - first[chart_.v]) * (next[chart_.u] - first[chart_.u]);
+      previous = next;
+    }
+    return sum;
+  }
+  template <LightSpaceModel Space>
+  mpq_class exact_area(const Space& space, const LoopView<typename Space::Vertex>& loop) const {
+    mpq_class sum = 0;
+    const auto first = space.exact_position(loop.corner(0));
+    auto previous = space.exact_position(loop.corner(1));
+    for (std::uint32_t i = 2; i < loop.size(); ++i) {
+      auto next = space.exact_position(loop.corner(i));
+      sum += (previous[chart_.u] - first[chart_.u]) * (next[chart_.v] - first[chart_.v]) -
+             (previous[chart_.v] - first[chart_.v]) * (next[chart_.u] - first[chart_.u]);
+      previous = std::move(next);
+    }
+    return sum;
+  }
+
+  Chart chart_;
+  bool always_exact_;
+  Ball area_;
+  mpq_class exact_area_;
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SRC_FRACTIONS_H

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The SVBSP algorithm from a prepared scene to a result, instantiated one kernel a source.
+#ifndef GNOMON_ALGORITHMS_SRC_SHADOWS_IMPL_H
+#define GNOMON_ALGORITHMS_SRC_SHADOWS_IMPL_H
+
+#include <algorithm>
+#include <ctime>
+#include <deque>
+#include <span>
+#include <utility>
+
+#include "fractions.h"
+#include "gnomon/algorithms/prefix.h"
+#include "gnomon/algorithms/scene_bsp.h"
+#include "gnomon/algorithms/shadows.h"
+#include "gnomon/algorithms/svbsp.h"
+#include "scene_bsp_impl.h"
+#include "svbsp_impl.h"
+
+namespace gnomon {
+
+/// CPU time of this process in seconds.
+inline double cpu_seconds() {
+  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
+}
+
+/// How a part stands to a light.
+struct Facing {
+  Side side = Side::kFront;  // the part's side that faces
+  ShadowReason reason = ShadowReason::kNone;
+  bool faces() const { return reason == ShadowReason::kNone; }
+};
+
+inline Facing facing_of(const Part& part, Sign plane_at_light) {
+  if (plane_at_light == Sign::kZero) return {Side::kFront, ShadowReason::kLightInPlane};
+  const Sign at_light = part.flipped ? -plane_at_light : plane_at_light;
+  if (at_light == Sign::kPositive) return {Side::kFront, ShadowReason::kNone};
+  if (part.two_sided) return {Side::kBack, ShadowReason::kNone};
+  return {Side::kFront, ShadowReason::kFacesAway};
+}
+
+/// One light's computation: its space, tree and output.
+template <LightSpaceModel Space>
+class LightRun {
+ public:
+  using SceneSpace = typename Space::SceneSpace;
+  using SceneVertex = typename SceneSpace::Vertex;
+  using Vertex = typename Space::Vertex;
+
+  LightRun(const PreparedScene& scene, const ShadowOptions& options, SceneSpace& scene_space,
+           std::uint32_t light)
+      : scene_(scene),
+        options_(options),
+        scene_space_(scene_space),
+        space_(scene_space, scene.lights[light].point, kernel_options(options)),
+        tree_(space_, options.merge) {
+    result_.light = light;
+    plane_signs_.reserve(scene.geometry.planes.size());
+    for (PlaneId plane = 0; plane < scene.geometry.planes.size(); ++plane) {
+      plane_signs_.push_back(space_.light_side(plane));
+    }
+    facing_.reserve(scene.parts.size());
+    for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
+      const Part& part = scene.parts[i];
+      facing_.push_back(facing_of(part, plane_signs_[part.plane]));
+      if (facing_.back().faces()) {
+        facing_parts_.push_back(i);
+        result_.facing_edges += part.count;
+      }
+    }
+    result_.facing_parts = facing_parts_.size();
+  }
+
+  static KernelOptions kernel_options(const ShadowOptions& options) {
+    return {options.identity, options.thickness};
+  }
+  const std::vector<std::uint32_t>& facing_parts() const { return facing_parts_; }
+
+  /// False if interrupted. `progress(done)` gets the number of nodes done.
+  template <class Progress>
+  bool run(const SceneBsp<SceneVertex>& bsp, const Progress& progress) {
+    if (options_.prefix) {
+      tree_.plant(plan_prefix(scene_, scene_.lights[result_.light].point, facing_parts_));
+    }
+    const std::vector<std::uint32_t> order =
+        front_to_back(bsp.nodes, [&](PlaneId plane) { return plane_signs_[plane]; });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if ((i & 63) == 0) {
+        if (options_.interrupted != nullptr &&
+            options_.interrupted->load(std::memory_order_relaxed)) {
+          return false;
+        }
+        progress(i);
+      }
+      filter_node(bsp, bsp.nodes[order[i]]);
+    }
+    result_.tree_nodes = tree_.node_count();
+    result_.dropped_slivers = tree_.vanished() + bsp.vanished;
+    return true;
+  }
+
+  /// Groups fragments by part, collapses parts that agree, measures and exports.
+  LightResult finish();
+  StageCounts stage_counts() const { return space_.stage_counts(); }
+
+ private:
+  // The facing pieces of one node are coplanar: none shadows another, so all are classified before any
+  // is inserted (docs: semantics; a filter that inserts one first is a classic bug).
+  void filter_node(const SceneBsp<SceneVertex>& bsp, const BspNode& node) {
+    pieces_.clear();
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      const LoopRange& piece = bsp.pieces[bsp.node_pieces[node.first + i]];
+      if (facing_[piece.part].faces()) pieces_.push_back(piece);
+    }
+    const bool alone = pieces_.size() == 1;
+    for (const LoopRange& piece : pieces_) {
+      const Part& part = scene_.parts[piece.part];
+      import(bsp.loops.view(piece, part.plane), part);
+      tree_.filter(imported_.view({0, imported_.size(), piece.part}, part.plane),
+                   {.classify = true, .insert = alone && part.casts}, output_);
+    }
+    if (alone) return;
+    for (const LoopRange& piece : pieces_) {
+      const Part& part = scene_.parts[piece.part];
+      if (!part.casts) continue;
+      import(bsp.loops.view(piece, part.plane), part);
+      tree_.filter(imported_.view({0, imported_.size(), piece.part}, part.plane),
+                   {.classify = false, .insert = true}, output_);
+    }
+  }
+
+  /// From scene space into light space, counter-clockwise seen from the light.
+  void import(const LoopView<SceneVertex>& loop, const Part& part) {
+    imported_.clear();
+    const bool reversed = facing_[loop.part].side == Side::kBack;
+    const std::uint32_t n = loop.size();
+    // Reversed: vertex i becomes n - 1 - i, and the edge that ended in it now starts from it.
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t from = reversed ? n - 1 - i : i;
+      imported_.push(space_.import_vertex(loop.vertices[from]), PlaneRef());
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t edge = reversed ? loop.previous(n - 1 - i) : i;
+      imported_.edge(i) =
+          space_.import_edge(loop.edges[edge], part.plane, reversed, imported_.vertex(i),
+                             imported_.vertex(i + 1 == n ? 0 : i + 1));
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+      Vertex& vertex = imported_.vertex(i);
+      if (vertex.source == kMadeVertex) {
+        space_.finish_vertex(vertex, imported_.edge(i == 0 ? n - 1 : i - 1), imported_.edge(i));
+      }
+    }
+  }
+
+  void import_part(std::uint32_t index) {
+    const Part& part = scene_.parts[index];
+    const auto vertices = scene_.loop(part);
+    const auto edges = scene_.edges(part);
+    const SceneEdges names = scene_space_.edges();
+    whole_.clear();
+    for (std::uint32_t i = 0; i < part.count; ++i) {
+      whole_.push(scene_space_.input_vertex(vertices[i]),
+                  names.of_edge(edges[i].index(), edges[i].flipped()));
+    }
+    import(whole_.view({0, part.count, index}, part.plane), part);
+  }
+  void export_loop(const LoopView<Vertex>& loop, Fragment& fragment);
+  void measure(PartResult& part, std::span<const ClassifiedLoop> fragments);
+
+  const PreparedScene& scene_;
+  const ShadowOptions& options_;
+  SceneSpace& scene_space_;
+  Space space_;
+  SvbspTree<Space> tree_;
+  std::vector<Sign> plane_signs_;
+  std::vector<Facing> facing_;
+  std::vector<std::uint32_t> facing_parts_;
+  SvbspOutput<Vertex> output_;
+  std::vector<LoopRange> pieces_;
+  LoopStore<Vertex> imported_;
+  LoopStore<SceneVertex> whole_;
+  LightResult result_;
+};
+
+template <LightSpaceModel Space>
+LightResult LightRun<Space>::finish() {
+  // Counting sort by part: fragments of one part may come from several nodes.
+  std::vector<std::uint32_t> start(scene_.parts.size() + 1, 0);
+  for (const ClassifiedLoop& f : output_.fragments) ++start[f.loop.part + 1];
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  std::vector<ClassifiedLoop> sorted(output_.fragments.size());
+  {
+    std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+    for (const ClassifiedLoop& f : output_.fragments) sorted[next[f.loop.part]++] = f;
+  }
+  output_.fragments = {};
+  const bool keep = options_.keep_points || options_.keep_exact_points;
+  result_.parts.reserve(scene_.parts.size());
+  for (std::uint32_t index = 0; index < scene_.parts.size(); ++index) {
+    PartResult part;
+    part.part = index;
+    part.side = facing_[index].side;
+    part.reason = facing_[index].reason;
+    part.first_fragment = static_cast<std::uint32_t>(result_.fragments.size());
+    std::span<ClassifiedLoop> own(sorted.data() + start[index], start[index + 1] - start[index]);
+    if (options_.merge && own.size() > 1) {
+      const bool agree = std::all_of(own.begin(), own.end(), [&](const ClassifiedLoop& f) {
+        return f.state == own[0].state && f.caster == own[0].caster;
+      });
+      if (agree) {  // the input polygon as it was (1989, sec. 6)
+        import_part(index);
+        const LoopView<Vertex> whole =
+            imported_.view({0, imported_.size(), index}, scene_.parts[index].plane);
+        own[0].loop = output_.loops.append(whole);
+        own = own.first(1);
+      }
+    }
+    part.fragment_count = static_cast<std::uint32_t>(own.size());
+    result_.fragment_total += own.size();
+    measure(part, own);
+    for (const ClassifiedLoop& f : own) {
+      Fragment fragment;
+      fragment.state = f.state;
+      fragment.caster = f.caster;
+      if (keep) export_loop(output_.loops.view(f.loop, scene_.parts[index].plane), fragment);
+      result_.fragments.push_back(fragment);
+    }
+    result_.parts.push_back(std::move(part));
+  }
+  return std::move(result_);
+}
+
+template <LightSpaceModel Space>
+void LightRun<Space>::export_loop(const LoopView<Vertex>& loop, Fragment& fragment) {
+  fragment.first = static_cast<std::uint32_t>(
+      options_.keep_points ? result_.points.size() : result_.exact_points.size());
+  fragment.count = loop.size();
+  for (std::uint32_t i = 0; i < loop.size(); ++i) {
+    const Corner<Vertex> corner = loop.corner(i);
+    const bool input = corner.vertex.source != kMadeVertex;
+    if (options_.keep_exact_points || (!input && Space::kExact)) {
+      const std::array<mpq_class, 3> exact = space_.exact_position(corner);
+      if (options_.keep_points) {
+        result_.points.push_back(input ? scene_.geometry.positions[corner.vertex.source]
+                                       : nearest_doubles(exact));
+      }
+      if (options_.keep_exact_points) result_.exact_points.push_back(exact);
+    } else if (input) {
+      result_.points.push_back(scene_.geometry.positions[corner.vertex.source]);
+    } else {
+      const std::array<Ball, 3> point = space_.position(corner);
+      result_.points.push_back({point[0].middle, point[1].middle, point[2].middle});
+    }
+  }
+}
+
+template <LightSpaceModel Space>
+void LightRun<Space>::measure(PartResult& part, std::span<const ClassifiedLoop> fragments) {
+  part.lit = {0, 0};
+  part.shadow = {1, 1};
+  part.exact_shadow = 1;
+  if (part.reason != ShadowReason::kNone || fragments.empty()) return;
+  if (fragments.size() == 1) {  // fragments tile the part
+    if (fragments[0].state == LightState::kLit) {
+      std::swap(part.lit, part.shadow);
+      std::swap(part.exact_lit, part.exact_shadow);
+    }
+    return;
+  }
+  const PlaneId plane = scene_.parts[part.part].plane;
+  const Chart chart = chart_of(scene_.geometry, plane);
+  import_part(part.part);
+  const LoopView<Vertex> whole = imported_.view({0, imported_.size(), part.part}, plane);
+  const PartMeasure measure_part(space_, chart, whole, options_.exact_fractions);
+  FractionSum lit, shadow;
+  for (const ClassifiedLoop& f : fragments) {
+    (f.state == LightState::kLit ? lit : shadow)
+        .add(measure_part.fraction(space_, output_.loops.view(f.loop, plane)));
+  }
+  part.lit = lit.interval(Space::kExact);
+  part.shadow = shadow.interval(Space::kExact);
+  if (options_.exact_fractions) {
+    part.exact_lit = lit.exact();
+    part.exact_shadow = shadow.exact();
+  }
+}
+
+template <LightSpaceModel Space>
+Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
+                                            const ShadowOptions& options,
+                                            const std::vector<std::uint32_t>& lights) {
+  using SceneSpace = typename Space::SceneSpace;
+  ShadowResult result;
+  result.kernel = kernel_info(options.kernel).name;
+  result.algorithm = "svbsp";
+  result.exact = Space::kExact;
+  result.identity = options.identity || Space::kExact;
+  result.thickness = Space::kExact ? 0 : options.thickness;
+  const auto interrupted = [] { return fail(ErrorCode::kInterrupted, "interrupted"); };
+
+  const double start = cpu_seconds();
+  SceneSpace scene_space(scene.geometry, LightRun<Space>::kernel_options(options));
+  std::deque<LightRun<Space>> runs;  // never moved: a run's tree refers to its space
+  std::vector<bool> needed(scene.parts.size(), false);
+  for (const std::uint32_t light : lights) {
+    runs.emplace_back(scene, options, scene_space, light);
+    for (const std::uint32_t part : runs.back().facing_parts()) needed[part] = true;
+  }
+  // Only what faces some light has to be in order.
+  std::vector<std::uint32_t> parts;
+  for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
+    if (needed[i]) parts.push_back(i);
+  }
+  const SceneBsp<typename SceneSpace::Vertex> bsp = build_scene_bsp(
+      scene_space, scene, parts, options.seed, result.identity, options.interrupted);
+  if (bsp.interrupted) return interrupted();
+  result.scene_bsp_seconds = cpu_seconds() - start;
+  result.bsp_nodes = bsp.nodes.size();
+  result.bsp_depth = bsp.depth;
+  for (const BspNode& node : bsp.nodes) result.bsp_fragments += node.count;
+
+  const double total = static_cast<double>(bsp.nodes.size()) * static_cast<double>(runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const double before = static_cast<double>(bsp.nodes.size()) * static_cast<double>(i);
+    const bool done = runs[i].run(bsp, [&](std::size_t nodes) {
+      if (options.progress) options.progress((before + static_cast<double>(nodes)) / total);
+    });
+    if (!done) return interrupted();
+    result.stages += runs[i].stage_counts();
+    result.lights.push_back(runs[i].finish());
+  }
+  result.stages += scene_space.stage_counts();
+  result.shadow_seconds = cpu_seconds() - start - result.scene_bsp_seconds;
+  return result;
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SRC_SHADOWS_IMPL_H

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The kernel `epeck`: CGAL's lazy exact constructions, as one would use them today. Points, planes and
+// crossings are CGAL objects on the scene's grid; every decision is exact.
+//
+// Guarantee: exact. Price: each construction is a node of a lazy expression, and a decision that the
+// interval cannot make evaluates the whole expression in rationals.
+// Reference: CGAL 5.5, Exact_predicates_exact_constructions_kernel.
+#ifndef GNOMON_KERNEL_EPECK_SPACE_H
+#define GNOMON_KERNEL_EPECK_SPACE_H
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <gmpxx.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gnomon/kernel/ball.h"
+#include "gnomon/kernel/corner.h"
+#include "gnomon/kernel/geometry.h"
+#include "gnomon/kernel/kernel_options.h"
+#include "gnomon/kernel/light_space.h"
+#include "gnomon/kernel/predicate_stats.h"
+#include "gnomon/kernel/sign.h"
+
+namespace gnomon {
+
+using Epeck = CGAL::Exact_predicates_exact_constructions_kernel;
+
+struct EpeckVertex {
+  Epeck::Point_3 point;
+  VertexId source = kMadeVertex;
+};
+
+class EpeckSceneSpace {
+ public:
+  using Vertex = EpeckVertex;
+  static constexpr bool kExact = true;
+
+  EpeckSceneSpace(const Geometry& geometry, const KernelOptions& options);
+
+  Vertex input_vertex(VertexId v) const { return {points_[v], v}; }
+  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
+  Vertex crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
+                  const Corner<Vertex>& to) const;
+  const Geometry& geometry() const { return *geometry_; }
+  SceneEdges edges() const { return {static_cast<std::uint32_t>(geometry_->planes.size())}; }
+  /// In scene units.
+  std::array<double, 3> approximate(const Vertex& vertex) const;
+  const Epeck::Plane_3& support(PlaneId plane) const { return support_[plane]; }
+  StageCounts stage_counts() const { return {}; }
+
+ private:
+  const Geometry* geometry_;
+  std::vector<Epeck::Point_3> points_;
+  std::vector<Epeck::Plane_3> support_;
+  std::array<double, 3> origin_{};
+  double step_ = 1;
+};
+
+class EpeckLightSpace {
+ public:
+  using SceneSpace = EpeckSceneSpace;
+  using Vertex = EpeckVertex;
+  static constexpr bool kExact = true;
+
+  EpeckLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options);
+
+  bool knows_identity() const { return true; }
+  Sign light_side(PlaneId plane) const;
+  PlaneRef import_edge(PlaneRef scene_edge, PlaneId support, bool reversed, const Vertex& from,
+                       const Vertex& to);
+  Vertex import_vertex(const Vertex& vertex) const { return vertex; }
+  void finish_vertex(Vertex&, PlaneRef, PlaneRef) const {}
+  PlaneRef shadow_plane(PlaneRef edge, const Vertex&, const Vertex&) { return edge; }
+  PlaneRef add_prefix_plane(const PrefixPlane& plane);
+  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
+  Vertex crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
+                  const Corner<Vertex>& to) const;
+  /// Grid units.
+  std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
+  /// Scene units.
+  std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
+  std::string describe(PlaneRef plane) const;
+  std::size_t plane_count() const { return planes_.size(); }
+  StageCounts stage_counts() const { return {}; }
+
+ private:
+  struct Plane {
+    Epeck::Plane_3 plane;
+    VertexId a = kMadeVertex, b = kMadeVertex;
+  };
+  PlaneRef add(Plane plane) {
+    planes_.push_back(std::move(plane));
+    return PlaneRef(static_cast<std::uint32_t>(planes_.size() - 1));
+  }
+  Epeck::Plane_3 shadow_plane_of(const Epeck::Point_3& from, const Epeck::Point_3& to) const;
+
+  SceneSpace* scene_;
+  LightPoint light_;
+  LightAxes axes_;
+  Epeck::Point_3 position_;    // point light
+  Epeck::Vector_3 direction_;  // directional light
+  std::vector<Plane> planes_;
+  std::vector<std::uint32_t> plane_of_edge_;
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_KERNEL_EPECK_SPACE_H

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gnomon/kernel/epeck_space.h"
+
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+using Number = Epeck::FT;
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// Any integer, exactly: 52 bits at a time, evaluated at once so that it is a leaf of later expressions.
+Number number_from(const mpz_class& value) {
+  if (mpz_sizeinbase(value.get_mpz_t(), 2) <= 53) return Number(value.get_d());
+  Number result(0);
+  const Number radix(0x1p52);
+  mpz_class rest = abs(value);
+  std::vector<double> digits;
+  while (rest != 0) {
+    const mpz_class digit = rest & ((mpz_class(1) << 52) - 1);
+    digits.push_back(digit.get_d());
+    rest >>= 52;
+  }
+  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit) {
+    result = result * radix + Number(*digit);
+  }
+  if (sgn(value) < 0) result = -result;
+  result.exact();
+  return result;
+}
+
+/// Whatever rational type CGAL was built with.
+template <class Rational>
+mpq_class to_mpq(const Rational& value) {
+  if constexpr (requires { mpq_class(value.mpq()); }) {
+    return mpq_class(value.mpq());
+  } else if constexpr (requires { mpq_class(value.backend().data()); }) {
+    return mpq_class(value.backend().data());
+  } else {
+    return mpq_class(value);
+  }
+}
+
+Ball enclose(const Number& value) {
+  const std::pair<double, double> bounds = CGAL::to_interval(value);
+  const double middle = bounds.first + (bounds.second - bounds.first) / 2;
+  const double radius = std::fmax(bounds.second - middle, middle - bounds.first);
+  return {middle, std::nextafter(radius, INFINITY)};
+}
+
+EpeckVertex meet(const Epeck::Plane_3& plane, const Epeck::Point_3& from,
+                 const Epeck::Point_3& to) {
+  const auto result = CGAL::intersection(plane, Epeck::Line_3(from, to));
+  // The two points lie strictly on different sides, decided exactly: they meet in one point.
+  return {boost::get<Epeck::Point_3>(*result), kMadeVertex};
+}
+
+Side side_of(const Epeck::Plane_3& plane, const Epeck::Point_3& point) {
+  return static_cast<Side>(static_cast<int>(plane.oriented_side(point)));
+}
+
+}  // namespace
+
+EpeckSceneSpace::EpeckSceneSpace(const Geometry& geometry, const KernelOptions&)
+    : geometry_(&geometry), step_(geometry.step.get_d()) {
+  for (int k = 0; k < 3; ++k) origin_[k] = geometry.origin[k].get_d();
+  points_.reserve(geometry.positions.size());
+  for (VertexId v = 0; v < geometry.positions.size(); ++v) {
+    points_.emplace_back(number_from(geometry.grid.at(v, 0)), number_from(geometry.grid.at(v, 1)),
+                         number_from(geometry.grid.at(v, 2)));
+  }
+  support_.reserve(geometry.planes.size());
+  for (const SupportTriple& triple : geometry.planes) {
+    support_.emplace_back(points_[triple.a], points_[triple.b], points_[triple.c]);
+  }
+}
+
+Side EpeckSceneSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+  const PlaneId id = ref.index();
+  const SupportTriple& triple = geometry_->planes[id];
+  const VertexId source = corner.vertex.source;
+  if (id == corner.support || corner.before.index() == id || corner.after.index() == id ||
+      (source != kMadeVertex && (source == triple.a || source == triple.b || source == triple.c))) {
+    return Side::kOn;
+  }
+  const Side side = side_of(support_[id], corner.vertex.point);
+  return ref.flipped() ? opposite(side) : side;
+}
+
+EpeckVertex EpeckSceneSpace::crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
+                                      const Corner<Vertex>& to) const {
+  return meet(support_[plane.index()], from.vertex.point, to.vertex.point);
+}
+
+std::array<double, 3> EpeckSceneSpace::approximate(const Vertex& vertex) const {
+  std::array<double, 3> point;
+  for (int k = 0; k < 3; ++k) point[k] = origin_[k] + step_ * CGAL::to_double(vertex.point[k]);
+  return point;
+}
+
+EpeckLightSpace::EpeckLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions&)
+    : scene_(&scene), light_(light), axes_(LightAxes::of(light)) {
+  const Number x = number_from(light.grid[0]), y = number_from(light.grid[1]),
+               z = number_from(light.grid[2]);
+  if (light.directional) {
+    direction_ = Epeck::Vector_3(x, y, z);
+  } else {
+    position_ = Epeck::Point_3(x, y, z);
+  }
+  plane_of_edge_.assign(scene.geometry().edges.size(), kNone);
+}
+
+Sign EpeckLightSpace::light_side(PlaneId plane) const {
+  const Epeck::Plane_3& support = scene_->support(plane);
+  if (!light_.directional) return static_cast<Sign>(static_cast<int>(side_of(support, position_)));
+  return static_cast<Sign>(
+      static_cast<int>(CGAL::sign(support.orthogonal_vector() * direction_)));
+}
+
+Epeck::Plane_3 EpeckLightSpace::shadow_plane_of(const Epeck::Point_3& from,
+                                                const Epeck::Point_3& to) const {
+  // Normal (towards the light) x (to - from): see orientation.h.
+  return light_.directional ? Epeck::Plane_3(from, from + direction_, to)
+                            : Epeck::Plane_3(from, position_, to);
+}
+
+PlaneRef EpeckLightSpace::import_edge(PlaneRef scene_edge, PlaneId, bool reversed,
+                                      const Vertex& from, const Vertex& to) {
+  const SceneEdges names = scene_->edges();
+  if (!names.is_input_edge(scene_edge)) return add({shadow_plane_of(from.point, to.point)});
+  const EdgeId edge = names.edge(scene_edge);
+  if (plane_of_edge_[edge] == kNone) {
+    const EdgeEnds ends = scene_->geometry().edges[edge];
+    plane_of_edge_[edge] = static_cast<std::uint32_t>(planes_.size());
+    add({shadow_plane_of(scene_->input_vertex(ends.a).point, scene_->input_vertex(ends.b).point),
+         ends.a, ends.b});
+  }
+  return PlaneRef(plane_of_edge_[edge], scene_edge.flipped() != reversed);
+}
+
+// In grid coordinates: see coordinate_space_impl.h.
+PlaneRef EpeckLightSpace::add_prefix_plane(const PrefixPlane& prefix) {
+  if (!light_.directional) {
+    const Epeck::Vector_3 normal(number_from(-prefix.n[0]), number_from(-prefix.n[1]),
+                                 number_from(-prefix.n[2]));
+    return add({Epeck::Plane_3(position_, normal)});
+  }
+  const bool first = sgn(prefix.n[0]) != 0;
+  const Number along = number_from(first ? prefix.n[0] : prefix.n[1]);
+  const int u = first ? axes_.x : axes_.y, z = axes_.z;
+  std::array<Number, 3> normal, point;
+  normal[u] = along * direction_[z];
+  normal[z] = -along * direction_[u];
+  point[u] = -number_from(prefix.n[2]) / along;
+  return add({Epeck::Plane_3(Epeck::Point_3(point[0], point[1], point[2]),
+                             Epeck::Vector_3(normal[0], normal[1], normal[2]))});
+}
+
+Side EpeckLightSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+  const Plane& plane = planes_[ref.index()];
+  const VertexId source = corner.vertex.source;
+  if (ref.same_plane(corner.before) || ref.same_plane(corner.after) ||
+      (source != kMadeVertex && (source == plane.a || source == plane.b))) {
+    return Side::kOn;
+  }
+  const Side side = side_of(plane.plane, corner.vertex.point);
+  return ref.flipped() ? opposite(side) : side;
+}
+
+EpeckVertex EpeckLightSpace::crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
+                                      const Corner<Vertex>& to) const {
+  return meet(planes_[plane.index()].plane, from.vertex.point, to.vertex.point);
+}
+
+std::array<Ball, 3> EpeckLightSpace::position(const Corner<Vertex>& corner) const {
+  const Epeck::Point_3& p = corner.vertex.point;
+  return {enclose(p.x()), enclose(p.y()), enclose(p.z())};
+}
+
+std::array<mpq_class, 3> EpeckLightSpace::exact_position(const Corner<Vertex>& corner) const {
+  const Geometry& geometry = scene_->geometry();
+  std::array<mpq_class, 3> point;
+  for (int k = 0; k < 3; ++k) {
+    point[k] = geometry.origin[k] + geometry.step * to_mpq(corner.vertex.point[k].exact());
+  }
+  return point;
+}
+
+std::string EpeckLightSpace::describe(PlaneRef ref) const {
+  const Plane& plane = planes_[ref.index()];
+  if (plane.a == kMadeVertex) return "a plane through the light";
+  return "the shadow plane of edge " + std::to_string(plane.a) + "-" + std::to_string(plane.b);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gnomon/kernel/epick_space.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <cmath>
+
+namespace gnomon {
+namespace {
+
+using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = std::array<double, 3>;
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+bool is_finite(const Point& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+Epick::Point_3 cgal(const Point& p) { return {p[0], p[1], p[2]}; }
+
+Sign orientation(const Point& a, const Point& b, const Point& c, const Point& v) {
+  // CGAL's predicates are defined for finite points only; a construction that overflowed says nothing.
+  if (!is_finite(v) || !is_finite(b) || !is_finite(c)) return Sign::kZero;
+  return static_cast<Sign>(static_cast<int>(CGAL::orientation(cgal(a), cgal(b), cgal(c), cgal(v))));
+}
+
+template <class Number>
+Number determinant(const std::array<Number, 3>& a, const std::array<Number, 3>& b,
+                   const std::array<Number, 3>& c) {
+  return Number(a[0] * Number(b[1] * c[2] - b[2] * c[1]) - a[1] * Number(b[0] * c[2] - b[2] * c[0]) +
+                a[2] * Number(b[0] * c[1] - b[1] * c[0]));
+}
+
+/// Exact sign of (d x (c - a)) . (v - a): CGAL has no such predicate on points (a + d is rounded), so
+/// the same recipe by hand: an enclosure, then rationals.
+Sign direction_orientation(const Point& a, const Point& d, const Point& c, const Point& v) {
+  if (!is_finite(v) || !is_finite(a) || !is_finite(c)) return Sign::kZero;
+  std::array<Ball, 3> bd, bc, bv;
+  for (int k = 0; k < 3; ++k) {
+    bd[k] = Ball(d[k]);
+    bc[k] = Ball(c[k]) - Ball(a[k]);
+    bv[k] = Ball(v[k]) - Ball(a[k]);
+  }
+  const Ball value = determinant(bd, bc, bv);
+  if (value.is_finite()) {
+    if (value.lower() > 0) return Sign::kPositive;
+    if (value.upper() < 0) return Sign::kNegative;
+  }
+  std::array<mpq_class, 3> qd, qc, qv;
+  for (int k = 0; k < 3; ++k) {
+    qd[k] = d[k];
+    qc[k] = mpq_class(c[k]) - mpq_class(a[k]);
+    qv[k] = mpq_class(v[k]) - mpq_class(a[k]);
+  }
+  return static_cast<Sign>(sgn(determinant(qd, qc, qv)));
+}
+
+/// Rounded value of a plane, for constructions.
+double value(const EpickPlane& plane, const Point& v) {
+  std::array<double, 3> first, second, third;
+  for (int k = 0; k < 3; ++k) {
+    first[k] = plane.kind == EpickPlane::Kind::kDirection ? plane.b[k] : plane.b[k] - plane.a[k];
+    second[k] = plane.c[k] - plane.a[k];
+    third[k] = v[k] - plane.a[k];
+  }
+  return determinant(first, second, third);
+}
+
+EpickVertex interpolate(double at_from, double at_to, const Point& from, const Point& to) {
+  const double t = at_from / (at_from - at_to);
+  EpickVertex vertex;
+  for (int k = 0; k < 3; ++k) vertex.x[k] = from[k] + t * (to[k] - from[k]);
+  return vertex;
+}
+
+}  // namespace
+
+EpickSceneSpace::EpickSceneSpace(const Geometry& geometry, const KernelOptions& options)
+    : geometry_(&geometry), identity_(options.identity) {}
+
+EpickPlane EpickSceneSpace::support(PlaneId plane) const {
+  const SupportTriple& triple = geometry_->planes[plane];
+  EpickPlane result;
+  result.a = geometry_->positions[triple.a];
+  result.b = geometry_->positions[triple.b];
+  result.c = geometry_->positions[triple.c];
+  return result;
+}
+
+Side EpickSceneSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+  const PlaneId id = ref.index();
+  if (identity_) {
+    const SupportTriple& triple = geometry_->planes[id];
+    const VertexId source = corner.vertex.source;
+    if (id == corner.support || corner.before.index() == id || corner.after.index() == id ||
+        (source != kMadeVertex &&
+         (source == triple.a || source == triple.b || source == triple.c))) {
+      return Side::kOn;
+    }
+  }
+  const EpickPlane plane = support(id);
+  const Sign sign = orientation(plane.a, plane.b, plane.c, corner.vertex.x);
+  return side_of(ref.flipped() ? -sign : sign);
+}
+
+EpickVertex EpickSceneSpace::crossing(PlaneRef ref, PlaneRef, bool, const Corner<Vertex>& from,
+                                      const Corner<Vertex>& to) const {
+  const EpickPlane plane = support(ref.index());
+  return interpolate(value(plane, from.vertex.x), value(plane, to.vertex.x), from.vertex.x,
+                     to.vertex.x);
+}
+
+EpickLightSpace::EpickLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions&)
+    : scene_(&scene), identity_(scene.identity()), light_(light), axes_(LightAxes::of(light)) {
+  plane_of_edge_.assign(scene.geometry().edges.size(), kNone);
+}
+
+Sign EpickLightSpace::light_side(PlaneId id) const {
+  const EpickPlane plane = scene_->support(id);
+  if (!light_.directional) return orientation(plane.a, plane.b, plane.c, light_.nearest);
+  // ((b - a) x (c - a)) . d = (d x (b - a)) . (c - a)
+  return direction_orientation(plane.a, light_.nearest, plane.b, plane.c);
+}
+
+EpickPlane EpickLightSpace::shadow_plane_of(const Vertex& from, const Vertex& to) const {
+  EpickPlane plane;
+  plane.kind = light_.directional ? EpickPlane::Kind::kDirection : EpickPlane::Kind::kPoints;
+  plane.a = from.x;
+  plane.b = light_.nearest;
+  plane.c = to.x;
+  return plane;
+}
+
+PlaneRef EpickLightSpace::import_edge(PlaneRef scene_edge, PlaneId, bool reversed,
+                                      const Vertex& from, const Vertex& to) {
+  if (!identity_) return {};
+  const SceneEdges names = scene_->edges();
+  if (!names.is_input_edge(scene_edge)) return add(shadow_plane_of(from, to));
+  const EdgeId edge = names.edge(scene_edge);
+  if (plane_of_edge_[edge] == kNone) {
+    const EdgeEnds ends = scene_->geometry().edges[edge];
+    plane_of_edge_[edge] = static_cast<std::uint32_t>(planes_.size());
+    EpickPlane plane = shadow_plane_of(scene_->input_vertex(ends.a), scene_->input_vertex(ends.b));
+    plane.from = ends.a;
+    plane.to = ends.b;
+    add(plane);
+  }
+  return PlaneRef(plane_of_edge_[edge], scene_edge.flipped() != reversed);
+}
+
+PlaneRef EpickLightSpace::shadow_plane(PlaneRef edge, const Vertex& from, const Vertex& to) {
+  return identity_ ? edge : add(shadow_plane_of(from, to));
+}
+
+// The same planes as in coordinate_space_impl.h, with exact coefficients.
+PlaneRef EpickLightSpace::add_prefix_plane(const PrefixPlane& prefix) {
+  std::array<mpq_class, 3> normal, point;
+  std::array<mpq_class, 3> light;
+  for (int k = 0; k < 3; ++k) light[k] = light_.nearest[k];
+  if (!light_.directional) {
+    for (int k = 0; k < 3; ++k) normal[k] = -prefix.n[k];
+    point = light;
+  } else {
+    const bool first = sgn(prefix.n[0]) != 0;
+    const mpz_class& along = first ? prefix.n[0] : prefix.n[1];
+    const int u = first ? axes_.x : axes_.y, z = axes_.z;
+    normal[u] = along * light[z];
+    normal[z] = -along * light[u];
+    const Geometry& geometry = scene_->geometry();
+    point = geometry.origin;
+    mpq_class ratio(prefix.n[2], along);
+    ratio.canonicalize();
+    point[u] -= geometry.step * ratio;
+  }
+  LinearPlane linear;
+  linear.exact[3] = 0;
+  for (int k = 0; k < 3; ++k) {
+    linear.exact[k] = normal[k];
+    linear.exact[3] += normal[k] * point[k];
+  }
+  for (int k = 0; k < 4; ++k) {
+    const double d = linear.exact[k].get_d();
+    linear.enclosure[k] = Ball(d, 2 * Ball::kUnit * std::fabs(d) + Ball::kTiny);
+  }
+  linear_.push_back(std::move(linear));
+  EpickPlane plane;
+  plane.kind = EpickPlane::Kind::kLinear;
+  plane.linear = static_cast<std::uint32_t>(linear_.size() - 1);
+  return add(plane);
+}
+
+Sign EpickLightSpace::sign(const EpickPlane& plane, const Point& v) const {
+  switch (plane.kind) {
+    case EpickPlane::Kind::kPoints: return orientation(plane.a, plane.b, plane.c, v);
+    case EpickPlane::Kind::kDirection:
+      return direction_orientation(plane.a, plane.b, plane.c, v);
+    case EpickPlane::Kind::kLinear: break;
+  }
+  if (!is_finite(v)) return Sign::kZero;
+  const LinearPlane& linear = linear_[plane.linear];
+  const auto& e = linear.enclosure;
+  const Ball near = e[0] * Ball(v[0]) + e[1] * Ball(v[1]) + e[2] * Ball(v[2]) - e[3];
+  if (near.is_finite() && near.lower() > 0) return Sign::kPositive;
+  if (near.is_finite() && near.upper() < 0) return Sign::kNegative;
+  mpq_class exact = -linear.exact[3];
+  for (int k = 0; k < 3; ++k) exact += linear.exact[k] * mpq_class(v[k]);
+  return static_cast<Sign>(sgn(exact));
+}
+
+Side EpickLightSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+  const EpickPlane& plane = planes_[ref.index()];
+  if (identity_) {
+    const VertexId source = corner.vertex.source;
+    if (ref.same_plane(corner.before) || ref.same_plane(corner.after) ||
+        (source != kMadeVertex && (source == plane.from || source == plane.to))) {
+      return Side::kOn;
+    }
+  }
+  const Sign s = sign(plane, corner.vertex.x);
+  return side_of(ref.flipped() ? -s : s);
+}
+
+EpickVertex EpickLightSpace::crossing(PlaneRef ref, PlaneRef, bool, const Corner<Vertex>& from,
+                                      const Corner<Vertex>& to) const {
+  const EpickPlane& plane = planes_[ref.index()];
+  if (plane.kind != EpickPlane::Kind::kLinear) {
+    return interpolate(value(plane, from.vertex.x), value(plane, to.vertex.x), from.vertex.x,
+                       to.vertex.x);
+  }
+  const auto& e = linear_[plane.linear].enclosure;
+  const auto at = [&](const Point& v) {
+    return e[0].middle * v[0] + e[1].middle * v[1] + e[2].middle * v[2] - e[3].middle;
+  };
+  return interpolate(at(from.vertex.x), at(to.vertex.x), from.vertex.x, to.vertex.x);
+}
+
+std::array<Ball, 3> EpickLightSpace::position(const Corner<Vertex>& corner) const {
+  return {Ball(corner.vertex.x[0]), Ball(corner.vertex.x[1]), Ball(corner.vertex.x[2])};
+}
+
+std::array<mpq_class, 3> EpickLightSpace::exact_position(const Corner<Vertex>& corner) const {
+  std::array<mpq_class, 3> point;
+  if (!is_finite(corner.vertex.x)) return point;
+  for (int k = 0; k < 3; ++k) point[k] = corner.vertex.x[k];
+  return point;
+}
+
+std::string EpickLightSpace::describe(PlaneRef ref) const {
+  const EpickPlane& plane = planes_[ref.index()];
+  if (plane.kind == EpickPlane::Kind::kLinear) return "a plane of the balanced prefix";
+  if (plane.from == kMadeVertex) return "a shadow plane through two computed vertices";
+  return "the shadow plane of edge " + std::to_string(plane.from) + "-" + std::to_string(plane.to);
+}
+
+}  // namespace gnomon
