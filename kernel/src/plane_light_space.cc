@@ -39,6 +39,7 @@ PlaneLightSpace<Stats>::PlaneLightSpace(SceneSpace& scene, const LightPoint& lig
   const unsigned b = geometry_->grid.bits();
   q_bits_ = light_space_bits(light.directional, b, bits(light.grid));
   edge_bits_ = shadow_plane_bits(q_bits_);
+  stretch_ = light.directional ? static_cast<int>(b) : 0;
   narrow_ = geometry_->grid.is_narrow() && q_bits_ <= 62 && bits(light.grid) <= 62;
   if (narrow_) {
     for (int k = 0; k < 3; ++k) narrow_light_[k] = light.grid[k].get_si();
@@ -49,6 +50,33 @@ PlaneLightSpace<Stats>::PlaneLightSpace(SceneSpace& scene, const LightPoint& lig
     light_enclosure_[k] = Ball(value, 2 * kUnit * std::fabs(value));
   }
   plane_of_edge_.assign(geometry_->edges.size(), kExplicit);
+}
+
+// The doubles of a directional light's q are scaled by 2^b in z: q = (x d_z - z d_x, y d_z - z d_y, d_z)
+// has two components of b + e bits and one of e bits, and an error bound in the largest component would
+// say nothing about the smallest. Scaling q by diag(1, 1, 2^b) scales normals by diag(2^b, 2^b, 1), up
+// to a positive factor: no sign changes.
+template <class Stats>
+std::array<double, 3> PlaneLightSpace<Stats>::scaled(const Vector3<mpz_class>& v, bool is_normal,
+                                                     unsigned magnitude_bits) const {
+  std::array<double, 3> result;
+  for (int k = 0; k < 3; ++k) {
+    const bool grows = stretch_ != 0 && (is_normal ? k < 2 : k == 2);
+    result[k] = to_double_scaled(v[k], static_cast<long>(magnitude_bits) - (grows ? stretch_ : 0));
+  }
+  return result;
+}
+
+template <class Stats>
+std::array<double, 3> PlaneLightSpace<Stats>::scaled(const Vector3<Int128>& v, bool is_normal,
+                                                     unsigned magnitude_bits) const {
+  std::array<double, 3> result;
+  for (int k = 0; k < 3; ++k) {
+    const bool grows = stretch_ != 0 && (is_normal ? k < 2 : k == 2);
+    result[k] = std::ldexp(static_cast<double>(v[k]),
+                           -static_cast<int>(magnitude_bits) + (grows ? stretch_ : 0));
+  }
+  return result;
 }
 
 template <class Stats>
@@ -96,7 +124,7 @@ PlaneRef PlaneLightSpace<Stats>::add_explicit(Vector3<mpz_class> normal) {
   Plane plane;
   plane.a = static_cast<std::uint32_t>(explicit_.size());
   const unsigned width = bits(normal);
-  for (int k = 0; k < 3; ++k) plane.n[k] = to_double_scaled(normal[k], width);
+  plane.n = scaled(normal, true, width);
   plane.magnitude = largest(plane.n);
   plane.error = 2 * kUnit * plane.magnitude;
   explicit_bits_.push_back(width);
@@ -162,13 +190,9 @@ PlaneRef PlaneLightSpace<Stats>::import_edge(PlaneRef scene_edge, PlaneId suppor
     plane.a = ends.a;
     plane.b = ends.b;
     if (narrow_ && edge_bits_ <= 126) {
-      const Vector3<Int128> n = cross(q<Int128>(ends.a), q<Int128>(ends.b));
-      for (int k = 0; k < 3; ++k) {
-        plane.n[k] = std::ldexp(static_cast<double>(n[k]), -static_cast<int>(edge_bits_));
-      }
+      plane.n = scaled(cross(q<Int128>(ends.a), q<Int128>(ends.b)), true, edge_bits_);
     } else {
-      const Vector3<mpz_class> n = cross(q<mpz_class>(ends.a), q<mpz_class>(ends.b));
-      for (int k = 0; k < 3; ++k) plane.n[k] = to_double_scaled(n[k], edge_bits_);
+      plane.n = scaled(cross(q<mpz_class>(ends.a), q<mpz_class>(ends.b)), true, edge_bits_);
     }
     plane.magnitude = largest(plane.n);
     plane.error = 2 * kUnit * plane.magnitude;
@@ -185,13 +209,9 @@ typename PlaneLightSpace<Stats>::Vertex PlaneLightSpace<Stats>::import_vertex(
   result.source = vertex.source;
   if (vertex.source == kMadeVertex) return result;
   if (narrow_) {
-    const Vector3<Int128> value = q<Int128>(vertex.source);
-    for (int k = 0; k < 3; ++k) {
-      result.ray[k] = std::ldexp(static_cast<double>(value[k]), -static_cast<int>(q_bits_));
-    }
+    result.ray = scaled(q<Int128>(vertex.source), false, q_bits_);
   } else {
-    const Vector3<mpz_class> value = q<mpz_class>(vertex.source);
-    for (int k = 0; k < 3; ++k) result.ray[k] = to_double_scaled(value[k], q_bits_);
+    result.ray = scaled(q<mpz_class>(vertex.source), false, q_bits_);
   }
   result.magnitude = largest(result.ray);
   result.error = 2 * kUnit * result.magnitude;
@@ -311,9 +331,8 @@ std::array<Ball, 3> PlaneLightSpace<Stats>::position(const Corner<Vertex>& corne
     return point;
   }
   const auto [x, y, z] = axes_;
-  // q_x / q_z = (x d_z - z d_x) / d_z is in grid units.
-  const Ball to_unit(std::ldexp(1.0, -static_cast<int>(geometry_->grid.bits())));
-  const Ball u = r[0] / r[2] * to_unit, v = r[1] / r[2] * to_unit;
+  // q_x / q_z = (x d_z - z d_x) / d_z is in grid units; the stretch of z makes it units of 2^b.
+  const Ball u = r[0] / r[2], v = r[1] / r[2];
   point[z] = (plane[3] - plane[x] * u - plane[y] * v) * l[z] / height;
   point[x] = u + point[z] * l[x] / l[z];
   point[y] = v + point[z] * l[y] / l[z];

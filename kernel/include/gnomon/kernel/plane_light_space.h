@@ -98,6 +98,10 @@ class PlaneLightSpace {
     const Plane& p = planes_[plane.index()];
     return p.b != kExplicit || explicit_bits_[p.a] <= 63;
   }
+  std::array<double, 3> scaled(const Vector3<mpz_class>& v, bool is_normal,
+                               unsigned magnitude_bits) const;
+  std::array<double, 3> scaled(const Vector3<Int128>& v, bool is_normal,
+                               unsigned magnitude_bits) const;
   PlaneRef add_explicit(Vector3<mpz_class> normal);
   PlaneRef trace(PlaneId support, PlaneId cut);
 
@@ -107,6 +111,7 @@ class PlaneLightSpace {
   LightAxes axes_;
   unsigned q_bits_;     // magnitude bits of q
   unsigned edge_bits_;  // magnitude bits of an edge plane
+  int stretch_ = 0;     // z of the doubles is scaled by 2^stretch (directional lights)
   bool narrow_;         // q fits into 64 bits
   std::array<std::int64_t, 3> narrow_light_{};
   std::array<Ball, 3> light_enclosure_;  // position times 2^-b, or direction times a power of two
