@@ -290,7 +290,8 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
     chosen.assign(cells.size(), false);
     for (std::uint32_t face : faces) chosen[face] = true;
   }
-  const RegionShape shape = measure_region(overlay, metric, boundary);
+  const double resolution = options_.width_resolution / geometry.step.get_d();
+  const RegionShape shape = measure_region(overlay, metric, boundary, resolution);
   Witness& witness = region.witness;
   witness.width = not_negative(shape.width * enclose(geometry.step));
   // The point belongs to one of the faces: say what is wrong right there. A region of several faces
@@ -305,7 +306,7 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
     overlay.for_each_halfedge(worst, [&](std::uint32_t h) {
       if (overlay.halfedges()[Overlay::twin(h)].face != worst) own.push_back(h);
     });
-    inner = measure_region(overlay, metric, own).interior;
+    inner = measure_region(overlay, metric, own, resolution).interior;
   }
   const Cell& cell = cells[worst];
   witness.kind = kind_of(cell);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <queue>
 
 namespace gnomon::oracle {
@@ -11,7 +12,8 @@ namespace gnomon::oracle {
 namespace {
 
 constexpr std::size_t kMostTrapezoids = 100'000;
-constexpr int kMostHalvings = 600;
+constexpr std::size_t kStepsAnEdge = 400;  // a break between two edges takes some 160 to isolate
+constexpr std::size_t kMostSteps = 40'000;
 constexpr double kCloseEnough = 1.05;  // ratio of the bounds
 constexpr int kBits = 256;             // of coordinates relative to the overlay's box
 
@@ -111,30 +113,52 @@ ChartMetric::ChartMetric(const Chart& chart) {
   c = std::sqrt((1 + g * g + h * h) / (1 + g * g));
 }
 
-RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
-                           const std::vector<std::uint32_t>& boundary) {
-  RegionShape result;
-  std::vector<BoundaryEdge> edges;
-  std::vector<ChartPoint> stops;
-  for (std::uint32_t halfedge : boundary) {
-    const ChartPoint& p = overlay.point(overlay.halfedges()[halfedge].origin);
-    const ChartPoint& q = overlay.point(overlay.target(halfedge));
-    const bool forward = compare(p, q) < 0;
-    edges.push_back({forward ? p : q, forward ? q : p, {}, {}, {}});
-    edges.back().line = line_through(edges.back().left, edges.back().right);
-    stops.push_back(edges.back().left);
-    stops.push_back(edges.back().right);
+namespace {
+
+/// Slabs are cut along a direction (p, q) that is as far from parallel to all long edges as possible:
+/// then the two edges that bound a trapezoid are near everywhere in it, however the region winds.
+struct SlabDirection {
+  int p = 0, q = 1;
+  ChartPoint turn(const ChartPoint& point) const {
+    return {q * point.x - p * point.y, p * point.x + q * point.y, point.w};
   }
-  const auto before_x = [](const ChartPoint& p, const ChartPoint& q) {
-    return compare_x(p, q) < 0;
-  };
-  std::sort(stops.begin(), stops.end(), before_x);
-  stops.erase(std::unique(stops.begin(), stops.end(),
-                          [](const ChartPoint& p, const ChartPoint& q) {
-                            return compare_x(p, q) == 0;
-                          }),
-              stops.end());
-  const ChartPoint base = edges.front().left;
+  /// The inverse: back to the chart.
+  void turn_back(mpq_class& x, mpq_class& y) const {
+    const mpq_class u = x;
+    x = (q * u + p * y) / (p * p + q * q);
+    y = (q * y - p * u) / (p * p + q * q);
+  }
+};
+
+SlabDirection best_direction(const std::vector<Planar>& edges) {
+  constexpr int kReach = 7;  // some 70 directions, none special to axes or diagonals alone
+  constexpr double kLong = 1e-6;  // of the longest edge
+  double longest = 0;
+  for (const Planar& edge : edges) longest = std::max(longest, std::hypot(edge.x, edge.y));
+  SlabDirection best;
+  double best_sine = -1;
+  for (int p = -kReach; p <= kReach; ++p) {
+    for (int q = p > 0 ? 0 : 1; q <= kReach; ++q) {
+      if (std::gcd(p, q) != 1) continue;
+      double least = 1;
+      for (const Planar& edge : edges) {
+        const double length = std::hypot(edge.x, edge.y);
+        if (length <= kLong * longest) continue;
+        least = std::min(least, std::fabs(p * edge.y - q * edge.x) / (length * std::hypot(p, q)));
+        if (least <= best_sine) break;
+      }
+      if (least > best_sine) best_sine = least, best = {p, q};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
+                           const std::vector<std::uint32_t>& boundary, double resolution) {
+  RegionShape result;
+  const ChartPoint& base = overlay.point(overlay.halfedges()[boundary.front()].origin);
   const mpz_class base_x = overlay.fixed_value(base.x, base.w, kBits);
   const mpz_class base_y = overlay.fixed_value(base.y, base.w, kBits);
   const double unit = overlay.box_unit();
@@ -146,14 +170,40 @@ RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
     const double u = scaled(dx), v = scaled(dy);
     return Planar{metric.a * u + metric.b * v, metric.c * v};
   };
+  const auto planar_point = [&](const ChartPoint& point) {
+    return planar(point.x, point.w, point.y, point.w);
+  };
+  std::vector<BoundaryEdge> edges;
+  std::vector<Planar> directions;
   double size = 0;
-  for (BoundaryEdge& edge : edges) {
-    edge.a = planar(edge.left.x, edge.left.w, edge.left.y, edge.left.w);
-    edge.b = planar(edge.right.x, edge.right.w, edge.right.y, edge.right.w);
-    for (const Planar& p : {edge.a, edge.b}) {
-      size = std::max({size, std::fabs(p.x), std::fabs(p.y)});
-    }
+  for (std::uint32_t halfedge : boundary) {
+    const ChartPoint& p = overlay.point(overlay.halfedges()[halfedge].origin);
+    const ChartPoint& q = overlay.point(overlay.target(halfedge));
+    edges.push_back({p, q, {}, planar_point(p), planar_point(q)});
+    const Planar &a = edges.back().a, &b = edges.back().b;
+    const double v = (b.y - a.y) / metric.c;
+    directions.push_back({(b.x - a.x - metric.b * v) / metric.a, v});
+    size = std::max({size, std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y)});
   }
+  const SlabDirection direction = best_direction(directions);
+  std::vector<ChartPoint> stops;
+  for (BoundaryEdge& edge : edges) {
+    edge.left = direction.turn(edge.left);
+    edge.right = direction.turn(edge.right);
+    if (compare(edge.left, edge.right) > 0) std::swap(edge.left, edge.right);
+    edge.line = line_through(edge.left, edge.right);
+    stops.push_back(edge.left);
+    stops.push_back(edge.right);
+  }
+  const auto before_x = [](const ChartPoint& p, const ChartPoint& q) {
+    return compare_x(p, q) < 0;
+  };
+  std::sort(stops.begin(), stops.end(), before_x);
+  stops.erase(std::unique(stops.begin(), stops.end(),
+                          [](const ChartPoint& p, const ChartPoint& q) {
+                            return compare_x(p, q) == 0;
+                          }),
+              stops.end());
   std::sort(edges.begin(), edges.end(), [&](const BoundaryEdge& p, const BoundaryEdge& q) {
     return before_x(p.left, q.left);
   });
@@ -181,21 +231,29 @@ RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
     for (std::size_t i = 0; i + 1 < across.size(); i += 2) {
       const BoundaryEdge &below = edges[across[i].second], &above = edges[across[i + 1].second];
       Piece piece;
-      const auto corner = [&](const BoundaryEdge& edge, const mpq_class& x) {
-        const mpq_class y = height_at(edge.line, x);
+      const auto corner = [&](const BoundaryEdge& edge, mpq_class x) {
+        mpq_class y = height_at(edge.line, x);
+        direction.turn_back(x, y);
         return planar(x.get_num(), x.get_den(), y.get_num(), y.get_den());
       };
       piece.corners = {corner(below, low_x), corner(below, high_x), corner(above, high_x),
                        corner(above, low_x)};
-      piece.upper = std::min(farthest(piece, below), farthest(piece, above));
+      // Along the slab's direction every point of the piece is near one of the two edges.
+      const auto apart = [&](int i, int j) {
+        return std::hypot(piece.corners[i].x - piece.corners[j].x,
+                          piece.corners[i].y - piece.corners[j].y);
+      };
+      piece.upper = std::min({farthest(piece, below), farthest(piece, above),
+                              std::max(apart(0, 3), apart(1, 2)) / 2});
       const double area_like =
           std::min(piece.upper, std::hypot(piece.corners[1].x - piece.corners[0].x,
                                            piece.corners[1].y - piece.corners[0].y));
       if (area_like > widest) {
         widest = area_like;
-        mpq_class y = (across[i].first + across[i + 1].first) / 2;
-        const mpz_class w = lcm(middle_x.get_den(), y.get_den());
-        result.interior = {middle_x.get_num() * (w / middle_x.get_den()),
+        mpq_class x = middle_x, y = (across[i].first + across[i + 1].first) / 2;
+        direction.turn_back(x, y);
+        const mpz_class w = lcm(x.get_den(), y.get_den());
+        result.interior = {x.get_num() * (w / x.get_den()),
                            y.get_num() * (w / y.get_den()), w};
         reduce(result.interior);
       }
@@ -204,10 +262,13 @@ RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
     }
   }
 
+  const double rounding = 0x1p-47 * size;
+  const double fine = std::max(4 * rounding, unit > 0 ? resolution / 2 / unit : 0.0);
+  const std::size_t most_steps = std::min(kMostSteps, 600 + kStepsAnEdge * edges.size());
   double lower = 0;
-  for (int step = 0; step < kMostHalvings && !queue.empty(); ++step) {
+  for (std::size_t step = 0; step < most_steps && !queue.empty(); ++step) {
     Piece piece = queue.top();
-    if (piece.upper <= lower * kCloseEnough) break;
+    if (piece.upper <= std::max(lower * kCloseEnough, fine)) break;
     queue.pop();
     if (!piece.refined) {
       for (const BoundaryEdge& edge : edges) {
@@ -227,7 +288,6 @@ RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
   }
   double upper = queue.empty() ? lower : std::max(lower, queue.top().upper);
   if (!complete) upper = 2 * size;  // said as it is: no better bound was computed
-  const double rounding = 0x1p-47 * size;
   result.width = {std::max(0.0, 2 * (lower - rounding)) * unit, 2 * (upper + rounding) * unit};
   return result;
 }

@@ -28,8 +28,9 @@ struct RegionShape {
 };
 
 /// `boundary`: the halfedges that have the region on their left and something else on their right.
+/// Bounds closer than `resolution` (grid units) are not made closer.
 RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
-                           const std::vector<std::uint32_t>& boundary);
+                           const std::vector<std::uint32_t>& boundary, double resolution);
 
 }  // namespace gnomon::oracle
 

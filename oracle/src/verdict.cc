@@ -178,6 +178,7 @@ void Certifier::compare_all() {
   }
   ComparisonOptions comparison_options;
   comparison_options.clearance = options_.clearance;
+  comparison_options.width_resolution = report_.width / 16;
   comparison_options.exact_limit = options_.exact_limit;
   comparison_options.most_regions = options_.most_regions;
   std::mutex mutex;

@@ -46,6 +46,7 @@ struct ErrorRegion {
 
 struct ComparisonOptions {
   double clearance = 0;            // scene units; 0: nothing is ill-conditioned
+  double width_resolution = 0;     // scene units; widths need not be told more closely
   std::size_t exact_limit = 200;   // boundary edges up to which an area is also given exactly
   std::size_t most_regions = 16;   // kept with their witness, widest first
 };
