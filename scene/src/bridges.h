@@ -7,18 +7,17 @@
 #include <numeric>
 #include <optional>
 
-#include "chart.h"
+#include "region_loops.h"
 
 namespace gnomon::scene_detail {
 
 template <class Int>
 class Bridges {
  public:
-  /// Requires: rings that RingCheck has passed. The loop starts at its smallest key.
-  Bridges(const CutInput<Int>& input, const Chart<Int>& chart)
-      : chart_(chart), ring_(input.rings[0]) {
-    holes_.assign(input.rings.begin() + 1, input.rings.end());
-    for (Ring& hole : holes_) start_at_smallest_key(chart, hole);
+  Bridges(const Chart<Int>& chart, RegionComponent component)
+      : chart_(chart), ring_(std::move(component.loop)), holes_(std::move(component.holes)) {
+    start_at_smallest_key(chart_, ring_);
+    for (Ring& hole : holes_) start_at_smallest_key(chart_, hole);
     std::sort(holes_.begin(), holes_.end(), [&](const Ring& a, const Ring& b) {
       return std::lexicographical_compare(
           a.begin(), a.end(), b.begin(), b.end(),
@@ -26,18 +25,10 @@ class Bridges {
     });
   }
 
-  static void start_at_smallest_key(const Chart<Int>& chart, Ring& ring) {
-    std::rotate(ring.begin(),
-                std::min_element(
-                    ring.begin(), ring.end(),
-                    [&](std::uint32_t a, std::uint32_t b) { return chart.key(a) < chart.key(b); }),
-                ring.end());
-  }
-
   /// Nothing if some hole sees no other ring, which legal rings exclude.
   std::optional<Ring> run() {
     while (!holes_.empty()) {
-      if (!join_touching() && !join_by_bridge()) return std::nullopt;
+      if (!join_by_bridge()) return std::nullopt;
     }
     return std::move(ring_);
   }
@@ -52,35 +43,6 @@ class Bridges {
     return order;
   }
 
-  bool join_touching() {
-    for (std::size_t h = 0; h < holes_.size(); ++h) {
-      const Ring& hole = holes_[h];
-      for (const std::size_t j : by_key(hole)) {
-        for (std::size_t i = 0; i < ring_.size(); ++i) {
-          if (ring_[i] != hole[j]) continue;
-          // Of several visits of the ring to this vertex, the one whose angle holds the hole's
-          // solid.
-          const std::uint32_t p = hole[before(hole, j)], v = hole[j], n = hole[after(hole, j)];
-          Int dx = chart_.x(n) + chart_.x(p) - 2 * chart_.x(v);
-          Int dy = chart_.y(n) + chart_.y(p) - 2 * chart_.y(v);
-          const Sign turn = chart_.turn(p, v, n);  // the solid is to the right of p -> v -> n
-          if (turn == Sign::kPositive) {
-            dx = -dx;
-            dy = -dy;
-          } else if (turn == Sign::kZero) {
-            dx = chart_.y(n) - chart_.y(v);
-            dy = chart_.x(v) - chart_.x(n);
-          }
-          const Int tx = chart_.x(v) + dx, ty = chart_.y(v) + dy;
-          if (!chart_.in_cone(ring_[before(ring_, i)], v, ring_[after(ring_, i)], tx, ty)) continue;
-          splice(h, i, j, false);
-          return true;
-        }
-      }
-    }
-    return false;
-  }
-
   bool join_by_bridge() {
     const std::vector<std::size_t> ring_order = by_key(ring_);
     for (std::size_t h = 0; h < holes_.size(); ++h) {
@@ -91,7 +53,7 @@ class Bridges {
               blocked(ring_[i], hole[j])) {
             continue;
           }
-          splice(h, i, j, true);
+          splice(h, i, j);
           return true;
         }
       }
@@ -119,18 +81,12 @@ class Bridges {
   }
 
   /// Puts hole h into the ring behind its i-th vertex, starting at its own j-th.
-  void splice(std::size_t h, std::size_t i, std::size_t j, bool bridge) {
+  void splice(std::size_t h, std::size_t i, std::size_t j) {
     Ring chain = std::move(holes_[h]);
     holes_.erase(holes_.begin() + static_cast<std::ptrdiff_t>(h));
     std::rotate(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(j), chain.end());
-    const std::uint32_t from = ring_[i], to = chain[0];
-    if (bridge) {
-      chain.push_back(to);
-      chain.push_back(from);
-    } else {
-      chain.erase(chain.begin());
-      chain.push_back(to);
-    }
+    chain.push_back(chain[0]);
+    chain.push_back(ring_[i]);
     ring_.insert(ring_.begin() + static_cast<std::ptrdiff_t>(i) + 1, chain.begin(), chain.end());
   }
 

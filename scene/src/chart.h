@@ -83,6 +83,20 @@ class Chart {
     return sum;
   }
 
+  /// The middle of (a, b), which is not on the ring, is inside it.
+  bool middle_is_inside(const Ring& ring, std::uint32_t a, std::uint32_t b) const {
+    const Int mx = x(a) + x(b), my = y(a) + y(b);  // doubled
+    bool inside = false;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const std::uint32_t p = ring[i], q = ring[i + 1 == ring.size() ? 0 : i + 1];
+      const Int px = 2 * x(p), py = 2 * y(p), qx = 2 * x(q), qy = 2 * y(q);
+      if ((py > my) == (qy > my)) continue;
+      const Int side = (qx - px) * (my - py) - (qy - py) * (mx - px);
+      if ((side > 0) == (qy > py)) inside = !inside;
+    }
+    return inside;
+  }
+
  private:
   const CutInput<Int>& input_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Merges triangles into convex parts across their diagonals: rule 3 of polygon_cut.h. Private to
+// Merges triangles into convex parts across their diagonals: rule 4 of polygon_cut.h. Private to
 // scene/src.
 #ifndef GNOMON_SCENE_SRC_CONVEX_MERGE_H
 #define GNOMON_SCENE_SRC_CONVEX_MERGE_H

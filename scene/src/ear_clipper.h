@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Triangulates a weakly simple ring by clipping ears: rule 2 of polygon_cut.h. Private to
+// Triangulates a weakly simple ring by clipping ears: rule 3 of polygon_cut.h. Private to
 // scene/src.
 //
-// Why the test of an ear needs vertices only: no edge of a weakly simple ring crosses the ear's two
-// own edges, so an edge that enters the open triangle ends in it, on its diagonal, or at one of its
-// corners; and one that starts at a corner and runs inside must end in the closed triangle as well.
-// So if no vertex other than the corners' places lies in the closed triangle, nothing of the ring
-// is inside.
+// Why the test of an ear needs vertices only: no edge of the ring crosses the ear's two own edges,
+// and where the ring visits the ear's tip again it has another angle there, so an edge that enters
+// the open triangle ends in it or on its diagonal, or starts at an end of the diagonal and then
+// must end in the closed triangle as well. So if no vertex but the corners' places lies in the
+// closed triangle, nothing of the ring is inside.
 #ifndef GNOMON_SCENE_SRC_EAR_CLIPPER_H
 #define GNOMON_SCENE_SRC_EAR_CLIPPER_H
 
@@ -35,20 +35,15 @@ class EarClipper {
 
   /// False if no ear is left before the ring is used up: then it was not weakly simple.
   bool run(std::vector<Triangle>& triangles) {
-    for (std::uint32_t i = 0; i < nodes_.size(); ++i) drop_spikes(i);
     for (std::uint32_t i = 0; i < nodes_.size(); ++i) look(i);
     while (alive_ >= 3) {
       if (ears_.empty()) return false;
       const std::uint32_t tip = ears_.begin()->second;
       const std::uint32_t p = nodes_[tip].previous, n = nodes_[tip].next;
       triangles.push_back({nodes_[p].vertex, nodes_[tip].vertex, nodes_[n].vertex});
-      touched_.clear();
       remove(tip);
-      touched_.push_back(p);
-      touched_.push_back(n);
-      drop_spikes(p);
-      drop_spikes(n);
-      for (std::size_t k = 0; k < touched_.size(); ++k) renew(touched_[k]);
+      renew(p);
+      renew(n);
       resume_watchers();
     }
     return true;
@@ -75,24 +70,6 @@ class EarClipper {
     ears_.erase({chart_.key(node.vertex), i});
     freed_.insert(freed_.end(), node.watchers.begin(), node.watchers.end());
     node.watchers.clear();
-  }
-
-  /// Where the ring runs along an edge and straight back, both ways cancel.
-  void drop_spikes(std::uint32_t start) {
-    std::vector<std::uint32_t> suspects{start};
-    while (!suspects.empty()) {
-      const std::uint32_t i = suspects.back();
-      suspects.pop_back();
-      if (alive_ < 3 || !nodes_[i].alive) continue;
-      const std::uint32_t p = nodes_[i].previous, n = nodes_[i].next;
-      if (nodes_[p].vertex != nodes_[n].vertex) continue;
-      remove(i);
-      remove(n);
-      for (const std::uint32_t k : {p, nodes_[p].next}) {
-        suspects.push_back(k);
-        touched_.push_back(k);
-      }
-    }
   }
 
   void renew(std::uint32_t i) {
@@ -141,7 +118,6 @@ class EarClipper {
   std::vector<Node> nodes_;
   std::size_t alive_ = 0;
   std::set<std::pair<std::uint32_t, std::uint32_t>> ears_;  // (key, node)
-  std::vector<std::uint32_t> touched_;
   std::vector<Watcher> freed_;
 };
 

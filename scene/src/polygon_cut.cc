@@ -12,14 +12,15 @@ namespace gnomon::scene_detail {
 template <class Int>
 tl::expected<std::vector<Ring>, CutProblem> cut_into_convex_parts(CutInput<Int> input) {
   const Chart<Int> chart(input);
-  Bridges<Int>::start_at_smallest_key(chart, input.rings[0]);
+  start_at_smallest_key(chart, input.rings[0]);
   if (auto problem = RingCheck<Int>(input, chart).run()) return tl::unexpected(std::move(*problem));
 
-  std::optional<Ring> ring = Bridges<Int>(input, chart).run();
   std::vector<Triangle> triangles;
-  if (!ring || !EarClipper<Int>(chart, *ring).run(triangles)) {
-    return tl::unexpected(
-        CutProblem{0, "cannot be triangulated: its rings meet in a way that encloses nothing"});
+  for (RegionComponent& component : region_components(chart, input.rings)) {
+    const std::optional<Ring> ring = Bridges<Int>(chart, std::move(component)).run();
+    if (!ring || !EarClipper<Int>(chart, *ring).run(triangles)) {
+      return tl::unexpected(CutProblem{0, "cannot be triangulated"});
+    }
   }
   std::vector<Ring> parts;
   if (input.planar) {
@@ -28,7 +29,7 @@ tl::expected<std::vector<Ring>, CutProblem> cut_into_convex_parts(CutInput<Int> 
     for (const Triangle& triangle : triangles) parts.emplace_back(triangle.begin(), triangle.end());
   }
   const auto by_key = [&](std::uint32_t a, std::uint32_t b) { return chart.key(a) < chart.key(b); };
-  for (Ring& part : parts) Bridges<Int>::start_at_smallest_key(chart, part);
+  for (Ring& part : parts) start_at_smallest_key(chart, part);
   std::sort(parts.begin(), parts.end(), [&](const Ring& a, const Ring& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), by_key);
   });

@@ -8,16 +8,19 @@
 //
 // The rule, by vertex indices of the scene alone (`key`), so that it depends neither on where a
 // loop starts nor on its direction:
-//  1. A hole that touches the ring is joined to it where it does, at the smallest key; the others
-//  by
-//     bridges: holes in order of their smallest key, the vertices of the hole and then of the ring
-//     in order of key, the first pair that sees each other.
-//  2. The ear at the smallest key is clipped, again and again. An ear is a strictly convex corner
+//  1. Edges that two rings share cancel, and rings that touch in vertices become one
+//  (region_loops.h); a
+//     polygon that its holes cut apart falls into components.
+//  2. Holes inside a component are joined to its ring by bridges: holes in order of their smallest
+//  key,
+//     the vertices of the hole and then of the ring in order of key, the first pair that sees each
+//     other.
+//  3. The ear at the smallest key is clipped, again and again. An ear is a strictly convex corner
 //  whose
 //     *closed* triangle holds no other vertex of the ring, but for vertices at its own three
 //     corners: so a vertex that only touches an ear's edge or its diagonal forbids the ear, and no
 //     triangle ever has a vertex of the polygon inside one of its edges.
-//  3. For planar polygons, parts are merged across diagonals (bridges among them), in order of the
+//  4. For planar polygons, parts are merged across diagonals (bridges among them), in order of the
 //     diagonals' sorted pairs of keys, while the union is convex; then collinear vertices are
 //     dropped.
 #ifndef GNOMON_SCENE_SRC_POLYGON_CUT_H

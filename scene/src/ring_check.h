@@ -143,21 +143,6 @@ class RingCheck {
     return std::nullopt;
   }
 
-  /// The middle of (a, b), which is not on the ring, is inside it.
-  bool middle_is_inside(const Ring& ring, std::uint32_t a, std::uint32_t b) const {
-    const Int mx = chart_.x(a) + chart_.x(b), my = chart_.y(a) + chart_.y(b);  // doubled
-    bool inside = false;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const std::uint32_t p = ring[i], q = ring[after(ring, i)];
-      const Int px = 2 * chart_.x(p), py = 2 * chart_.y(p), qx = 2 * chart_.x(q),
-                qy = 2 * chart_.y(q);
-      if ((py > my) == (qy > my)) continue;
-      const Int side = (qx - px) * (my - py) - (qy - py) * (mx - px);
-      if ((side > 0) == (qy > py)) inside = !inside;
-    }
-    return inside;
-  }
-
   std::optional<CutProblem> check_containment() const {
     using DirectedEdges = std::set<std::pair<std::uint32_t, std::uint32_t>>;
     const auto& rings = input_.rings;
@@ -171,13 +156,14 @@ class RingCheck {
     for (std::size_t r = 1; r < rings.size(); ++r) {
       for (const auto& [a, b] : edges[r]) {
         // On the loop a hole's edge runs against it if the hole is inside.
-        const bool leaves = edges[0].contains({a, b}) ||
-                            (!edges[0].contains({b, a}) && !middle_is_inside(rings[0], a, b));
+        const bool leaves = edges[0].contains({a, b}) || (!edges[0].contains({b, a}) &&
+                                                          !chart_.middle_is_inside(rings[0], a, b));
         if (leaves) return CutProblem{r, "leaves the loop at edge " + edge_name(a, b)};
         for (std::size_t s = 1; s < rings.size(); ++s) {
           if (s == r) continue;
-          const bool overlaps = edges[s].contains({a, b}) ||
-                                (!edges[s].contains({b, a}) && middle_is_inside(rings[s], a, b));
+          const bool overlaps =
+              edges[s].contains({a, b}) ||
+              (!edges[s].contains({b, a}) && chart_.middle_is_inside(rings[s], a, b));
           if (overlaps) {
             return CutProblem{r,
                               fmt::format("overlaps hole {} at edge {}", s - 1, edge_name(a, b))};
