@@ -2,11 +2,13 @@
 #include "gnomon/algorithms/shadows.h"
 
 #include "gnomon/kernel/fp_environment.h"
+#include "light_selection.h"
 #include "shadow_kernels.h"
 
 namespace gnomon {
 
-Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options) {
+Expected<std::vector<std::uint32_t>> select_lights(const PreparedScene& scene,
+                                                   const ShadowOptions& options) {
   if (const auto environment = check_fp_environment(); !environment) {
     return tl::unexpected<Error>(environment.error());
   }
@@ -30,6 +32,13 @@ Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowO
     return fail(ErrorCode::kUsage, "plane thickness " + std::to_string(options.thickness),
                 "a fraction of the scene's diagonal, 0 <= thickness < 1");
   }
+  return lights;
+}
+
+Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options) {
+  const Expected<std::vector<std::uint32_t>> selected = select_lights(scene, options);
+  if (!selected) return tl::unexpected<Error>(selected.error());
+  const std::vector<std::uint32_t>& lights = *selected;
   switch (options.kernel) {
     case KernelId::kFloat: return shadows_float(scene, options, lights);
     case KernelId::kDouble: return shadows_double(scene, options, lights);

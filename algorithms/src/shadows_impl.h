@@ -48,11 +48,11 @@ class LightRun {
   using Vertex = typename Space::Vertex;
 
   LightRun(const PreparedScene& scene, const ShadowOptions& options, SceneSpace& scene_space,
-           std::uint32_t light)
+           std::uint32_t light, const KernelOptions& kernel_options)
       : scene_(scene),
         options_(options),
         scene_space_(scene_space),
-        space_(scene_space, scene.lights[light].point, kernel_options(options)),
+        space_(scene_space, scene.lights[light].point, kernel_options),
         tree_(space_, options.merge) {
     result_.light = light;
     plane_signs_.reserve(scene.geometry.planes.size());
@@ -71,9 +71,6 @@ class LightRun {
     result_.facing_parts = facing_parts_.size();
   }
 
-  static KernelOptions kernel_options(const ShadowOptions& options) {
-    return {options.identity, options.thickness};
-  }
   const std::vector<std::uint32_t>& facing_parts() const { return facing_parts_; }
 
   /// False if interrupted. `progress(done)` gets the number of nodes done.
@@ -300,11 +297,12 @@ Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
   const auto interrupted = [] { return fail(ErrorCode::kInterrupted, "interrupted"); };
 
   const double start = cpu_seconds();
-  SceneSpace scene_space(scene.geometry, LightRun<Space>::kernel_options(options));
+  const KernelOptions kernel_options{options.identity, options.thickness};
+  SceneSpace scene_space(scene.geometry, kernel_options);
   std::deque<LightRun<Space>> runs;  // never moved: a run's tree refers to its space
   std::vector<bool> needed(scene.parts.size(), false);
   for (const std::uint32_t light : lights) {
-    runs.emplace_back(scene, options, scene_space, light);
+    runs.emplace_back(scene, options, scene_space, light, kernel_options);
     for (const std::uint32_t part : runs.back().facing_parts()) needed[part] = true;
   }
   // Only what faces some light has to be in order.

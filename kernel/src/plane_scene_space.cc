@@ -176,10 +176,7 @@ Sign PlaneSceneSpace<Stats>::exact_side(PlaneId plane, const Corner<Vertex>& cor
 template <class Stats>
 typename PlaneSceneSpace<Stats>::Vertex PlaneSceneSpace<Stats>::crossing(
     PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from, const Corner<Vertex>& to) const {
-  Vertex vertex;
-  vertex.error = kInfinity;
   const FilteredPlane& filtered = planes_[plane.index()];
-  if (!filtered.usable) return vertex;
   const auto value = [&](const Vertex& v) {
     return filtered.n[0] * v.x[0] + filtered.n[1] * v.x[1] + filtered.n[2] * v.x[2] - filtered.d;
   };
@@ -187,18 +184,21 @@ typename PlaneSceneSpace<Stats>::Vertex PlaneSceneSpace<Stats>::crossing(
   const double input_error = std::max(from.vertex.error, to.vertex.error);
   const double value_error = error_bound(input_error);
   const double gap = std::fabs(at_from - at_to);
-  if (!(gap > 8 * value_error)) return vertex;
-  const double t = std::clamp(at_from / (at_from - at_to), 0.0, 1.0);
-  // t = f / (f - g): each of f, g errs by value_error, so t errs by at most 2 value_error / (gap - 2
-  // value_error) <= 2.7 value_error / gap, plus two roundings.
-  const double t_error = 2.7 * value_error / gap + 4 * Ball::kUnit;
+  const bool known = filtered.usable && gap > 8 * value_error;
+  // Unknown: anything on the edge will do, since an infinite error keeps the filter from using it.
+  const double t = gap > 0 ? std::clamp(at_from / (at_from - at_to), 0.0, 1.0) : 0.5;
+  Vertex vertex;
   double span = 0;
   for (int k = 0; k < 3; ++k) {
     const double step = to.vertex.x[k] - from.vertex.x[k];
     vertex.x[k] = from.vertex.x[k] + t * step;
     span = std::max(span, std::fabs(step));
   }
-  vertex.error = (input_error + (span + 2 * input_error) * t_error) * 1.01 + 8 * Ball::kUnit;
+  // t = f / (f - g): each of f, g errs by value_error, so t errs by at most 2 value_error / (gap - 2
+  // value_error) <= 2.7 value_error / gap, plus two roundings.
+  const double t_error = 2.7 * value_error / gap + 4 * Ball::kUnit;
+  vertex.error = known ? (input_error + (span + 2 * input_error) * t_error) * 1.01 + 8 * Ball::kUnit
+                       : kInfinity;
   return vertex;
 }
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Body of explain, instantiated for each rounded kernel.
+#ifndef GNOMON_ALGORITHMS_SRC_EXPLAIN_IMPL_H
+#define GNOMON_ALGORITHMS_SRC_EXPLAIN_IMPL_H
+
+#include "gnomon/algorithms/explain.h"
+#include "gnomon/kernel/plane_light_space.h"
+#include "shadows_impl.h"
+
+namespace gnomon {
+
+using Explanation = Expected<std::optional<FirstDifference>>;
+using LightList = std::vector<std::uint32_t>;
+
+Explanation explain_coordinates(const PreparedScene&, const ShadowOptions&, const LightList&);
+Explanation explain_epick(const PreparedScene&, const ShadowOptions&, const LightList&);
+
+template <LightSpaceModel Tested>
+Explanation explain_with(const PreparedScene& scene, const ShadowOptions& options,
+                         const LightList& lights) {
+  using Space = PairLightSpace<Tested, PlaneLightSpace<NoStats>>;
+  LockStep lock_step;
+  PairOptions kernel_options;
+  kernel_options.identity = options.identity;
+  kernel_options.thickness = options.thickness;
+  kernel_options.lock_step = &lock_step;
+  ShadowOptions run_options = options;
+  run_options.interrupted = &lock_step.stop;
+
+  typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
+  std::vector<std::uint32_t> parts(scene.parts.size());
+  for (std::uint32_t i = 0; i < parts.size(); ++i) parts[i] = i;
+  const auto bsp = build_scene_bsp(scene_space, scene, parts, options.seed, options.identity,
+                                   &lock_step.stop);
+  if (lock_step.first) return FirstDifference{*lock_step.first, std::nullopt};
+  for (const std::uint32_t light : lights) {
+    LightRun<Space> run(scene, run_options, scene_space, light, kernel_options);
+    if (!lock_step.first) run.run(bsp, [](std::size_t) {});
+    if (lock_step.first) return FirstDifference{*lock_step.first, light};
+  }
+  return std::optional<FirstDifference>();
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SRC_EXPLAIN_IMPL_H
