@@ -233,21 +233,25 @@ std::string escaped_token(std::string_view key) {
 
 Error json_syntax_error(rapidjson::ParseErrorCode code, std::string_view text, std::size_t offset,
                         const std::string& file, std::string pointer) {
-  Words words = words_for(code);
+  const bool is_control_character = code == rapidjson::kParseErrorStringEscapeInvalid &&
+                                    offset < text.size() &&
+                                    static_cast<unsigned char>(text[offset]) < 0x20;
+  const Words words =
+      words_for(is_control_character ? rapidjson::kParseErrorStringInvalidEncoding : code);
   std::string what = words.what;
   std::string expected = words.expected;
   ErrorCode cause = ErrorCode::kSyntax;
   const std::size_t rest = std::min(text.find_first_not_of(" \t\r\n", offset), text.size());
-  if (rest == text.size() && code != rapidjson::kParseErrorDocumentEmpty) {
+  if (rest == text.size() && !is_control_character && code != rapidjson::kParseErrorDocumentEmpty) {
     what = "the file ends too early";
     offset = text.size();
   } else if (code == rapidjson::kParseErrorValueInvalid) {
     offset = rest;
-    // The parser complains behind a minus sign.
-    if (offset > 0 && text[offset - 1] == '-') --offset;
+    // The parser may complain inside a word, such as behind a minus sign.
+    constexpr std::string_view kEndOfWord = " \t\r\n,:[]{}\"";
+    while (offset > 0 && kEndOfWord.find(text[offset - 1]) == std::string_view::npos) --offset;
     std::size_t end = offset + 1;
-    while (end < text.size() &&
-           std::string_view(" \t\r\n,:[]{}\"").find(text[end]) == std::string_view::npos) {
+    while (end < text.size() && kEndOfWord.find(text[end]) == std::string_view::npos) {
       ++end;
     }
     const std::string_view word = text.substr(offset, end - offset);

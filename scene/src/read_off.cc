@@ -23,6 +23,7 @@ class OffReader {
     for (std::int64_t i = 0; i < faces_; ++i) {
       if (auto done = face(i); !done) return tl::unexpected(std::move(done.error()));
     }
+    tokens_.next_line();  // behind the colour of the last face
     if (const auto token = tokens_.anywhere()) {
       return mesh_.error(ErrorCode::kFormat, quoted_text(token->text) + " after the last face",
                          "the end of the file: the counts in line 1 or 2 say so", token->offset);

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files: which format is read, what cannot be read, and that a file is written as a whole or not at
+// all.
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "gnomon/scene/output_file.h"
+#include "gnomon/scene/write.h"
+#include "scene_testing.h"
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string kOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+class Files : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "gnomon-scene-io-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    directory_ = pattern;
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  fs::path path(const std::string& name) const { return directory_ / name; }
+  fs::path put(const std::string& name, const std::string& text) const {
+    std::ofstream(path(name), std::ios::binary) << text;
+    return path(name);
+  }
+  static std::string content(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+  std::size_t file_count() const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
+  }
+  static Error error_of_file(const fs::path& file) {
+    auto result = read_scene(file);
+    EXPECT_FALSE(result);
+    return result ? Error() : result.error();
+  }
+
+  fs::path directory_;
+};
+
+TEST_F(Files, FormatByExtensionThenByContent) {
+  for (const char* name : {"a.obj", "a.OBJ", "a", "a.txt"}) {
+    EXPECT_TRUE(read_scene(put(name, kObj))) << name;
+  }
+  for (const char* name : {"a.off", "a.Off", "b", "b.txt"}) {
+    EXPECT_TRUE(read_scene(put(name, kOff))) << name;
+  }
+  EXPECT_TRUE(read_scene(put("full", full_json())));
+  EXPECT_TRUE(read_scene(put("full.txt", "\xEF\xBB\xBF\n" + full_json())));
+  const Scene scene = scene_of(kObj, "m.obj");
+  for (const auto format : {SceneFormat::kPlyAscii, SceneFormat::kPlyBinary}) {
+    EXPECT_TRUE(read_scene(put("ply", scene_to_text(scene, format)->text)));
+    EXPECT_TRUE(read_scene(put("m.ply", scene_to_text(scene, format)->text)));
+  }
+  // The extension decides where it says something, an option above all.
+  EXPECT_FALSE(read_scene(put("wrong.off", kObj)));
+  ReadOptions options;
+  options.format = SceneFormat::kObj;
+  EXPECT_TRUE(read_scene(put("right.off", kObj), options));
+  EXPECT_EQ(error_of_file(put("letter.txt", "Dear reader,\n")).what,
+            "neither the name nor the content tells the format");
+}
+
+TEST_F(Files, StandardInputIsJson) {
+  EXPECT_TRUE(parse_scene(full_json(), "<stdin>", {}));
+  EXPECT_FALSE(parse_scene(kObj, "<stdin>", {}));
+  EXPECT_EQ(scene_of(R"({"format": "gnomon-scene", "version": 1, "vertices": [], "polygons": []})",
+                     "<stdin>")
+                .name,
+            "");
+}
+
+TEST_F(Files, ThatCannotBeRead) {
+  EXPECT_EQ(to_string(error_of_file(path("absent.json"))),
+            path("absent.json").string() + ": cannot open: No such file or directory");
+  EXPECT_EQ(error_of_file(directory_).what, "is a directory");
+  EXPECT_EQ(error_of_file("").code, ErrorCode::kFile);
+  for (const char* name : {"a.json", "a.obj", "a.off", "a.ply", "a"}) {
+    EXPECT_EQ(error_of_file(put(name, "")).what, "the file is empty");
+  }
+  const fs::path secret = put("secret.obj", kObj);
+  fs::permissions(secret, fs::perms::none);
+  if (::geteuid() != 0) {
+    EXPECT_EQ(error_of_file(secret).code, ErrorCode::kFile);
+  }
+  EXPECT_EQ(error_of_file("/dev/null").what, "the file is empty");
+  // Endless, and found out at once.
+  EXPECT_EQ(error_of_file("/dev/zero").code, ErrorCode::kSyntax);
+}
+
+TEST_F(Files, WrittenAsAWhole) {
+  const Scene scene = scene_of(kObj, "m.obj");
+  ASSERT_TRUE(write_scene(scene, path("out.json"), SceneFormat::kJson));
+  auto back = read_scene(path("out.json"));
+  ASSERT_TRUE(back);
+  expect_same_scene(back->scene, scene);
+  EXPECT_EQ(file_count(), 1u);
+  {
+    auto file = OutputFile::open(path("out.json"));
+    ASSERT_TRUE(file);
+    ASSERT_TRUE(file->write("half of"));
+    EXPECT_EQ(file_count(), 2u);
+    EXPECT_EQ(content(path("out.json")), scene_to_text(scene, SceneFormat::kJson)->text);
+  }
+  // Not committed: all is as it was.
+  EXPECT_EQ(file_count(), 1u);
+  EXPECT_EQ(content(path("out.json")), scene_to_text(scene, SceneFormat::kJson)->text);
+  ASSERT_TRUE(write_file(path("out.json"), "new"));
+  EXPECT_EQ(content(path("out.json")), "new");
+  EXPECT_EQ(file_count(), 1u);
+}
+
+TEST_F(Files, KeepTheirModeAndTheirLinks) {
+  put("real", "old");
+  fs::permissions(path("real"), fs::perms::owner_read | fs::perms::owner_write);
+  fs::create_symlink("real", path("link"));
+  ASSERT_TRUE(write_file(path("link"), "new"));
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(content(path("real")), "new");
+  EXPECT_EQ(fs::status(path("real")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(Files, ThatCannotBeWritten) {
+  EXPECT_EQ(write_file(path("absent/out"), "x").error().code, ErrorCode::kFile);
+  EXPECT_THAT(to_string(write_file(directory_, "x").error()), HasSubstr("Is a directory"));
+  EXPECT_EQ(write_file("", "x").error().code, ErrorCode::kFile);
+  if (fs::exists("/dev/full")) {
+    EXPECT_THAT(to_string(write_file("/dev/full", "x").error()), HasSubstr("No space left"));
+  }
+  EXPECT_TRUE(write_file("/dev/null", "x"));
+  EXPECT_EQ(file_count(), 0u);
+}
+
+}  // namespace
+}  // namespace gnomon
