@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "exact_check.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "witness_check.h"
+
+namespace gnomon::test {
+namespace {
+
+std::string polygon_of(const Case& scene, std::uint32_t part) {
+  return scene.scene().polygons[scene.prepared().parts[part].polygon].id;
+}
+
+std::string light_of(const Case& scene, std::uint32_t light) {
+  return scene.scene().lights[scene.prepared().lights[light].light].id;
+}
+
+/// Facing and fractions of each group of coplanar parts against the oracle.
+std::string compare_with_oracle(const Case& scene, const ShadowResult& result) {
+  for (const LightResult& light : result.lights) {
+    for (const oracle::AnswerEntry& entry : scene.answer().entries(light.light)) {
+      for (const oracle::ReceiverGroup& group : entry.groups) {
+        if (group.optional) continue;
+        mpq_class lit = 0, shadow = 0;  // of the group's area
+        mpq_class whole = 0;
+        std::vector<mpq_class> areas;
+        for (const std::uint32_t part : group.parts) {
+          const PartResult& own = light.parts[part];
+          const std::string place =
+              fmt::format("{}, light '{}', polygon '{}'", result.kernel,
+                          light_of(scene, light.light), polygon_of(scene, part));
+          const bool faces = own.reason == ShadowReason::kNone;
+          const bool in_plane = own.reason == ShadowReason::kLightInPlane;
+          const auto side =
+              own.side == Side::kBack ? oracle::PolygonSide::kBack : oracle::PolygonSide::kFront;
+          if (faces != group.faces || in_plane != group.light_in_plane ||
+              (faces && side != entry.side)) {
+            return place + ": faces otherwise than the oracle says";
+          }
+          // Coplanar parts: areas are in the ratio of any component of their area vectors.
+          const Part& prepared = scene.prepared().parts[part];
+          const auto loop = scene.prepared().loop(prepared);
+          const GridPositions& grid = scene.prepared().geometry.grid;
+          std::array<mpz_class, 3> area;
+          for (std::size_t i = 2; i < loop.size(); ++i) {
+            for (int k = 0; k < 3; ++k) {
+              const int u = (k + 1) % 3, v = (k + 2) % 3;
+              area[k] += (grid.at(loop[i - 1], u) - grid.at(loop[0], u)) *
+                             (grid.at(loop[i], v) - grid.at(loop[0], v)) -
+                         (grid.at(loop[i - 1], v) - grid.at(loop[0], v)) *
+                             (grid.at(loop[i], u) - grid.at(loop[0], u));
+            }
+          }
+          mpq_class weight = 0;
+          for (const mpz_class& component : area) weight += abs(component);
+          lit += weight * own.exact_lit;
+          shadow += weight * own.exact_shadow;
+          whole += weight;
+        }
+        lit /= whole;
+        shadow /= whole;
+        const oracle::TrueFractions truth =
+            scene.answer().group_fractions(light.light, group, true);
+        if (!truth.lit.exact || !truth.shadow.exact) return "the oracle gave no exact fraction";
+        if (*truth.lit.exact != lit || *truth.shadow.exact != shadow) {
+          return fmt::format("{}, light '{}', polygon '{}': lit {}, but the oracle says {}",
+                             result.kernel, light_of(scene, light.light),
+                             polygon_of(scene, group.parts[0]), lit.get_str(),
+                             truth.lit.exact->get_str());
+        }
+      }
+    }
+  }
+  return {};
+}
+
+std::string check_sums(const Case& scene, const ShadowResult& result) {
+  for (const LightResult& light : result.lights) {
+    if (light.dropped_slivers != 0) return result.kernel + ": dropped slivers";
+    for (const PartResult& part : light.parts) {
+      const auto outside = [](const Interval& interval, const mpq_class& exact) {
+        return mpq_class(interval.lower) > exact || mpq_class(interval.upper) < exact;
+      };
+      if (part.exact_lit + part.exact_shadow != 1 || part.exact_lit < 0 || part.exact_shadow < 0 ||
+          outside(part.lit, part.exact_lit) || outside(part.shadow, part.exact_shadow)) {
+        return fmt::format(
+            "{}, light '{}', polygon '{}': lit {} in [{}, {}], shadow {} in [{}, {}]",
+            result.kernel, light_of(scene, light.light), polygon_of(scene, part.part),
+            part.exact_lit.get_str(), part.lit.lower, part.lit.upper, part.exact_shadow.get_str(),
+            part.shadow.lower, part.shadow.upper);
+      }
+    }
+  }
+  return {};
+}
+
+std::string compare_kernels(const Case& scene, const ShadowResult& a, const ShadowResult& b) {
+  if (a.lights.size() != b.lights.size()) return "not the same lights";
+  for (std::size_t l = 0; l < a.lights.size(); ++l) {
+    for (std::size_t p = 0; p < a.lights[l].parts.size(); ++p) {
+      const PartResult &one = a.lights[l].parts[p], &two = b.lights[l].parts[p];
+      if (one.exact_lit != two.exact_lit || one.exact_shadow != two.exact_shadow ||
+          one.reason != two.reason || one.side != two.side) {
+        return fmt::format("light '{}', polygon '{}': {} says lit {}, {} says {}",
+                           light_of(scene, a.lights[l].light), polygon_of(scene, one.part),
+                           a.kernel, one.exact_lit.get_str(), b.kernel, two.exact_lit.get_str());
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string check_exact(const Case& scene, const ExactCheck& check) {
+  ShadowResult first;
+  for (std::size_t i = 0; i < check.kernels.size(); ++i) {
+    ShadowOptions options = options_for(check.kernels[i]);
+    for (std::uint32_t light = 0; light < scene.prepared().lights.size(); ++light) {
+      if (!scene.is_area(light)) options.lights.push_back(light);
+    }
+    if (options.lights.empty()) return {};
+    if (check.vary_options) {
+      options.merge = i % 2 == 0;
+      options.prefix = i % 2 == 0;
+      options.seed = i + 1;
+    }
+    Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
+    if (!result) return to_string(result.error());
+    std::string wrong = check_sums(scene, *result);
+    if (wrong.empty() && check.witnesses) wrong = find_false_witness(scene, *result);
+    if (wrong.empty() && i == 0) wrong = compare_with_oracle(scene, *result);
+    if (wrong.empty() && i > 0) wrong = compare_kernels(scene, first, *result);
+    if (wrong.empty() && i == 0 && check.fragments) {
+      const oracle::Report report = judge(scene, *result);
+      if (report.oracle_fault) return "the oracle contradicts itself: " + report.reason;
+      if (report.verdict != oracle::Verdict::kIdentical) {
+        wrong = fmt::format("{}: {}: {}", result->kernel, oracle::name_of(report.verdict),
+                            report.reason);
+        for (const std::string& problem : report.problems) wrong += "; " + problem;
+        if (report.worst) wrong += "; " + report.worst->text;
+      }
+    }
+    if (!wrong.empty()) return wrong;
+    if (i == 0) first = std::move(*result);
+  }
+  return {};
+}
+
+std::vector<mpq_class> lit_fractions(const Case& scene, const ShadowOptions& options) {
+  const Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
+  if (!result) throw std::runtime_error(to_string(result.error()));
+  std::vector<mpq_class> fractions;
+  for (const LightResult& light : result->lights) {
+    for (const PartResult& part : light.parts) fractions.push_back(part.exact_lit);
+  }
+  return fractions;
+}
+
+mpq_class lit_fraction_of(const Case& scene, const ShadowOptions& options, const std::string& light,
+                          const std::string& polygon) {
+  const PreparedScene& prepared = scene.prepared();
+  const Expected<ShadowResult> result = compute_shadows(prepared, options);
+  if (!result) throw std::runtime_error(to_string(result.error()));
+  for (const LightResult& own : result->lights) {
+    if (light_of(scene, own.light) != light) continue;
+    for (const PartResult& part : own.parts) {
+      if (polygon_of(scene, part.part) != polygon) continue;
+      const std::uint32_t owner = prepared.parts[part.part].polygon;
+      if (prepared.first_part[owner + 1] - prepared.first_part[owner] != 1) {
+        throw std::runtime_error("polygon '" + polygon + "' has several parts");
+      }
+      return part.exact_lit;
+    }
+  }
+  throw std::runtime_error("no light '" + light + "' or no polygon '" + polygon + "'");
+}
+
+}  // namespace gnomon::test

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solve.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "gnomon/scene/read.h"
+#include "gnomon/scene/write.h"
+
+namespace gnomon::test {
+namespace {
+
+oracle::ExactPoint scene_point(const Geometry& geometry, VertexId vertex) {
+  oracle::ExactPoint point;
+  for (int k = 0; k < 3; ++k) {
+    point[k] = geometry.origin[k] + geometry.step * mpq_class(geometry.grid.at(vertex, k));
+  }
+  return point;
+}
+
+const char* name_of(ShadowReason reason) {
+  switch (reason) {
+    case ShadowReason::kNone:
+      return "";
+    case ShadowReason::kFacesAway:
+      return "faces-away";
+    case ShadowReason::kLightInPlane:
+      return "light-in-plane";
+    case ShadowReason::kBehindLight:
+      return "behind-light";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::unique_ptr<Case> Case::make(Scene scene, std::string* why) {
+  Expected<PreparedScene> prepared = prepare(scene);
+  if (!prepared) {
+    if (why != nullptr) *why = to_string(prepared.error());
+    return nullptr;
+  }
+  return std::unique_ptr<Case>(new Case(std::move(scene), std::move(*prepared)));
+}
+
+ShadowOptions options_for(KernelId kernel) {
+  ShadowOptions options;
+  options.kernel = kernel;
+  options.keep_exact_points = true;
+  options.exact_fractions = kernel_info(kernel).exact;
+  return options;
+}
+
+oracle::Candidate candidate_of(const Case& scene, const ShadowResult& result) {
+  const PreparedScene& prepared = scene.prepared();
+  oracle::Candidate candidate;
+  candidate.name = result.kernel;
+  const auto id_of_part = [&](std::uint32_t part) {
+    return scene.scene().polygons[prepared.parts[part].polygon].id;
+  };
+  for (const LightResult& light : result.lights) {
+    oracle::CandidateLight found;
+    found.id = scene.scene().lights[prepared.lights[light.light].light].id;
+    for (std::uint32_t polygon = 0; polygon < scene.scene().polygons.size(); ++polygon) {
+      const std::uint32_t begin = prepared.first_part[polygon];
+      const std::uint32_t end = prepared.first_part[polygon + 1];
+      if (begin == end) continue;
+      std::set<Side> sides;
+      for (std::uint32_t part = begin; part < end; ++part) {
+        if (light.parts[part].reason == ShadowReason::kNone) sides.insert(light.parts[part].side);
+      }
+      if (sides.empty()) sides.insert(Side::kFront);
+      for (const Side side : sides) {
+        oracle::CandidatePolygon entry;
+        entry.id = scene.scene().polygons[polygon].id;
+        entry.side = side == Side::kBack ? oracle::PolygonSide::kBack : oracle::PolygonSide::kFront;
+        for (std::uint32_t part = begin; part < end; ++part) {
+          const PartResult& own = light.parts[part];
+          if (own.reason != ShadowReason::kNone || own.side != side) {
+            oracle::CandidateFragment whole;
+            whole.shade = oracle::ShadeClass::kShadow;
+            whole.reason = own.reason == ShadowReason::kNone ? "faces-away" : name_of(own.reason);
+            for (const VertexId vertex : prepared.loop(prepared.parts[part])) {
+              whole.loop.push_back(scene_point(prepared.geometry, vertex));
+            }
+            entry.fragments.push_back(std::move(whole));
+            continue;
+          }
+          for (std::uint32_t i = 0; i < own.fragment_count; ++i) {
+            const Fragment& fragment = light.fragments[own.first_fragment + i];
+            oracle::CandidateFragment piece;
+            piece.shade = fragment.state == LightState::kLit ? oracle::ShadeClass::kLit
+                                                             : oracle::ShadeClass::kShadow;
+            if (fragment.caster != Fragment::kNoCaster) piece.caster = id_of_part(fragment.caster);
+            piece.loop.assign(light.exact_points.begin() + fragment.first,
+                              light.exact_points.begin() + fragment.first + fragment.count);
+            entry.fragments.push_back(std::move(piece));
+          }
+        }
+        found.polygons.push_back(std::move(entry));
+      }
+    }
+    candidate.lights.push_back(std::move(found));
+  }
+  return candidate;
+}
+
+oracle::Report judge(const Case& scene, const ShadowResult& result) {
+  oracle::CertifyOptions options;
+  options.strict = true;
+  options.threads = 1;
+  options.most_regions = 4;
+  const oracle::Candidate candidate = candidate_of(scene, result);
+  Expected<oracle::Report> report = oracle::certify(scene.answer(), candidate, options);
+  if (!report) throw std::runtime_error(to_string(report.error()));
+  return std::move(*report);
+}
+
+std::string text_of(const Scene& scene) {
+  const Expected<WrittenScene> written = scene_to_text(scene, SceneFormat::kJson);
+  return written ? written->text : to_string(written.error());
+}
+
+Scene regression_scene(const std::string& name) {
+  Expected<ReadResult> read = read_scene(std::string(GNOMON_REGRESSIONS) + "/" + name + ".json");
+  if (!read) throw std::runtime_error(to_string(read.error()));
+  return std::move(read->scene);
+}
+
+}  // namespace gnomon::test

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs a kernel on a scene and hands its result to the oracle as a candidate. Written for the tests
+// alone, so that they do not lean on the code that the command line uses for the same purpose.
+#ifndef GNOMON_TESTS_SUPPORT_SOLVE_H
+#define GNOMON_TESTS_SUPPORT_SOLVE_H
+
+#include <memory>
+#include <string>
+
+#include "gnomon/algorithms/shadows.h"
+#include "gnomon/oracle/exact_answer.h"
+#include "gnomon/oracle/verdict.h"
+#include "gnomon/scene/prepare.h"
+#include "gnomon/scene/scene.h"
+
+namespace gnomon::test {
+
+/// A scene with its preparation and its exact answer; they refer to each other and stay where they
+/// are.
+class Case {
+ public:
+  /// Null, with the message in `why`, if the scene cannot be prepared.
+  static std::unique_ptr<Case> make(Scene scene, std::string* why = nullptr);
+
+  const Scene& scene() const { return scene_; }
+  const PreparedScene& prepared() const { return prepared_; }
+  const oracle::ExactAnswer& answer() const { return answer_; }
+  bool is_area(std::uint32_t light) const {
+    return prepared_.lights[light].type == LightType::kArea;
+  }
+
+ private:
+  Case(Scene scene, PreparedScene prepared)
+      : scene_(std::move(scene)), prepared_(std::move(prepared)), answer_(scene_, prepared_) {}
+
+  Scene scene_;
+  PreparedScene prepared_;
+  oracle::ExactAnswer answer_;
+};
+
+/// Options for a comparison: exact points, and exact fractions if the kernel has them.
+ShadowOptions options_for(KernelId kernel);
+
+/// Requires: the result was computed with keep_exact_points.
+oracle::Candidate candidate_of(const Case& scene, const ShadowResult& result);
+
+/// Certified with one thread and no tolerance; area lights are left out.
+oracle::Report judge(const Case& scene, const ShadowResult& result);
+
+/// The scene as JSON, for messages.
+std::string text_of(const Scene& scene);
+
+/// tests/regressions/<name>.json. Throws std::runtime_error if it cannot be read.
+Scene regression_scene(const std::string& name);
+
+}  // namespace gnomon::test
+
+#endif  // GNOMON_TESTS_SUPPORT_SOLVE_H
