@@ -50,27 +50,29 @@ class FractionSum {
   std::vector<bool> filled_;
 };
 
-/// Measures fragments against the area of their part.
+/// Measures fragments against the area of their part. The part's loop must outlive it.
+template <LightSpaceModel Space>
 class PartMeasure {
  public:
-  /// An enclosure wider than this fraction of the part is replaced by exact arithmetic.
-  static constexpr double kWidest = 0x1p-40;
+  using Loop = LoopView<typename Space::Vertex>;
+  /// An enclosure whose radius is not below this fraction of the part is replaced by exact arithmetic;
+  /// most are far narrower.
+  static constexpr double kWidest = 0x1p-32;
 
-  template <LightSpaceModel Space>
-  PartMeasure(const Space& space, Chart chart, const LoopView<typename Space::Vertex>& part,
-              bool always_exact)
-      : chart_(chart), always_exact_(always_exact) {
-    area_ = enclosed_area(space, part);
-    if constexpr (Space::kExact) exact_area_ = exact_area(space, part);
-  }
+  PartMeasure(const Space& space, Chart chart, const Loop& part, bool always_exact)
+      : space_(space),
+        chart_(chart),
+        part_(part),
+        always_exact_(always_exact),
+        area_(enclosed_area(part)) {}
 
-  template <LightSpaceModel Space>
-  Fraction fraction(const Space& space, const LoopView<typename Space::Vertex>& loop) const {
+  Fraction fraction(const Loop& loop) {
     Fraction result;
-    result.enclosure = enclosed_area(space, loop) / area_;
+    result.enclosure = enclosed_area(loop) / area_;
     if constexpr (Space::kExact) {
       if (always_exact_ || !(result.enclosure.radius < kWidest)) {
-        result.exact = exact_area(space, loop) / exact_area_;
+        if (sgn(exact_area_) == 0) exact_area_ = exact_area(part_);
+        result.exact = exact_area(loop) / exact_area_;
         result.has_exact = true;
         const double value = result.exact.get_d();  // truncated: within one unit in the last place
         result.enclosure = Ball(value, 2 * Ball::kUnit * std::fabs(value) + Ball::kTiny);
@@ -81,26 +83,24 @@ class PartMeasure {
 
  private:
   /// Twice the signed area in the chart.
-  template <LightSpaceModel Space>
-  Ball enclosed_area(const Space& space, const LoopView<typename Space::Vertex>& loop) const {
+  Ball enclosed_area(const Loop& loop) const {
     Ball sum;
-    const auto first = space.position(loop.corner(0));
-    auto previous = space.position(loop.corner(1));
+    const auto first = space_.position(loop.corner(0));
+    auto previous = space_.position(loop.corner(1));
     for (std::uint32_t i = 2; i < loop.size(); ++i) {
-      const auto next = space.position(loop.corner(i));
+      const auto next = space_.position(loop.corner(i));
       sum = sum + (previous[chart_.u] - first[chart_.u]) * (next[chart_.v] - first[chart_.v]) -
             (previous[chart_.v] - first[chart_.v]) * (next[chart_.u] - first[chart_.u]);
       previous = next;
     }
     return sum;
   }
-  template <LightSpaceModel Space>
-  mpq_class exact_area(const Space& space, const LoopView<typename Space::Vertex>& loop) const {
+  mpq_class exact_area(const Loop& loop) const {
     mpq_class sum = 0;
-    const auto first = space.exact_position(loop.corner(0));
-    auto previous = space.exact_position(loop.corner(1));
+    const auto first = space_.exact_position(loop.corner(0));
+    auto previous = space_.exact_position(loop.corner(1));
     for (std::uint32_t i = 2; i < loop.size(); ++i) {
-      auto next = space.exact_position(loop.corner(i));
+      auto next = space_.exact_position(loop.corner(i));
       sum += (previous[chart_.u] - first[chart_.u]) * (next[chart_.v] - first[chart_.v]) -
              (previous[chart_.v] - first[chart_.v]) * (next[chart_.u] - first[chart_.u]);
       previous = std::move(next);
@@ -108,10 +108,12 @@ class PartMeasure {
     return sum;
   }
 
+  const Space& space_;
   Chart chart_;
+  Loop part_;
   bool always_exact_;
   Ball area_;
-  mpq_class exact_area_;
+  mpq_class exact_area_;  // 0 until it is needed
 };
 
 }  // namespace gnomon

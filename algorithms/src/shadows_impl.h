@@ -269,11 +269,11 @@ void LightRun<Space>::measure(PartResult& part, std::span<const ClassifiedLoop> 
   const Chart chart = chart_of(scene_.geometry, plane);
   import_part(part.part);
   const LoopView<Vertex> whole = imported_.view({0, imported_.size(), part.part}, plane);
-  const PartMeasure measure_part(space_, chart, whole, options_.exact_fractions);
+  PartMeasure<Space> measure_part(space_, chart, whole, options_.exact_fractions);
   FractionSum lit, shadow;
   for (const ClassifiedLoop& f : fragments) {
     (f.state == LightState::kLit ? lit : shadow)
-        .add(measure_part.fraction(space_, output_.loops.view(f.loop, plane)));
+        .add(measure_part.fraction(output_.loops.view(f.loop, plane)));
   }
   part.lit = lit.interval(Space::kExact);
   part.shadow = shadow.interval(Space::kExact);
