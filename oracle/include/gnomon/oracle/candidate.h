@@ -21,6 +21,7 @@ enum class PolygonSide : std::uint8_t { kFront, kBack };
 
 struct CandidateFragment {
   ShadeClass shade = ShadeClass::kLit;
+  bool exact = false;                   // the loop claims to be exact, not rounded to doubles
   std::vector<ExactPoint> loop;         // any orientation, not closed (first point not repeated)
   std::string caster;                   // polygon id of the witness, empty if none is named
   std::string reason;                   // "faces-away", "light-in-plane", "behind-light", or empty
