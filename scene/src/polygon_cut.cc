@@ -13,10 +13,19 @@ template <class Int>
 tl::expected<std::vector<Ring>, CutProblem> cut_into_convex_parts(CutInput<Int> input) {
   const Chart<Int> chart(input);
   start_at_smallest_key(chart, input.rings[0]);
-  if (auto problem = RingCheck<Int>(input, chart).run()) return tl::unexpected(std::move(*problem));
+  RingCheck<Int> check(input, chart);
+  if (auto problem = check.run()) return tl::unexpected(std::move(*problem));
+  std::vector<RegionComponent> components;
+  if (check.needs_tracing()) {
+    auto traced = RegionTracer<Int>(chart, input.rings).run();
+    if (!traced) return tl::unexpected(std::move(traced.error()));
+    components = std::move(*traced);
+  } else {
+    components.push_back({input.rings[0], {}});
+  }
 
   std::vector<Triangle> triangles;
-  for (RegionComponent& component : region_components(chart, input.rings)) {
+  for (RegionComponent& component : components) {
     const std::optional<Ring> ring = Bridges<Int>(chart, std::move(component)).run();
     if (!ring || !EarClipper<Int>(chart, *ring).run(triangles)) {
       return tl::unexpected(CutProblem{0, "cannot be triangulated"});

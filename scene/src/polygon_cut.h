@@ -2,9 +2,11 @@
 // Cuts a projected polygon with holes into triangles, and merges these into convex parts. Private
 // to scene/src; prepare.h says what it is for.
 //
-// Which loops are legal: every ring is a simple closed curve (it neither crosses nor touches
-// itself); holes lie inside the loop, their interiors do not overlap, and they may touch the loop
-// or each other in points and along edges. Everything else is a CutProblem that names two edges.
+// Which loops are legal: no ring crosses itself or another, none runs round an area twice; holes
+// lie inside the loop, and their interiors do not overlap. Rings may touch themselves and each
+// other, in points and along edges: a loop that reaches a hole along an edge and comes back on it
+// (a keyhole) is legal. Everything else is a CutProblem that names the place. In a polygon that is
+// not planar, rings may touch only in vertices that they share.
 //
 // The rule, by vertex indices of the scene alone (`key`), so that it depends neither on where a
 // loop starts nor on its direction:

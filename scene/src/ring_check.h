@@ -29,18 +29,21 @@ class RingCheck {
       Ring& hole = input_.rings[r];
       if (chart_.area(hole) > 0) std::reverse(hole.begin() + 1, hole.end());
     }
-    if (input_.rings.size() == 1) return std::nullopt;
+    if (!needs_tracing()) return std::nullopt;
     if (auto problem = share_touching_vertices()) return problem;
     if (auto problem = check_crossings()) return problem;
     return check_containment();
   }
+
+  /// Some ring touches itself or another: region_components() must trace them anew.
+  bool needs_tracing() const { return touches_ || input_.rings.size() > 1; }
 
  private:
   std::string edge_name(std::uint32_t a, std::uint32_t b) const {
     return fmt::format("{}-{}", chart_.key(a), chart_.key(b));
   }
 
-  std::optional<CutProblem> check_simple(std::size_t r) const {
+  std::optional<CutProblem> check_simple(std::size_t r) {
     const Ring& ring = input_.rings[r];
     const std::size_t n = ring.size();
     // Edges sorted by their left end; only edges whose x ranges overlap are compared.
@@ -72,13 +75,20 @@ class RingCheck {
             return CutProblem{r, fmt::format("turns back on itself at vertex {} in the projection",
                                              chart_.key(v))};
           }
-        } else if (chart_.meet(a, b, c, d)) {
-          return CutProblem{r,
-                            fmt::format("{} itself: edges {} and {}",
-                                        chart_.cross_properly(a, b, c, d) ? "crosses" : "touches",
-                                        i < j ? edge_name(a, b) : edge_name(c, d),
-                                        i < j ? edge_name(c, d) : edge_name(a, b))};
+          continue;
         }
+        if (!chart_.meet(a, b, c, d)) continue;
+        const bool crosses = chart_.cross_properly(a, b, c, d);
+        // Coming back to a vertex, or along an edge, is no crossing: keyhole loops do that on
+        // purpose.
+        const bool shares_vertex = a == c || a == d || b == c || b == d;
+        if (crosses || (!input_.planar && !shares_vertex)) {
+          return CutProblem{
+              r, fmt::format("{} itself: edges {} and {}", crosses ? "crosses" : "touches",
+                             i < j ? edge_name(a, b) : edge_name(c, d),
+                             i < j ? edge_name(c, d) : edge_name(a, b))};
+        }
+        touches_ = true;
       }
     }
     return std::nullopt;
@@ -93,9 +103,8 @@ class RingCheck {
         rings[r].push_back(a);
         std::vector<std::uint32_t> inside;
         for (std::size_t s = 0; s < rings.size(); ++s) {
-          if (s == r) continue;
           for (const std::uint32_t v : input_.rings[s]) {
-            if (!input_.planar && v != a && v != b &&
+            if (!input_.planar && s != r && v != a && v != b &&
                 (chart_.same_place(a, v) || chart_.same_place(b, v))) {
               return CutProblem{
                   s, fmt::format("touches another ring in the projection only, at vertex {}",
@@ -176,6 +185,7 @@ class RingCheck {
 
   CutInput<Int>& input_;
   const Chart<Int>& chart_;
+  bool touches_ = false;
 };
 
 }  // namespace gnomon::scene_detail
