@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// gnomon certify: run kernels on a scene, or read a foreign result, and let the oracle judge each.
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "certify_report.h"
+#include "commands.h"
+#include "gnomon/algorithms/explain.h"
+#include "gnomon/algorithms/shadows.h"
+#include "gnomon/oracle/read_candidate.h"
+#include "gnomon/oracle/verdict.h"
+#include "gnomon/report/candidate_from_result.h"
+#include "gnomon/report/certificate.h"
+#include "gnomon/report/number_text.h"
+#include "gnomon/report/polygon_sides.h"
+#include "gnomon/scene/digest.h"
+#include "interrupt.h"
+#include "kernel_choice.h"
+#include "messages.h"
+#include "output.h"
+#include "progress.h"
+#include "scene_options.h"
+
+namespace gnomon::cli {
+
+namespace {
+
+/// Up to so many parts the slow exact kernels run without being asked for.
+constexpr std::size_t kSmallScene = 200;
+
+struct CertifyCommandOptions {
+  SceneOptions scene;
+  std::vector<std::string> kernels;
+  std::vector<std::string> candidates;
+  double tolerance = 1e-9;
+  std::optional<double> width;
+  double thickness = kDefaultThickness;
+  double clearance = 0;
+  std::optional<std::uint64_t> leaks;
+  bool strict = false, subset = false, explain = false, times = false;
+  std::string report_directory;
+  std::string json;
+};
+
+Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& options,
+                                                   std::size_t parts) {
+  std::vector<KernelChoice> kernels;
+  for (const std::string& name : options.kernels) {
+    const auto kernel = parse_kernel_choice(name);
+    if (!kernel) return tl::unexpected(kernel.error());
+    if (std::ranges::find(kernels, *kernel) == kernels.end()) kernels.push_back(*kernel);
+  }
+  if (!kernels.empty() || !options.candidates.empty()) return kernels;
+  kernels = {{KernelId::kFloat, false},      {KernelId::kDouble, false}, {KernelId::kDouble, true},
+             {KernelId::kLongDouble, false}, {KernelId::kEpick, false}};
+  if (parts <= kSmallScene) {
+    kernels.push_back({KernelId::kEpeck, false});
+    kernels.push_back({KernelId::kRational, false});
+  }
+  kernels.push_back({KernelId::kPlane, false});
+  return kernels;
+}
+
+class CertifyRun {
+ public:
+  CertifyRun(const CertifyCommandOptions& options, const LoadedScene& loaded)
+      : options_(options),
+        loaded_(loaded),
+        answer_(loaded.scene, loaded.prepared),
+        progress_("certify") {
+    certificate_.scene = &loaded.scene;
+    certificate_.prepared = &loaded.prepared;
+    certificate_.geometry_digest = geometry_digest(loaded.scene);
+    certificate_.facing_area = report::facing_area(loaded.prepared, loaded.lights);
+    certificate_.left_out = loaded.area_lights;
+    for (std::uint32_t light : loaded.lights) {
+      certificate_.lights.push_back(loaded.scene.lights[light].id);
+    }
+  }
+
+  /// False on an interrupt. Errors: those of a candidate's file, and of options out of range.
+  Expected<void> run_candidate(const std::string& file) {
+    auto read = oracle::read_candidate(file, loaded_.scene);
+    if (!read) return tl::unexpected(read.error());
+    report::JudgedRun run;
+    run.name = file;
+    run.foreign = true;
+    for (const oracle::CandidateLight& light : read->lights) {
+      for (const oracle::CandidatePolygon& polygon : light.polygons) {
+        run.fragments += polygon.fragments.size();
+      }
+    }
+    return judge(std::move(run), std::move(*read));
+  }
+
+  Expected<void> run_kernel(const KernelChoice& kernel) {
+    report::JudgedRun run;
+    run.name = kernel.name();
+    run.exact = kernel.exact();
+    run.identity = kernel.identity;
+    run.thickness = kernel.exact() ? 0 : options_.thickness;
+
+    progress_.set_label("kernel " + run.name);
+    ShadowOptions shadow_options = options_of(kernel);
+    const auto seconds = cpu_time(shadow_options);
+    shadow_options.keep_exact_points = true;
+    auto result = seconds ? compute_shadows(loaded_.prepared, shadow_options)
+                          : Expected<ShadowResult>(tl::unexpected(seconds.error()));
+    progress_.clear();
+    if (!result) {
+      if (result.error().code == ErrorCode::kInterrupted) return tl::unexpected(result.error());
+      // A kernel that cannot finish is a finding about that kernel.
+      run.error = to_string(result.error());
+      limit_reached_ = limit_reached_ || result.error().code == ErrorCode::kLimit;
+      certificate_.runs.push_back(std::move(run));
+      return {};
+    }
+    run.cpu_seconds = *seconds;
+    for (const LightResult& light : result->lights) {
+      run.fragments += light.fragment_total;
+      run.dropped_slivers += light.dropped_slivers;
+    }
+    auto candidate = report::candidate_from_result(loaded_.scene, loaded_.prepared, *result,
+                                                   run.name, false);
+    return judge(std::move(run), std::move(candidate), kernel);
+  }
+
+  void set_interrupted() { certificate_.interrupted = true; }
+  const report::Certificate& certificate() const { return certificate_; }
+  const oracle::ExactAnswer& answer() const { return answer_; }
+  const std::vector<oracle::Candidate>& kept() const { return kept_; }
+
+  int status() const {
+    bool failed = false, disagree = false;
+    for (const report::JudgedRun& run : certificate_.runs) {
+      if (!run.report) {
+        failed = failed || !run.exact;
+        continue;
+      }
+      if (run.report->oracle_fault) disagree = true;
+      if (run.report->interrupted) continue;
+      if (run.exact && run.report->verdict != oracle::Verdict::kIdentical) disagree = true;
+      if (!run.exact && run.failed()) failed = true;
+    }
+    if (certificate_.interrupted) return kInterruptedStatus;
+    if (disagree) return kDisagree;
+    if (limit_reached_) return kLimitReached;
+    return failed ? kFailed : kDone;
+  }
+
+ private:
+  ShadowOptions options_of(const KernelChoice& kernel) {
+    ShadowOptions shadow_options;
+    shadow_options.kernel = kernel.kernel;
+    shadow_options.identity = kernel.identity;
+    shadow_options.thickness = options_.thickness;
+    shadow_options.lights = loaded_.lights;
+    shadow_options.progress = progress_.callback();
+    shadow_options.interrupted = &interrupted();
+    return shadow_options;
+  }
+
+  /// CPU seconds of the classification alone, without points for the oracle: the median of a few runs
+  /// where one is short.
+  Expected<double> cpu_time(const ShadowOptions& shadow_options) {
+    constexpr std::size_t kMostRuns = 5;
+    constexpr double kEnough = 0.05;
+    std::vector<double> seconds;
+    double total = 0;
+    while (seconds.size() < kMostRuns && total < kEnough) {
+      const auto result = compute_shadows(loaded_.prepared, shadow_options);
+      if (!result) return tl::unexpected(result.error());
+      seconds.push_back(result->scene_bsp_seconds + result->shadow_seconds);
+      total += seconds.back();
+    }
+    std::ranges::sort(seconds);
+    return seconds[seconds.size() / 2];
+  }
+
+  Expected<void> judge(report::JudgedRun run, oracle::Candidate candidate,
+                       std::optional<KernelChoice> kernel = std::nullopt) {
+    oracle::CertifyOptions certify_options;
+    certify_options.tolerance = options_.tolerance;
+    certify_options.width = options_.width;
+    certify_options.strict = options_.strict;
+    certify_options.clearance = options_.clearance;
+    certify_options.subset = options_.subset;
+    certify_options.leaks = options_.leaks;
+    certify_options.lights = loaded_.lights;
+    certify_options.progress = progress_.callback();
+    certify_options.interrupted = &interrupted();
+    progress_.set_label("judging " + run.name);
+    auto report = oracle::certify(answer_, candidate, certify_options);
+    progress_.clear();
+    if (!report) return tl::unexpected(report.error());
+    const bool stopped = report->interrupted;
+    run.report = std::move(*report);
+    if (options_.explain && kernel && !kernel->exact() &&
+        run.report->verdict != oracle::Verdict::kIdentical) {
+      run.explanation = first_difference(*kernel);
+    }
+    certificate_.runs.push_back(std::move(run));
+    if (!options_.report_directory.empty()) kept_.push_back(std::move(candidate));
+    if (stopped) return fail(ErrorCode::kInterrupted, "interrupted");
+    return {};
+  }
+
+  std::string first_difference(const KernelChoice& kernel) {
+    progress_.set_label("explaining " + kernel.name());
+    const auto difference = explain(loaded_.prepared, options_of(kernel));
+    progress_.clear();
+    if (!difference) return to_string(difference.error());
+    if (!*difference) return "none: every decision was right, only vertices were rounded";
+    std::vector<std::string> names;
+    for (const Light& light : loaded_.scene.lights) names.push_back(light.id);
+    return to_sentence(**difference, loaded_.prepared, kernel.name(), names);
+  }
+
+  const CertifyCommandOptions& options_;
+  const LoadedScene& loaded_;
+  oracle::ExactAnswer answer_;
+  ProgressBar progress_;
+  report::Certificate certificate_;
+  std::vector<oracle::Candidate> kept_;  // one a run that was judged, for the pictures
+  bool limit_reached_ = false;
+};
+
+int run_certify(const CertifyCommandOptions& options) {
+  auto loaded = load_scene(options.scene, true);
+  if (!loaded) return report_error(loaded.error());
+  const auto kernels = chosen_kernels(options, loaded->prepared.parts.size());
+  if (!kernels) return report_error(kernels.error());
+
+  CertifyRun run(options, *loaded);
+  for (const std::string& file : options.candidates) {
+    if (auto done = run.run_candidate(file); !done) {
+      if (done.error().code != ErrorCode::kInterrupted) return report_error(done.error());
+      run.set_interrupted();
+      break;
+    }
+  }
+  for (const KernelChoice& kernel : *kernels) {
+    if (interrupted()) run.set_interrupted();
+    if (run.certificate().interrupted) break;
+    if (auto done = run.run_kernel(kernel); !done) {
+      if (done.error().code != ErrorCode::kInterrupted) return report_error(done.error());
+      run.set_interrupted();
+    }
+  }
+
+  const std::string text = report::certificate_text(run.certificate());
+  if (auto done = write_output({}, text); !done) return report_error(done.error());
+  if (!options.json.empty()) {
+    auto output = Output::open(options.json);
+    if (!output) return report_error(output.error());
+    report::write_certificate_json(*output, run.certificate(), options.times);
+    if (auto done = output->finish(); !done) return report_error(done.error());
+  }
+  if (!options.report_directory.empty()) {
+    const auto done = write_certificate_report(options.report_directory, *loaded,
+                                               run.certificate(), run.kept(), options.times);
+    if (!done) return report_error(done.error());
+  }
+  return run.status();
+}
+
+}  // namespace
+
+void add_certify_command(CLI::App& app, Action& action) {
+  auto options = std::make_shared<CertifyCommandOptions>();
+  CLI::App& command =
+      *app.add_subcommand("certify", "Judge kernels, or a foreign result, against the exact answer");
+  command.footer(
+      "Without --kernel and --candidate, every kernel that suits the size of the scene is run.\n"
+      "Verdicts: identical; within tolerance; failed, with the worst place as a witness.\n\n"
+      "Examples:\n"
+      "  gnomon certify room.json\n"
+      "  gnomon certify room.json --kernel double --kernel double+identity --explain\n"
+      "  gnomon certify room.json --candidate other.result.json --tolerance 1e-6 --report out");
+  add_scene_options(command, options->scene);
+  repeatable(command.add_option("--kernel", options->kernels,
+                                "A kernel to run, such as double or double+identity (repeatable)"))
+      ->type_name("K");
+  repeatable(command.add_option("--candidate", options->candidates,
+                                "A result file to judge instead (repeatable)"))
+      ->type_name("RESULT");
+  command
+      .add_option("--tolerance", options->tolerance, "Wrong share of a polygon that is tolerated")
+      ->check(not_negative())
+      ->type_name("F")
+      ->default_str("1e-9");
+  command
+      .add_option("--width", options->width,
+                  "Width of a region of error that is tolerated, scene units "
+                  "[1e-9 of the scene's diagonal]")
+      ->check(not_negative())
+      ->type_name("W");
+  command.add_flag("--strict", options->strict, "Tolerance and width 0: identical or failed");
+  command
+      .add_option("--clearance", options->clearance,
+                  "Errors that moving one vertex by this much would undo are apart, not failures")
+      ->check(not_negative())
+      ->type_name("C");
+  command.add_option("--leaks", options->leaks, "Fail with more invented and lost regions than this")
+      ->type_name("N");
+  command.add_flag("--subset", options->subset,
+                   "A candidate need not have all lights and polygons");
+  command
+      .add_option("--thickness", options->thickness,
+                  "Rounded kernels: half the thickness of a plane, relative to the scene's diagonal")
+      ->check(not_negative())
+      ->type_name("F")
+      ->default_str(report::shortest(kDefaultThickness));
+  command.add_flag("--explain", options->explain,
+                   "Name the first decision in which a failing kernel differs from the exact one");
+  command.add_option("--report", options->report_directory,
+                     "Write verdict.json, table.txt and pictures to this directory")
+      ->type_name("DIR");
+  command.add_option("--json", options->json, "Write the verdicts as JSON; - is standard output")
+      ->type_name("FILE");
+  command.add_flag("--times", options->times, "CPU times in the JSON, which then is not stable");
+  command.callback([options, &action] { action = [options] { return run_certify(*options); }; });
+}
+
+}  // namespace gnomon::cli

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From parts back to the polygons of the file: every input polygon once for each side that faces the
+// light, or once with its front if none does, with the shares of its parts added up.
+//
+// Exactness: shares of coplanar parts are weighted by exact areas and summed as rationals; for a
+// polygon whose parts lie in several planes (areas are then square roots) the sum is a certified
+// enclosure.
+#ifndef GNOMON_REPORT_POLYGON_SIDES_H
+#define GNOMON_REPORT_POLYGON_SIDES_H
+
+#include <gmpxx.h>
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "gnomon/algorithms/shadow_result.h"
+#include "gnomon/kernel/sign.h"
+#include "gnomon/scene/prepare.h"
+
+namespace gnomon::report {
+
+/// A part as seen from one side of its polygon. If `reason` is set, the part is entirely in shadow
+/// there; else `result` holds its fragments.
+struct PartSide {
+  const PartResult* result = nullptr;
+  ShadowReason reason = ShadowReason::kNone;
+  Interval lit, shadow;  // fractions of the part's area
+};
+
+struct ClassifiedSide {
+  std::uint32_t polygon = 0;
+  Side side = Side::kFront;
+  std::vector<PartSide> parts;     // none if the polygon was dropped
+  ShadowReason reason = ShadowReason::kNone;  // set if all parts share it
+  bool coplanar = true;            // all parts lie in one plane
+  mpq_class area;                  // scene units squared, far closer than a double
+  Interval lit, shadow;            // fractions of the polygon's area
+  std::optional<mpq_class> exact_lit, exact_shadow;  // if coplanar and computed
+};
+
+/// The sides of one polygon that face the light, front before back; empty if it was dropped.
+/// `exact`: the parts carry exact fractions.
+std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const LightResult& light,
+                                       std::uint32_t polygon, bool exact);
+
+/// The exact share of one part, as far as `exact_fractions` were asked for.
+mpq_class exact_lit_share(const PartSide& part);
+mpq_class exact_shadow_share(const PartSide& part);
+
+/// Twice the part's area vector on the scene's grid, in the orientation of its own front.
+std::array<mpz_class, 3> doubled_area_vector(const PreparedScene& scene, const Part& part);
+/// The sign of the part's own plane at a point or directional light: positive if its front faces it.
+Sign sign_at_light(const PreparedScene& scene, const Part& part, const LightPoint& light);
+/// Bounds of the part's area in scene units squared; [0, infinity] beyond the range of doubles.
+Interval part_area(const PreparedScene& scene, const Part& part);
+
+/// The double nearest to the part's area, scene units squared.
+double nearest_area(const PreparedScene& scene, const Part& part);
+/// The area of a polygon's parts, to far more digits than a double has.
+mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon);
+/// The double nearest to a rational, ties to even; an infinity beyond the range.
+double nearest_double(const mpq_class& value);
+/// Area in scene units squared of all parts with a side that faces one of the lights, once a light.
+double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights);
+
+/// "faces-away", "light-in-plane", "behind-light"; empty for kNone.
+std::string_view reason_name(ShadowReason reason);
+std::string_view state_name(LightState state);
+std::string_view side_name(Side side);
+
+/// How many polygons have a side that faces the light, of those that were not dropped.
+struct FacingShare {
+  std::uint64_t facing = 0, away = 0, in_plane = 0;
+  double away_share() const {
+    const double all = static_cast<double>(facing + away + in_plane);
+    return all > 0 ? static_cast<double>(away + in_plane) / all : 0;
+  }
+};
+FacingShare facing_share(const PreparedScene& scene, const LightResult& light);
+
+}  // namespace gnomon::report
+
+#endif  // GNOMON_REPORT_POLYGON_SIDES_H

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "gnomon/report/certificate.h"
+#include "gnomon/report/number_text.h"
+#include "gnomon/report/table.h"
+
+namespace gnomon::report {
+
+namespace {
+
+std::string joined(const std::vector<std::string>& words, std::size_t most = 6) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size() && i < most; ++i) {
+    if (i > 0) text += ", ";
+    text += words[i];
+  }
+  if (words.size() > most) text += " and " + std::to_string(words.size() - most) + " more";
+  return text;
+}
+
+std::string plural(std::uint64_t count, const std::string& one) {
+  return grouped(count) + ' ' + one + (count == 1 ? "" : "s");
+}
+
+/// An upper bound for people; exact zero is "0".
+std::string bound(double upper) { return upper == 0 ? "0" : rounded(upper, 3); }
+
+std::string policy(const JudgedRun& run) {
+  if (run.foreign) return "foreign";
+  if (run.exact) return "exact";
+  return "thick " + rounded(run.thickness, 2);
+}
+
+/// Misclassified area (what is not covered counts) as a share of all area that faces a light.
+double error_share(const oracle::ComparisonTotals& totals, double facing_area) {
+  return facing_area > 0 ? totals.misclassified.upper / facing_area : 0;
+}
+
+/// CPU time of the kernel `double` without identity, the measure of all others.
+std::optional<double> reference_time(const std::vector<JudgedRun>& runs) {
+  for (const JudgedRun& run : runs) {
+    if (run.name == "double" && run.error.empty() && run.cpu_seconds > 0) return run.cpu_seconds;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> row(const JudgedRun& run, double facing_area,
+                             std::optional<double> reference) {
+  std::string time = "-";
+  if (!run.foreign && run.error.empty()) {
+    time = reference ? rounded(run.cpu_seconds / *reference, 2) + "x"
+                     : rounded(run.cpu_seconds, 3) + " s";
+  }
+  if (!run.report) return {run.name, policy(run), "no result", "-", "-", "-", "-", time};
+  const oracle::Report& report = *run.report;
+  const oracle::ComparisonTotals& totals = report.totals;
+  std::string verdict = name_of(report.verdict);
+  if (report.interrupted) verdict = "interrupted";
+  if (report.by_points) {
+    return {run.name, policy(run), verdict,
+            grouped(report.points_wrong) + " of " + grouped(report.points_checked) + " points",
+            grouped(totals.wrong_polygons), "-", grouped(run.fragments), time};
+  }
+  return {run.name,
+          policy(run),
+          verdict,
+          bound(error_share(totals, facing_area)),
+          grouped(totals.wrong_polygons) + " of " + grouped(totals.polygons),
+          bound(totals.width.upper),
+          grouped(run.fragments),
+          time};
+}
+
+void add_notes(const JudgedRun& run, TextTable& table) {
+  if (!run.error.empty()) {
+    table.add_note(run.error);
+    return;
+  }
+  const oracle::Report& report = *run.report;
+  if (report.oracle_fault) {
+    table.add_note("the oracle contradicts itself here: a bug of this program, please report it");
+  }
+  if (report.verdict == oracle::Verdict::kFailed) {
+    if (report.worst) table.add_note("worst: " + place_in_words(*report.worst));
+    const bool place_says_it = report.worst && report.problems.empty();
+    if (!report.reason.empty() && !place_says_it) table.add_note("why: " + report.reason);
+    const oracle::ComparisonTotals& totals = report.totals;
+    std::string counts;
+    const auto add = [&](std::uint64_t count, const std::string& what) {
+      if (count > 0) counts += (counts.empty() ? "" : ", ") + plural(count, what);
+    };
+    add(totals.regions, "region") ;
+    if (!counts.empty()) counts += " of error";
+    add(totals.invented, "invented region");
+    add(totals.lost, "lost region");
+    add(totals.ill_conditioned_regions, "ill-conditioned region");
+    add(totals.self_crossing, "self-crossing loop");
+    add(run.dropped_slivers, "loop") ;
+    if (run.dropped_slivers > 0) counts += " vanished in rounding";
+    if (totals.off_plane.upper > 0) {
+      counts += (counts.empty() ? "" : ", ") + std::string("vertices up to ") +
+                bound(totals.off_plane.upper) + " off their plane";
+    }
+    if (!counts.empty()) table.add_note(counts);
+  }
+  constexpr std::size_t kMostProblems = 5;
+  for (std::size_t i = 0; i < report.problems.size() && i < kMostProblems; ++i) {
+    table.add_note(report.problems[i]);
+  }
+  if (report.problems.size() > kMostProblems) {
+    table.add_note("and " + plural(report.problems.size() - kMostProblems, "problem") + " more");
+  }
+  for (const std::string& note : report.notes) table.add_note(note);
+  if (!run.explanation.empty()) table.add_note("first differing decision: " + run.explanation);
+}
+
+/// Whole sentences below the table.
+std::string conclusion(const Certificate& certificate) {
+  std::vector<std::string> identical, tolerated, failed, wrong_exact;
+  for (const JudgedRun& run : certificate.runs) {
+    if (run.report && run.report->interrupted) continue;
+    if (run.failed()) {
+      failed.push_back(run.name);
+    } else if (run.report->verdict == oracle::Verdict::kIdentical) {
+      identical.push_back(run.name);
+    } else {
+      tolerated.push_back(run.name);
+    }
+    const bool agrees = run.report && run.report->verdict == oracle::Verdict::kIdentical &&
+                        !run.report->oracle_fault;
+    if (run.exact && !agrees) wrong_exact.push_back(run.name);
+  }
+  std::string text;
+  if (!identical.empty()) text += "Identical to the exact answer: " + joined(identical, 20) + ". ";
+  if (!tolerated.empty()) text += "Within tolerance: " + joined(tolerated, 20) + ". ";
+  if (!failed.empty()) text += "Failed: " + joined(failed, 20) + ". ";
+  if (!wrong_exact.empty()) {
+    text += "Exact kernels that disagree with the oracle: " + joined(wrong_exact, 20) +
+            ". This is a bug of this program; please report it with the scene. ";
+  }
+  if (certificate.interrupted) text += "Interrupted: not everything was judged. ";
+  return text.empty() ? text : wrapped(text, TextTable::kWidth, 0, 0);
+}
+
+}  // namespace
+
+std::string place_in_words(const oracle::Witness& witness) {
+  std::string text = "light " + witness.light + ", polygon " + witness.polygon + " (" +
+                     name_of(witness.side) + ")";
+  if (witness.kind == oracle::ErrorKind::kNone) return text;
+  text += ", at (" + rounded(witness.nearest[0], 9) + ", " + rounded(witness.nearest[1], 9) + ", " +
+          rounded(witness.nearest[2], 9) + "): found " +
+          (witness.found ? name_of(*witness.found) : "nothing") + ", true " +
+          (witness.truth ? name_of(*witness.truth) : "outside the polygon");
+  if (!witness.caster.empty()) text += ", by caster " + witness.caster;
+  if (witness.width.upper > 0) text += "; " + bound(witness.width.upper) + " wide";
+  if (witness.clearance) {
+    text += "; moving one vertex by " + bound(*witness.clearance) + " would change it";
+  }
+  return text;
+}
+
+std::string certificate_text(const Certificate& certificate) {
+  const Scene& scene = *certificate.scene;
+  std::string text;
+  text += wrapped("scene " + (scene.name.empty() ? scene.file : scene.name) + ": " +
+                      plural(scene.polygons.size(), "polygon") + ", " +
+                      plural(certificate.prepared->parts.size(), "part") + ", numbers as " +
+                      (scene.numbers == NumberMeaning::kDecimal ? "decimals" : "doubles") +
+                      "; lights: " + joined(certificate.lights),
+                  TextTable::kWidth, 0, 2);
+  if (!certificate.left_out.empty()) {
+    text += wrapped("left out (area lights): " + joined(certificate.left_out), TextTable::kWidth, 0, 2);
+  }
+  for (const JudgedRun& run : certificate.runs) {
+    if (!run.report) continue;
+    const oracle::Report& report = *run.report;
+    text += wrapped("tolerance " + rounded(report.tolerance, 3) + " of each polygon, width " +
+                        rounded(report.width, 3) + " (scene diagonal " + rounded(report.diagonal, 6) +
+                        ")" +
+                        (report.clearance > 0 ? ", clearance " + rounded(report.clearance, 3) : "") +
+                        (report.by_points
+                             ? "; above " + grouped(report.most_pairs) +
+                                   " pairs of parts exact points are compared, not areas"
+                             : ""),
+                    TextTable::kWidth, 0, 2);
+    break;
+  }
+  text += '\n';
+
+  bool by_points = false;
+  for (const JudgedRun& run : certificate.runs) {
+    by_points = by_points || (run.report && run.report->by_points);
+  }
+  TextTable table({{"kernel"},
+                   {"policy"},
+                   {"verdict"},
+                   {by_points ? "wrong points" : "wrong area", Align::kRight},
+                   {"polygons", Align::kRight},
+                   {"width", Align::kRight},
+                   {"fragments", Align::kRight},
+                   {"time", Align::kRight}});
+  const std::optional<double> reference = reference_time(certificate.runs);
+  for (const JudgedRun& run : certificate.runs) {
+    table.add_row(row(run, certificate.facing_area, reference));
+    add_notes(run, table);
+  }
+  text += table.to_string();
+  const std::string end = conclusion(certificate);
+  if (!end.empty()) text += '\n' + end;
+  return text;
+}
+
+}  // namespace gnomon::report

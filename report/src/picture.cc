@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gnomon/report/picture.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <unordered_map>
+#include <utility>
+
+#include "flat_geometry.h"
+
+namespace gnomon::report {
+
+namespace {
+
+using oracle::CandidateFragment;
+using oracle::CandidateLight;
+using oracle::CandidatePolygon;
+using oracle::ShadeClass;
+
+// Warm light, cool shadow, and a signal that is neither.
+constexpr Colour kLitBright{255, 241, 198};
+constexpr Colour kLitDim{176, 138, 88};
+constexpr Colour kShadowBright{104, 118, 150};
+constexpr Colour kShadowDim{58, 66, 92};
+constexpr Colour kMissing{150, 150, 150};
+constexpr Colour kSignal{226, 26, 124};
+constexpr Colour kBackground{243, 245, 248};
+constexpr Colour kInk{33, 37, 48};
+constexpr Colour kLamp{255, 196, 0};
+constexpr double kOutlineWidth = 0.9;
+constexpr double kSeamWidth = 0.6;  // hides the seams that antialiasing leaves between neighbours
+constexpr double kLegendHeight = 46;
+constexpr double kCaptionHeight = 34;
+constexpr double kGap = 12;
+
+struct ShadedLoop {
+  ShadeClass shade;
+  std::vector<Vector> loop;
+  Vector low, high;
+};
+
+void set_box(ShadedLoop& shaded) {
+  shaded.low = shaded.high = shaded.loop.front();
+  for (const Vector& point : shaded.loop) {
+    for (int k = 0; k < 3; ++k) {
+      shaded.low[k] = std::min(shaded.low[k], point[k]);
+      shaded.high[k] = std::max(shaded.high[k], point[k]);
+    }
+  }
+}
+
+bool boxes_meet(const ShadedLoop& a, const ShadedLoop& b) {
+  for (int k = 0; k < 3; ++k) {
+    if (a.low[k] > b.high[k] || b.low[k] > a.high[k]) return false;
+  }
+  return true;
+}
+
+/// The fragments of one result under one light, by polygon and side.
+class ShadedPolygons {
+ public:
+  explicit ShadedPolygons(const CandidateLight& light) : background_(light.background) {
+    for (const CandidatePolygon& polygon : light.polygons) {
+      std::vector<ShadedLoop>& loops = loops_[{polygon.id, polygon.side}];
+      for (const CandidateFragment& fragment : polygon.fragments) {
+        ShadedLoop shaded{fragment.shade, {}, {}, {}};
+        for (const oracle::ExactPoint& point : fragment.loop) {
+          shaded.loop.push_back({point[0].get_d(), point[1].get_d(), point[2].get_d()});
+        }
+        if (shaded.loop.size() < 3) continue;
+        set_box(shaded);
+        loops.push_back(std::move(shaded));
+      }
+    }
+  }
+
+  /// Null if the result does not list this side.
+  const std::vector<ShadedLoop>* find(const std::string& id, oracle::PolygonSide side) const {
+    const auto found = loops_.find({id, side});
+    return found == loops_.end() ? nullptr : &found->second;
+  }
+  std::optional<ShadeClass> background() const { return background_; }
+
+ private:
+  std::optional<ShadeClass> background_;
+  std::map<std::pair<std::string, oracle::PolygonSide>, std::vector<ShadedLoop>> loops_;
+};
+
+/// Scene to pixels.
+class View {
+ public:
+  View(const Camera& camera, double left, double top, double width, double height, double size,
+       const std::vector<Vector>& scene)
+      : eye_(camera.eye), centre_{left + width / 2, top + height / 2} {
+    forward_ = unit(camera.look_at - camera.eye);
+    right_ = unit(cross(forward_, camera.up));
+    if (length(right_) < 1e-9) right_ = unit(cross(forward_, Vector{0, 1, 0}));
+    up_ = cross(right_, forward_);
+    const double larger = std::max(width, height);
+    scale_ = camera.field_of_view > 0
+                 ? larger / 2 / std::tan(camera.field_of_view * std::numbers::pi / 360)
+                 : fitting_scale(scene, width, height);
+    // A little beyond the frame on every side, so that outlines end outside of it.
+    slope_x_ = width / 2 / scale_ * 1.02;
+    slope_y_ = height / 2 / scale_ * 1.02;
+    near_ = size * 1e-5;
+  }
+
+  /// In the camera's axes: right, up, forward; cut to what the frame shows.
+  std::vector<Vector> visible(const std::vector<Vector>& loop) const {
+    std::vector<Vector> result;
+    for (const Vector& point : loop) {
+      const Vector d = point - eye_;
+      result.push_back({dot(d, right_), dot(d, up_), dot(d, forward_)});
+    }
+    result = clipped(result, {0, 0, 1}, near_);
+    for (const Vector& inward : {Vector{1, 0, slope_x_}, Vector{-1, 0, slope_x_},
+                                 Vector{0, 1, slope_y_}, Vector{0, -1, slope_y_}}) {
+      if (result.empty()) break;
+      result = clipped(result, inward, 0);
+    }
+    return result;
+  }
+  PixelPoint pixel(const Vector& seen) const {
+    return {centre_[0] + scale_ * seen[0] / seen[2], centre_[1] - scale_ * seen[1] / seen[2]};
+  }
+  std::vector<PixelPoint> pixels(const std::vector<Vector>& loop) const {
+    std::vector<PixelPoint> result;
+    for (const Vector& seen : visible(loop)) result.push_back(pixel(seen));
+    return result;
+  }
+  /// Nothing if the point is not in view.
+  std::optional<PixelPoint> pixel_of(const Vector& point) const {
+    const Vector d = point - eye_;
+    const Vector seen{dot(d, right_), dot(d, up_), dot(d, forward_)};
+    if (seen[2] < near_ || std::abs(seen[0]) > slope_x_ * seen[2] ||
+        std::abs(seen[1]) > slope_y_ * seen[2]) {
+      return std::nullopt;
+    }
+    return pixel(seen);
+  }
+  const Vector& eye() const { return eye_; }
+
+ private:
+  /// Pixels a unit at distance 1, so that all of the scene is in the frame; a view of 75 degrees from
+  /// where that cannot be.
+  double fitting_scale(const std::vector<Vector>& scene, double width, double height) const {
+    constexpr double kMargin = 0.94, kWidest = 0.77;  // tangent of half of 75 degrees
+    const double least = std::max(width, height) / 2 / kWidest;
+    double scale = std::numeric_limits<double>::infinity();
+    for (const Vector& point : scene) {
+      const Vector d = point - eye_;
+      const double depth = dot(d, forward_);
+      if (depth <= 0) return least;
+      scale = std::min({scale, kMargin * width / 2 * depth / std::abs(dot(d, right_)),
+                        kMargin * height / 2 * depth / std::abs(dot(d, up_))});
+    }
+    return std::isfinite(scale) ? std::max(scale, least) : least;
+  }
+
+  Vector eye_, forward_, right_, up_;
+  PixelPoint centre_;
+  double scale_, slope_x_, slope_y_, near_;
+};
+
+std::pair<Vector, Vector> bounding_box(const PreparedScene& prepared) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vector low{kInfinity, kInfinity, kInfinity}, high = -1.0 * low;
+  for (VertexId vertex : prepared.loop_vertices) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], prepared.geometry.positions[vertex][k]);
+      high[k] = std::max(high[k], prepared.geometry.positions[vertex][k]);
+    }
+  }
+  if (prepared.loop_vertices.empty()) return {Vector{}, Vector{}};
+  return {low, high};
+}
+
+class Painter {
+ public:
+  Painter(const Scene& scene, const PreparedScene& prepared, std::uint32_t light,
+          const PictureOptions& options, SvgPicture& svg)
+      : scene_(scene),
+        prepared_(prepared),
+        light_(prepared.lights[light].point),
+        options_(options),
+        svg_(svg) {
+    const auto [low, high] = bounding_box(prepared);
+    size_ = length(high - low);
+  }
+
+  void panel(const Panel& panel, const std::vector<OrderedPiece>& pieces, double left, double top) {
+    const View view(options_.camera, left, top, options_.width, options_.height, size_,
+                    prepared_.geometry.positions);
+    const std::string clip = "frame" + std::to_string(panels_++);
+    svg_.define("<clipPath id=\"" + clip + "\"><rect x=\"" + std::to_string(static_cast<int>(left)) +
+                "\" y=\"" + std::to_string(static_cast<int>(top)) + "\" width=\"" +
+                std::to_string(static_cast<int>(options_.width)) + "\" height=\"" +
+                std::to_string(static_cast<int>(options_.height)) + "\"/></clipPath>");
+    svg_.begin_group("clip-path=\"url(#" + clip + ")\" stroke-linejoin=\"round\"");
+    svg_.rectangle({left, top}, options_.width, options_.height, {colour_text(kBackground)});
+    const ShadedPolygons shown(*panel.shown);
+    std::optional<ShadedPolygons> truth;
+    if (panel.truth != nullptr) truth.emplace(*panel.truth);
+    for (const OrderedPiece& piece : pieces) {
+      paint(piece, view, shown, truth ? &*truth : nullptr);
+    }
+    paint_lamp(view);
+    for (const Mark& mark : panel.marks) paint_mark(mark, view);
+    svg_.end_group();
+    svg_.rectangle({left, top}, options_.width, options_.height,
+                   {"none", colour_text(mix(kInk, kBackground, 0.6)), 1});
+    if (!panel.caption.empty()) {
+      svg_.text({left + 2, top - 11}, panel.caption, 16, kInk, "start", true);
+    }
+  }
+
+ private:
+  Vector to_light(const Vector& from) const {
+    const Vector light{light_.nearest[0], light_.nearest[1], light_.nearest[2]};
+    return unit(light_.directional ? light : light - from);
+  }
+
+  /// Lit by orientation to the light, shadow by orientation to the eye, so that faces stay apart.
+  Colour colour(ShadeClass shade, const Vector& normal, const Vector& centre,
+                const View& view) const {
+    if (shade == ShadeClass::kLit) {
+      return mix(kLitDim, kLitBright, std::abs(dot(normal, to_light(centre))));
+    }
+    const double facing = std::abs(dot(normal, unit(view.eye() - centre)));
+    const double tilt = 0.5 * std::abs(normal[2]);
+    return mix(kShadowDim, kShadowBright, 0.5 * facing + tilt);
+  }
+
+  void fill(const std::vector<Vector>& loop, Colour colour, const View& view) {
+    const std::vector<PixelPoint> pixels = view.pixels(loop);
+    if (pixels.size() < 3) return;
+    const std::string text = colour_text(colour);
+    svg_.polygon(pixels, {text, text, kSeamWidth});
+  }
+
+  void paint(const OrderedPiece& piece, const View& view, const ShadedPolygons& shown,
+             const ShadedPolygons* truth) {
+    const Part& part = prepared_.parts[piece.part];
+    Vector normal = unit(area_vector(whole_loop(part)));
+    const bool front = dot(normal, view.eye() - whole_loop(part).front()) > 0;
+    if (!front && !part.two_sided && !options_.backs) return;
+    const auto side = front ? oracle::PolygonSide::kFront : oracle::PolygonSide::kBack;
+    Vector centre{};
+    for (const Vector& point : piece.loop) {
+      centre = centre + (1.0 / static_cast<double>(piece.loop.size())) * point;
+    }
+    const std::string& id = scene_.polygons[part.polygon].id;
+    const std::vector<ShadedLoop>* loops = shown.find(id, side);
+    // A side that no result lists does not face the light.
+    const ShadeClass base = shown.background().value_or(ShadeClass::kShadow);
+    const bool covered = loops == nullptr || shown.background();
+    fill(piece.loop, covered ? colour(base, normal, centre, view) : kMissing, view);
+    if (loops != nullptr) {
+      ShadedLoop own{ShadeClass::kLit, piece.loop, {}, {}};
+      set_box(own);
+      for (const ShadedLoop& shaded : *loops) {
+        if (!boxes_meet(own, shaded)) continue;
+        const std::vector<Vector> seen = intersection(piece.loop, shaded.loop);
+        if (seen.empty()) continue;
+        fill(seen, colour(shaded.shade, normal, centre, view), view);
+      }
+      if (truth != nullptr) paint_difference(piece, *loops, truth->find(id, side), view);
+    }
+    paint_outline(piece, part, view);
+  }
+
+  /// Where the classes of two results differ. Only overlaps of fragments are looked at: what one of
+  /// them leaves uncovered shows as grey.
+  void paint_difference(const OrderedPiece& piece, const std::vector<ShadedLoop>& shown,
+                        const std::vector<ShadedLoop>* truth, const View& view) {
+    if (truth == nullptr) return;
+    for (const ShadedLoop& a : shown) {
+      for (const ShadedLoop& b : *truth) {
+        if (a.shade == b.shade || !boxes_meet(a, b)) continue;
+        const std::vector<Vector> wrong =
+            intersection(intersection(piece.loop, a.loop), b.loop);
+        if (wrong.empty()) continue;
+        // A sliver of rounding is thinner than any pixel, and is not worth one.
+        if (length(area_vector(wrong)) < 1e-9 * size_ * size_) continue;
+        const std::vector<PixelPoint> pixels = view.pixels(wrong);
+        if (pixels.size() < 3) continue;
+        svg_.polygon(pixels, {colour_text(kSignal), colour_text(kSignal), 1.6});
+      }
+    }
+  }
+
+  /// The piece's edges that are the polygon's own; cuts of the tree are not shown.
+  void paint_outline(const OrderedPiece& piece, const Part& part, const View& view) {
+    const std::vector<Vector> whole = whole_loop(part);
+    const auto on_outline = [&](const Vector& a, const Vector& b) {
+      for (std::size_t i = 0; i < whole.size(); ++i) {
+        const Vector& from = whole[i];
+        const Vector along = unit(whole[(i + 1) % whole.size()] - from);
+        const double off = std::max(length(cross(along, a - from)), length(cross(along, b - from)));
+        if (off < 1e-7 * size_) return !is_inner_edge(part, i);
+      }
+      return false;
+    };
+    for (std::size_t i = 0; i < piece.loop.size(); ++i) {
+      const Vector& a = piece.loop[i];
+      const Vector& b = piece.loop[(i + 1) % piece.loop.size()];
+      if (!on_outline(a, b)) continue;
+      // A thin triangle is clipped like any loop; its long sides are the line.
+      const std::vector<Vector> seen = view.visible({a, b, 0.5 * (a + b)});
+      std::vector<PixelPoint> pixels;
+      for (const Vector& point : seen) pixels.push_back(view.pixel(point));
+      if (pixels.size() < 2) continue;
+      const auto [low, high] = std::ranges::minmax_element(pixels);
+      PixelPoint first = *low, last = *high;
+      svg_.line(first, last, {"none", colour_text(kInk), kOutlineWidth, 0.55});
+    }
+  }
+
+  /// An edge that a coplanar part of the same polygon shares was made by cutting the polygon up.
+  bool is_inner_edge(const Part& part, std::size_t edge) const {
+    const std::uint32_t first = prepared_.first_part[part.polygon];
+    const std::uint32_t last = prepared_.first_part[part.polygon + 1];
+    if (last - first == 1) return false;
+    const std::uint32_t index = prepared_.edges(part)[edge].index();
+    int uses = 0;
+    for (std::uint32_t other = first; other < last; ++other) {
+      const Part& sibling = prepared_.parts[other];
+      if (sibling.plane != part.plane) continue;
+      for (PlaneRef ref : prepared_.edges(sibling)) uses += ref.index() == index ? 1 : 0;
+    }
+    return uses > 1;
+  }
+
+  std::vector<Vector> whole_loop(const Part& part) const {
+    std::vector<Vector> loop;
+    for (VertexId vertex : prepared_.loop(part)) {
+      loop.push_back(prepared_.geometry.positions[vertex]);
+    }
+    return loop;
+  }
+
+  void paint_lamp(const View& view) {
+    if (light_.directional) return;
+    const auto at = view.pixel_of({light_.nearest[0], light_.nearest[1], light_.nearest[2]});
+    if (!at) return;
+    svg_.circle(*at, 10, {colour_text(kLamp), "none", 0, 0.3});
+    svg_.circle(*at, 4.5, {colour_text(kLamp), colour_text(kInk), 0.9});
+  }
+
+  void paint_mark(const Mark& mark, const View& view) {
+    const auto at = view.pixel_of(mark.at);
+    if (!at) return;
+    svg_.circle(*at, 9, {"none", "#ffffff", 4.5});
+    svg_.circle(*at, 9, {"none", colour_text(kSignal), 2.2});
+    if (!mark.label.empty()) {
+      svg_.text({(*at)[0] + 14, (*at)[1] + 5}, mark.label, 14, kSignal, "start", true);
+    }
+  }
+
+  const Scene& scene_;
+  const PreparedScene& prepared_;
+  const LightPoint& light_;
+  const PictureOptions& options_;
+  SvgPicture& svg_;
+  double size_ = 1;
+  int panels_ = 0;
+};
+
+void paint_legend(SvgPicture& svg, double left, double top, bool differences, bool marks,
+                  const std::string& words) {
+  double x = left + 2;
+  const auto entry = [&](Colour colour, const std::string& text) {
+    svg.rectangle({x, top + 14}, 22, 16, {colour_text(colour), colour_text(kInk), 0.6});
+    svg.text({x + 30, top + 27}, text, 14, kInk);
+    x += 54 + 7.2 * static_cast<double>(text.size());
+  };
+  entry(kLitBright, "lit");
+  entry(kShadowBright, "in shadow");
+  if (differences) {
+    entry(kSignal, "differs from the exact answer");
+    entry(kMissing, "not covered");
+  }
+  if (marks) {
+    svg.circle({x + 9, top + 22}, 8, {"none", colour_text(kSignal), 2.2});
+    svg.text({x + 26, top + 27}, "worst places", 14, kInk);
+    x += 130;
+  }
+  svg.text({x + 6, top + 27}, words, 14, mix(kInk, kBackground, 0.3));
+}
+
+}  // namespace
+
+Camera default_camera(const PreparedScene& prepared) {
+  const auto [low, high] = bounding_box(prepared);
+  Camera camera;
+  camera.look_at = 0.5 * (low + high);
+  const double size = std::max(length(high - low), 1e-300);
+  camera.eye = camera.look_at + size * Vector{0.62, -0.86, 0.62};
+  return camera;
+}
+
+SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared, std::uint32_t light,
+                       const std::vector<OrderedPiece>& pieces, const std::vector<Panel>& panels,
+                       const PictureOptions& options) {
+  const auto count = static_cast<double>(panels.size());
+  bool captions = false, differences = false, marks = false;
+  for (const Panel& panel : panels) {
+    captions = captions || !panel.caption.empty();
+    differences = differences || panel.truth != nullptr;
+    marks = marks || !panel.marks.empty();
+  }
+  const double top = captions ? kCaptionHeight : 0;
+  const double width = count * options.width + (count - 1) * kGap;
+  const double height = top + options.height + (options.legend ? kLegendHeight : 0);
+  SvgPicture svg(width, height, options.title.empty() ? scene.name : options.title);
+  svg.rectangle({0, 0}, width, height, {"#ffffff"});
+  Painter painter(scene, prepared, light, options, svg);
+  double left = 0;
+  for (const Panel& panel : panels) {
+    painter.panel(panel, pieces, left, top);
+    left += options.width + kGap;
+  }
+  if (options.legend) {
+    const std::string& id = scene.lights[prepared.lights[light].light].id;
+    paint_legend(svg, 0, top + options.height, differences, marks, "light: " + id);
+  }
+  return svg;
+}
+
+}  // namespace gnomon::report

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The facts of a scene for people and for programs.
+#include "gnomon/report/json_writer.h"
+#include "gnomon/report/number_text.h"
+#include "gnomon/report/scene_facts.h"
+#include "gnomon/report/table.h"
+
+namespace gnomon::report {
+
+namespace {
+
+constexpr std::size_t kWidth = TextTable::kWidth;
+constexpr std::size_t kLabel = 16;
+
+/// A label, and the text beside it.
+std::string entry(const std::string& label, const std::string& text) {
+  const std::string lines = wrapped(text, kWidth, kLabel, kLabel);
+  return label + std::string(kLabel - std::min(kLabel, text_width(label)), ' ') +
+         lines.substr(std::min(kLabel, lines.size()));
+}
+
+std::string point_text(const std::array<double, 3>& point) {
+  return "(" + rounded(point[0], 9) + ", " + rounded(point[1], 9) + ", " + rounded(point[2], 9) + ")";
+}
+
+std::string position_text(const Position& position) {
+  return "(" + position[0].to_text() + ", " + position[1].to_text() + ", " + position[2].to_text() +
+         ")";
+}
+
+/// The plan holds for all lights of a kind, and needs e only for directional ones.
+std::string plan_text(const SceneFacts& facts, bool directional) {
+  const std::vector<PredicateBits> plan =
+      precision_plan(directional, facts.position_bits, facts.direction_bits);
+  TextTable table({{directional ? "directional lights: predicate" : "point lights: predicate"},
+                   {"degree", Align::kRight},
+                   {"bits", Align::kRight},
+                   {"integers", Align::kRight}});
+  for (const PredicateBits& predicate : plan) {
+    table.add_row({std::string(predicate.name), std::to_string(predicate.degree),
+                   std::to_string(predicate.bits), std::string(width_name(predicate.width))});
+  }
+  return table.to_string();
+}
+
+std::string facing_text(const FacingShare& facing) {
+  std::string text = grouped(facing.facing) + " face it, " + grouped(facing.away) + " face away";
+  if (facing.in_plane > 0) text += ", " + grouped(facing.in_plane) + " hold it in their plane";
+  return text + " (" + percent(facing.away_share()) + " get no light)";
+}
+
+std::string notes_text(const Scene& scene, const SceneFacts& facts, bool all_notes) {
+  constexpr std::size_t kMost = 3;
+  std::string text;
+  for (const auto& [repair, count] : facts.repairs) {
+    text += "  " + std::string(repair_name(repair)) + ": " + grouped(count) +
+            (count == 1 ? " polygon\n" : " polygons\n");
+    std::size_t shown = 0;
+    for (const PreparationNote& note : facts.notes) {
+      if (note.repair != repair) continue;
+      if (!all_notes && shown == kMost) {
+        text += "    ... (--all lists every one)\n";
+        break;
+      }
+      ++shown;
+      text += wrapped(scene.polygons[note.polygon].id + ": " + note.detail, kWidth, 4, 8);
+    }
+  }
+  return text;
+}
+
+void write_plan(JsonWriter& json, const char* name, const SceneFacts& facts, bool directional) {
+  json.key(name);
+  json.begin_array();
+  for (const PredicateBits& predicate :
+       precision_plan(directional, facts.position_bits, facts.direction_bits)) {
+    json.begin_object(JsonLayout::kInline);
+    json.member("predicate", predicate.name);
+    json.member("degree", predicate.degree);
+    json.member("bits", predicate.bits);
+    json.member("integers", width_name(predicate.width));
+    json.end_object();
+  }
+  json.end_array();
+}
+
+void write_point(JsonWriter& json, const char* name, const std::array<double, 3>& point) {
+  json.key(name);
+  json.begin_array(JsonLayout::kInline);
+  for (double coordinate : point) json.value(coordinate);
+  json.end_array();
+}
+
+}  // namespace
+
+std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_notes) {
+  std::string text;
+  text += entry("scene", (facts.name.empty() ? "(no name)" : facts.name) + ", from " + facts.file);
+  text += entry("geometry", facts.geometry_digest);
+  text += entry("numbers", facts.numbers == NumberMeaning::kDecimal
+                               ? "decimals, exactly as written"
+                               : "the nearest doubles, exactly");
+  text += entry("as read", grouped(facts.vertices) + " vertices, " + grouped(facts.polygons) +
+                               " polygons with " + grouped(facts.holes) + " holes, up to " +
+                               grouped(facts.largest_loop) + " vertices a loop; " +
+                               grouped(facts.two_sided) + " two-sided, " +
+                               grouped(facts.not_casting) + " cast nothing");
+  text += entry("as prepared", grouped(facts.parts) + " convex planar parts over " +
+                                   grouped(facts.positions) + " positions, " +
+                                   grouped(facts.dropped) + " polygons dropped");
+  text += entry("planes", grouped(facts.planes) + "; " + grouped(facts.sharing_plane) + " of " +
+                              grouped(facts.polygons - facts.dropped) +
+                              " polygons share a plane with another, up to " +
+                              grouped(facts.largest_family) + " parts a plane");
+  text += entry("edges", grouped(facts.edges) + "; " + grouped(facts.shared_edges) +
+                             " shared by two parts, " + grouped(facts.crowded_edges) + " by more");
+  text += entry("box", point_text(facts.low) + " to " + point_text(facts.high) + ", diagonal " +
+                           rounded(facts.diagonal, 9));
+  const double step = facts.step.get_d();
+  text += entry("grid", "step " + (facts.step.get_str().size() <= 24 ? facts.step.get_str()
+                                                                      : rounded(step, 6)) +
+                            ", b = " + std::to_string(facts.position_bits) + " bits a coordinate" +
+                            (facts.has_directional ? ", e = " + std::to_string(facts.direction_bits) +
+                                                         " bits a direction"
+                                                   : ""));
+  if (!facts.repairs.empty()) {
+    text += "\nmade convex and planar\n" + notes_text(scene, facts, all_notes);
+  }
+  text += "\nlights\n";
+  if (facts.lights.empty()) text += "  none\n";
+  for (const LightFacts& light : facts.lights) {
+    std::string line = light.id + ": " + std::string(light_type_name(light.type));
+    if (light.type == LightType::kArea) {
+      line += ", " + std::to_string(light.corners) + " corners";
+    } else {
+      line += " " + position_text(light.position) + "; " + facing_text(light.facing);
+    }
+    text += wrapped(line, kWidth, 2, 6);
+  }
+  text += "\nprecision plan: what the exact stage of `plane` needs here\n";
+  const bool any = facts.has_point || facts.has_directional;
+  if (facts.has_point || !any) text += plan_text(facts, false);
+  if (facts.has_point && facts.has_directional) text += '\n';
+  if (facts.has_directional) text += plan_text(facts, true);
+  return text;
+}
+
+void write_facts_json(TextSink& sink, const Scene& scene, const SceneFacts& facts) {
+  JsonWriter json(sink);
+  json.begin_object();
+  json.member("format", "gnomon-info");
+  json.member("version", 1);
+  json.member("scene", facts.name);
+  json.member("geometry", facts.geometry_digest);
+  json.member("numbers", facts.numbers == NumberMeaning::kDecimal ? "decimal" : "double");
+  json.member("vertices", facts.vertices);
+  json.member("polygons", facts.polygons);
+  json.member("holes", facts.holes);
+  json.member("largest_loop", facts.largest_loop);
+  json.member("two_sided", facts.two_sided);
+  json.member("not_casting", facts.not_casting);
+  json.member("positions", facts.positions);
+  json.member("parts", facts.parts);
+  json.member("dropped", facts.dropped);
+  json.member("planes", facts.planes);
+  json.member("polygons_sharing_a_plane", facts.sharing_plane);
+  json.member("largest_family", facts.largest_family);
+  json.member("edges", facts.edges);
+  json.member("shared_edges", facts.shared_edges);
+  json.member("crowded_edges", facts.crowded_edges);
+  write_point(json, "low", facts.low);
+  write_point(json, "high", facts.high);
+  json.member("diagonal", facts.diagonal);
+  json.member("grid_step", facts.step.get_str());
+  json.member("position_bits", facts.position_bits);
+  json.member("direction_bits", facts.direction_bits);
+  json.key("repairs");
+  json.begin_array();
+  for (const PreparationNote& note : facts.notes) {
+    json.begin_object(JsonLayout::kInline);
+    json.member("polygon", scene.polygons[note.polygon].id);
+    json.member("repair", repair_name(note.repair));
+    json.member("detail", note.detail);
+    json.end_object();
+  }
+  json.end_array();
+  json.key("lights");
+  json.begin_array();
+  for (const LightFacts& light : facts.lights) {
+    json.begin_object(JsonLayout::kInline);
+    json.member("id", light.id);
+    json.member("type", light_type_name(light.type));
+    if (light.type != LightType::kArea) {
+      json.member("facing", light.facing.facing);
+      json.member("away", light.facing.away);
+      json.member("light_in_plane", light.facing.in_plane);
+      json.member("away_share", light.facing.away_share());
+    }
+    json.end_object();
+  }
+  json.end_array();
+  write_plan(json, "point_light_plan", facts, false);
+  write_plan(json, "directional_light_plan", facts, true);
+  json.end_object();
+  json.finish();
+}
+
+}  // namespace gnomon::report
