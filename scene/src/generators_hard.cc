@@ -205,7 +205,6 @@ void near_coplanar(SceneMaker& maker, const Values& values, Random& random) {
   const Int3 along{3 * unit, 4 * unit, 0}, up{-unit, unit, 5 * unit};
   const auto in_wall = [&](std::int64_t a, std::int64_t b) { return a * along + b * up; };
   maker.face("wall", {in_wall(0, 0), in_wall(16, 0), in_wall(16, 16), in_wall(0, 16)});
-  const Int3 normal = cross(along, up);
   for (std::int64_t i = 0; i < n; ++i) {
     const std::int64_t a = random.between(0, 14), b = random.between(0, 14);
     const Int3 hair{0, -random.between(-1, 1), 0};  // the smallest step of the grid, or none
@@ -214,8 +213,8 @@ void near_coplanar(SceneMaker& maker, const Values& values, Random& random) {
     for (Int3& p : loop) p = p + hair;
     maker.face("panel" + std::to_string(i), loop);
   }
-  // The side of the wall that is its front, whatever the vectors above.
-  const std::int64_t side = normal.y < 0 ? -1 : 1;
+  // along x up, the front of the wall, points to -y.
+  const std::int64_t side = -1;
   maker
       .face("fin", {in_wall(8, 0), in_wall(8, 16), in_wall(8, 16) + Int3{0, 8 * side * unit, 0},
                     in_wall(8, 0) + Int3{0, 8 * side * unit, 0}})
