@@ -134,6 +134,7 @@ Candidate exact_candidate(const ExactAnswer& answer) {
             CandidateFragment fragment;
             fragment.shade = shade;
             fragment.caster = caster;
+            fragment.exact = true;
             for (const ChartPoint& point : loop) {
               fragment.loop.push_back(chart.lift_to_scene(prepared.geometry, point));
             }
@@ -159,11 +160,7 @@ Candidate exact_candidate(const ExactAnswer& answer) {
                 if (!beyond.empty()) outside.push_back(std::move(beyond));
                 rest = half(rest, line, 1);
               }
-              if (rest.empty()) {
-                // Nothing in this shadow: outside's pieces tile what there was.
-              } else {
-                add(rest, ShadeClass::kShadow, caster);
-              }
+              if (!rest.empty()) add(rest, ShadeClass::kShadow, caster);
               next.insert(next.end(), outside.begin(), outside.end());
             }
             lit = std::move(next);

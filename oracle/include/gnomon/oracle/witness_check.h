@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The oracle's third way: checks a result's own claims, one by one, in rational numbers in space. Knows
+// no true region and shares nothing with the algorithms or with point_regions.h:
+//   - fragments lie in the polygon's plane and inside the polygon, do not overlap, and their areas add up;
+//   - a shadow fragment's caster shadows all of it, or its reason holds;
+//   - no caster shadows any area of a lit fragment;
+//   - claimed fractions are those of the fragments.
+// A result that passes is right: its fragments tile every polygon and each has its proof.
+//
+// Exactness: exact on exact loops. Rounded loops are judged within `tolerance` of the polygon's area and
+// `width` off its plane.
+#ifndef GNOMON_ORACLE_WITNESS_CHECK_H
+#define GNOMON_ORACLE_WITNESS_CHECK_H
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gnomon/oracle/candidate.h"
+#include "gnomon/scene/prepare.h"
+#include "gnomon/scene/scene.h"
+
+namespace gnomon::oracle {
+
+struct WitnessFinding {
+  std::string light, polygon;
+  std::string text;                       // one sentence
+  std::optional<std::uint64_t> fragment;  // index in the polygon's list
+};
+
+struct WitnessReport {
+  std::vector<WitnessFinding> findings;  // at most `most`
+  std::uint64_t violations = 0;          // all of them
+  std::uint64_t polygons = 0, fragments = 0, exact_fragments = 0, witnesses = 0;
+  bool interrupted = false;
+};
+
+struct WitnessOptions {
+  double tolerance = 1e-9;      // fraction of the polygon's area, for rounded loops
+  std::optional<double> width;  // scene units; default 1e-9 of the scene's diagonal
+  bool subset = false;          // lights and polygons may be missing
+  std::size_t most = 100;
+  std::function<void(double)> progress;
+  const std::atomic<bool>* interrupted = nullptr;
+};
+
+WitnessReport check_witnesses(const Scene& scene, const PreparedScene& prepared,
+                              const Candidate& candidate, const WitnessOptions& options = {});
+
+}  // namespace gnomon::oracle
+
+#endif  // GNOMON_ORACLE_WITNESS_CHECK_H

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gnomon/oracle/read_candidate.h"
+
+#include <gtest/gtest.h>
+
+namespace gnomon::oracle {
+namespace {
+
+Expected<Candidate> parse(const std::string& text, NumberMeaning numbers = NumberMeaning::kDouble) {
+  Scene scene;
+  scene.numbers = numbers;
+  return parse_candidate(text, "r.json", scene);
+}
+
+std::string with_fragment(const std::string& fragment) {
+  return R"({"lights":[{"id":"sun","polygons":[{"id":"a","fragments":[)" + fragment + "]}]}]}";
+}
+
+std::string message(const std::string& text) {
+  const Expected<Candidate> found = parse(text);
+  return found ? "no error" : to_string(found.error());
+}
+
+TEST(ReadCandidate, AResultOfOurs) {
+  const Expected<Candidate> found = parse(R"({ "format": "gnomon-result", "version": 1,
+    "scene": "table", "kernel": "plane", "exact": true, "lights": [ {"id": "bulb", "polygons": [
+      {"id": "floor", "side": "back", "area": 16.0,
+       "lit": {"fraction": "3/4", "area": 12.0}, "shadow": {"fraction": 0.25, "area": 4.0},
+       "fragments": [ {"class": "shadow", "loop": [[0,0,0],[1e0,0,0],[0,1.5,0]], "caster": "quad",
+                       "exact_loop": [["0","0","0"],["1/3","0","0"],["0","-3/2",0]]},
+                      {"class": "lit", "loop": [[0.1,0,0],[1,0,0],[0,1,0]]} ] } ] } ] })");
+  ASSERT_TRUE(found.has_value()) << to_string(found.error());
+  const CandidatePolygon& polygon = found->lights.at(0).polygons.at(0);
+  EXPECT_EQ(polygon.side, PolygonSide::kBack);
+  EXPECT_TRUE(polygon.side_given);
+  EXPECT_EQ(polygon.lit_fraction, mpq_class(3, 4));
+  EXPECT_FALSE(polygon.shadow_fraction.has_value());
+  ASSERT_EQ(polygon.fragments.size(), 2u);
+  EXPECT_TRUE(polygon.fragments[0].exact);
+  EXPECT_EQ(polygon.fragments[0].caster, "quad");
+  EXPECT_EQ(polygon.fragments[0].loop[1][0], mpq_class(1, 3));
+  EXPECT_EQ(polygon.fragments[0].loop[2][1], mpq_class(-3, 2));
+  EXPECT_EQ(polygon.fragments[1].loop[0][0], mpq_class(0.1));
+}
+
+TEST(ReadCandidate, ForeignResultsAndDecimals) {
+  const Expected<Candidate> found = parse(
+      R"({"made by": {"x": [1, null, true]}, "lights": [{"id": "s", "background": "lit",
+          "polygons": [{"id": "a", "fragments": [{"class": "shadow",
+          "loop": [[0.1,0,0],[1,0,0],[0,1,0]], "colour": 3}]}]}]})",
+      NumberMeaning::kDecimal);
+  ASSERT_TRUE(found.has_value()) << to_string(found.error());
+  EXPECT_EQ(found->lights[0].background, ShadeClass::kLit);
+  EXPECT_FALSE(found->lights[0].polygons[0].side_given);
+  EXPECT_EQ(found->lights[0].polygons[0].fragments[0].loop[0][0], mpq_class(1, 10));
+}
+
+TEST(ReadCandidate, EveryErrorHasAPlace) {
+  EXPECT_EQ(message(""), "r.json:1:1: the file is empty; a result in JSON, UTF-8");
+  EXPECT_NE(message("{\n \"lights\": [1,\n").find("r.json:3:1"), std::string::npos);
+  EXPECT_NE(message("[]").find("not an object"), std::string::npos);
+  EXPECT_NE(message("{}").find("\"lights\" is missing"), std::string::npos);
+  EXPECT_NE(message(R"({"lights": 3})").find("/lights"), std::string::npos);
+  EXPECT_NE(message(R"({"format": "gnomon-scene"})").find("/format"), std::string::npos);
+  EXPECT_NE(message(R"({"lights": [{"polygons": []}]})").find("/lights/0"), std::string::npos);
+  const std::string at = "/lights/0/polygons/0/fragments/0";
+  EXPECT_NE(message(with_fragment(R"({"class": "dark", "loop": []})")).find(at + "/class"),
+            std::string::npos);
+  EXPECT_NE(message(with_fragment(R"({"class": "lit"})")).find(at), std::string::npos);
+  EXPECT_NE(message(with_fragment(R"({"class": "lit", "loop": [[0, 1]]})")).find(at + "/loop/0"),
+            std::string::npos);
+  EXPECT_NE(message(with_fragment(R"({"class": "lit", "loop": [[0, 1, "2"]]})"))
+                .find(at + "/loop/0/2"),
+            std::string::npos);
+  EXPECT_NE(message(with_fragment(R"({"class": "lit", "loop": [[0, 1, 1e999]]})"))
+                .find(at + "/loop/0/2"),
+            std::string::npos);
+  EXPECT_NE(message(with_fragment(R"({"class": "lit", "exact_loop": [[0, 1, "1/0"]]})"))
+                .find(at + "/exact_loop/0/2"),
+            std::string::npos);
+}
+
+TEST(ReadCandidate, DeepNestingIsNoCrash) {
+  std::string text = R"({"x": )";
+  text.append(300'000, '[');
+  EXPECT_FALSE(parse(text).has_value());
+  text.append(300'000, ']');
+  text += R"(, "lights": []})";
+  EXPECT_TRUE(parse(text).has_value());
+}
+
+TEST(ReadCandidate, AFileThatIsNotThere) {
+  const Expected<Candidate> found = read_candidate("no/such/file.json", Scene{});
+  ASSERT_FALSE(found.has_value());
+  EXPECT_EQ(found.error().code, ErrorCode::kFile);
+}
+
+}  // namespace
+}  // namespace gnomon::oracle

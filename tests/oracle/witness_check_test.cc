@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The checker of claims accepts what is right and names each kind of lie.
+#include "gnomon/oracle/witness_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gnomon/oracle/prepared_check.h"
+#include "gnomon/oracle/verdict.h"
+#include "scene_builder.h"
+
+namespace gnomon::oracle {
+namespace {
+
+using testing::HasSubstr;
+
+class WitnessCheck : public testing::Test {
+ protected:
+  WitnessCheck()
+      : built_(SceneBuilder()
+                   .polygon("floor", {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}})
+                   .polygon("lid", {{0, 0, 1}, {2, 0, 1}, {2, 4, 1}, {0, 4, 1}})
+                   .polygon("under", {{0, 0, -1}, {0, 1, -1}, {1, 1, -1}, {1, 0, -1}})
+                   .polygon("upright", {{3, 0, 2}, {3, 1, 2}, {3, 1, 3}, {3, 0, 3}})
+                   .sun("sun", {0, 0, 1})
+                   .build()),
+        answer_(built_.scene, built_.prepared), good_(exact_candidate(answer_)) {}
+
+  std::string first_finding(const Candidate& candidate) const {
+    const WitnessReport report = check_witnesses(built_.scene, built_.prepared, candidate);
+    return report.findings.empty() ? "" : report.findings[0].text;
+  }
+  CandidateFragment& fragment(Candidate& candidate, ShadeClass shade) const {
+    for (CandidateFragment& own : candidate.lights[0].polygons[0].fragments) {
+      if (own.shade == shade) return own;
+    }
+    throw std::runtime_error("none");
+  }
+
+  BuiltScene built_;
+  ExactAnswer answer_;
+  Candidate good_;
+};
+
+TEST_F(WitnessCheck, RightIsAccepted) {
+  const WitnessReport report = check_witnesses(built_.scene, built_.prepared, good_);
+  EXPECT_EQ(report.violations, 0u) << report.findings[0].text;
+  EXPECT_EQ(report.polygons, 4u);
+  EXPECT_GE(report.witnesses, 3u);
+}
+
+TEST_F(WitnessCheck, EveryLieIsNamed) {
+  Candidate wrong = good_;
+  fragment(wrong, ShadeClass::kShadow).caster = "upright";
+  EXPECT_THAT(first_finding(wrong), HasSubstr("'upright' does not shadow all"));
+
+  wrong = good_;
+  fragment(wrong, ShadeClass::kShadow).caster = "nobody";
+  EXPECT_THAT(first_finding(wrong), HasSubstr("no caster 'nobody'"));
+
+  wrong = good_;
+  fragment(wrong, ShadeClass::kShadow).caster.clear();
+  EXPECT_THAT(first_finding(wrong), HasSubstr("names no caster"));
+
+  wrong = good_;
+  fragment(wrong, ShadeClass::kShadow).reason = "faces-away";
+  EXPECT_THAT(first_finding(wrong), HasSubstr("'faces-away' does not hold"));
+
+  wrong = good_;
+  fragment(wrong, ShadeClass::kShadow).shade = ShadeClass::kLit;
+  EXPECT_THAT(first_finding(wrong), HasSubstr("shadowed by 'lid'"));
+
+  wrong = good_;
+  wrong.lights[0].polygons[2].fragments[0].shade = ShadeClass::kLit;
+  EXPECT_THAT(first_finding(wrong), HasSubstr("does not face the light"));
+
+  wrong = good_;
+  wrong.lights[0].polygons[3].fragments[0].reason = "faces-away";
+  EXPECT_THAT(first_finding(wrong), HasSubstr("does not hold"));
+
+  wrong = good_;
+  wrong.lights[0].polygons[0].lit_fraction = mpq_class(1, 3);
+  EXPECT_THAT(first_finding(wrong), HasSubstr("claimed as 1/3"));
+  wrong.lights[0].polygons[0].lit_fraction = mpq_class(1, 2);
+  EXPECT_EQ(first_finding(wrong), "");
+
+  wrong = good_;
+  for (ExactPoint& point : fragment(wrong, ShadeClass::kLit).loop) point[2] += mpq_class(1, 1000000);
+  EXPECT_THAT(first_finding(wrong), HasSubstr("plane"));
+
+  wrong = good_;
+  for (ExactPoint& point : fragment(wrong, ShadeClass::kLit).loop) point[0] += mpq_class(1, 1000000);
+  EXPECT_THAT(first_finding(wrong), HasSubstr("leaves the polygon"));
+
+  wrong = good_;
+  wrong.lights[0].polygons[0].fragments.push_back(wrong.lights[0].polygons[0].fragments[0]);
+  EXPECT_THAT(first_finding(wrong), HasSubstr("do not add up"));
+
+  wrong = good_;
+  wrong.lights[0].polygons.pop_back();
+  EXPECT_THAT(first_finding(wrong), HasSubstr("missing"));
+
+  wrong = good_;
+  wrong.lights[0].id = "moon";
+  EXPECT_THAT(first_finding(wrong), HasSubstr("no such light"));
+}
+
+TEST_F(WitnessCheck, AgreesWithTheVerdictOnSoups) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const BuiltScene built = lattice_soup(seed, 12, 4);
+    EXPECT_TRUE(check_prepared(built.scene, built.prepared).empty()) << seed;
+    const ExactAnswer answer(built.scene, built.prepared);
+    Candidate candidate = exact_candidate(answer);
+    const WitnessReport exact = check_witnesses(built.scene, built.prepared, candidate);
+    EXPECT_EQ(exact.violations, 0u)
+        << seed << " " << exact.findings[0].polygon << " " << exact.findings[0].text;
+    for (CandidateLight& light : candidate.lights) {
+      for (CandidatePolygon& polygon : light.polygons) {
+        for (CandidateFragment& fragment : polygon.fragments) {
+          fragment.exact = false;
+          for (ExactPoint& point : fragment.loop) {
+            for (mpq_class& coordinate : point) coordinate = coordinate.get_d();
+          }
+        }
+      }
+    }
+    const WitnessReport rounded = check_witnesses(built.scene, built.prepared, candidate);
+    EXPECT_EQ(rounded.violations, 0u)
+        << seed << " " << rounded.findings[0].polygon << " " << rounded.findings[0].text;
+    // One class changed: the checker and the overlay must both object.
+    Random random(seed);
+    for (int i = 0; i < 5; ++i) {
+      Candidate wrong = exact_candidate(answer);
+      CandidateLight& light = wrong.lights[random.next() % wrong.lights.size()];
+      CandidatePolygon& polygon = light.polygons[random.next() % light.polygons.size()];
+      CandidateFragment& fragment =
+          polygon.fragments[random.next() % polygon.fragments.size()];
+      fragment.reason.clear();
+      fragment.shade =
+          fragment.shade == ShadeClass::kLit ? ShadeClass::kShadow : ShadeClass::kLit;
+      EXPECT_GT(check_witnesses(built.scene, built.prepared, wrong).violations, 0u) << seed;
+      EXPECT_EQ(certify(answer, wrong, {})->verdict, Verdict::kFailed) << seed;
+    }
+  }
+}
+
+TEST(PreparedCheck, FindsWhatIsWrong) {
+  Scene scene = SceneBuilder()
+                    .polygon("L", {{0, 0, 0}, {4, 0, 0}, {4, 2, 0}, {2, 2, 0}, {2, 4, 0}, {0, 4, 0}})
+                    .polygon("bent", {{0, 0, 1}, {4, 0, 1}, {4, 4, 2}, {0, 4, 1}})
+                    .polygon("tri", {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}})
+                    .sun("sun", {0, 0, 1})
+                    .build()
+                    .scene;
+  const PreparedScene good = *prepare(scene);
+  EXPECT_TRUE(check_prepared(scene, good).empty());
+
+  PreparedScene wrong = good;
+  wrong.parts[0].flipped = !wrong.parts[0].flipped;
+  EXPECT_FALSE(check_prepared(scene, wrong).empty());
+
+  wrong = good;
+  std::swap(wrong.loop_vertices[wrong.parts[0].first], wrong.loop_vertices[wrong.parts[0].first + 1]);
+  EXPECT_FALSE(check_prepared(scene, wrong).empty());
+
+  wrong = good;  // a part is lost
+  ASSERT_EQ(wrong.first_part[1], 2u);
+  wrong.parts.erase(wrong.parts.begin() + 1);
+  for (std::size_t p = 1; p < wrong.first_part.size(); ++p) --wrong.first_part[p];
+  const std::vector<PreparedFinding> found = check_prepared(scene, wrong);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].polygon, "L");
+  EXPECT_EQ(found[0].text, "the parts do not tile the polygon");
+
+  wrong = good;
+  wrong.geometry.origin[0] += 1;
+  EXPECT_FALSE(check_prepared(scene, wrong).empty());
+
+  wrong = good;
+  wrong.parts.back().casts = false;
+  EXPECT_FALSE(check_prepared(scene, wrong).empty());
+}
+
+}  // namespace
+}  // namespace gnomon::oracle
