@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a result says, in a form that can be compared: a checksum over the exact lit fractions of
+// all parts (not over fragments, which may be cut differently), and how far a rounded result is
+// off.
+#ifndef GNOMON_BENCH_ANSWERS_H
+#define GNOMON_BENCH_ANSWERS_H
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gnomon/algorithms/shadow_result.h"
+#include "gnomon/algorithms/shadows.h"
+
+namespace gnomon::bench {
+
+/// Rounded parts that differ from the exact fraction by more than this are counted.
+inline constexpr double kWrongBeyond = 1e-9;
+
+struct ExactAnswers {
+  std::string checksum;     // FNV-1a, 64 bits, of "light part p/q" of every part
+  std::vector<double> lit;  // nearest doubles, light by light
+  bool sums_to_one = true;  // lit + shadow == 1 exactly for every part
+};
+/// Requires: the result was computed with exact_fractions on an exact kernel.
+ExactAnswers exact_answers(const ShadowResult& result);
+
+struct Deviation {
+  std::uint64_t wrong_parts = 0;
+  double largest = 0;  // of |fraction - exact fraction|
+  double sum = 0;      // of the lit fractions
+};
+Deviation deviation(const ShadowResult& result, const ExactAnswers& exact);
+
+std::uint64_t total_fragments(const ShadowResult& result);
+
+/// compute_shadows; ends the program with a message on an error.
+ShadowResult shadows_or_stop(const PreparedScene& scene, const ShadowOptions& options);
+
+}  // namespace gnomon::bench
+
+#endif  // GNOMON_BENCH_ANSWERS_H

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every kernel on every scene, in one run: the ratios are what counts.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "answers.h"
+#include "parts.h"
+#include "scenes.h"
+#include "table.h"
+
+namespace gnomon::bench {
+namespace {
+
+struct Runner {
+  std::string name;
+  KernelId kernel;
+  bool identity;
+  bool slow;  // numbers on the heap: fewer repetitions
+};
+
+const std::array<Runner, 8> kRunners{{{"float", KernelId::kFloat, false, false},
+                                      {"double", KernelId::kDouble, false, false},
+                                      {"double+identity", KernelId::kDouble, true, false},
+                                      {"longdouble", KernelId::kLongDouble, false, false},
+                                      {"epick", KernelId::kEpick, false, false},
+                                      {"epeck", KernelId::kEpeck, false, true},
+                                      {"rational", KernelId::kRational, false, true},
+                                      {"plane", KernelId::kPlane, true, false}}};
+
+struct SceneChoice {
+  std::string title;
+  std::string generator;
+  Parameters parameters, short_parameters;
+};
+
+const std::vector<SceneChoice>& scene_choices() {
+  static const std::vector<SceneChoice> kScenes = {
+      {"generic quads", "quads", {{"n", 1000}}, {{"n", 60}}},
+      {"grid city", "city", {{"n", 600}}, {{"n", 20}}},
+      {"recursive tetrahedron", "tetra", {{"level", 5}}, {{"level", 3}}},
+      {"lattice soup", "lattice", {{"n", 100}, {"size", 12}}, {{"n", 16}, {"size", 4}}},
+      {"panels a hair off a wall", "near-coplanar", {{"n", 200}}, {{"n", 12}}},
+  };
+  return kScenes;
+}
+
+ShadowOptions options_of(const Runner& runner) {
+  ShadowOptions options;
+  options.kernel = runner.kernel;
+  options.identity = runner.identity;
+  return options;
+}
+
+/// Keeps the CPU time of every repetition, by benchmark name.
+class TimeCollector : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type == Run::RT_Iteration && !run.error_occurred) {
+        seconds_[run.run_name.function_name].push_back(run.GetAdjustedCPUTime() * 1e-9);
+      }
+    }
+  }
+  /// Median of the repetitions; nothing if the benchmark did not run.
+  std::optional<double> median(const std::string& name) const {
+    const auto found = seconds_.find(name);
+    if (found == seconds_.end() || found->second.empty()) return std::nullopt;
+    std::vector<double> times = found->second;
+    std::sort(times.begin(), times.end());
+    const std::size_t half = times.size() / 2;
+    return times.size() % 2 == 1 ? times[half] : (times[half - 1] + times[half]) / 2;
+  }
+
+ private:
+  std::map<std::string, std::vector<double>> seconds_;
+};
+
+std::string name_of(const SceneChoice& scene, const Runner& runner) {
+  return scene.generator + "/" + runner.name;
+}
+
+struct Measured {
+  PreparedScene scene;
+  std::map<std::string, ShadowResult> results;  // of the timed runs, by runner
+};
+
+void register_runs(const SceneChoice& choice, Measured& measured, Extent extent) {
+  for (const Runner& runner : kRunners) {
+    benchmark::RegisterBenchmark(name_of(choice, runner).c_str(),
+                                 [&measured, runner](benchmark::State& state) {
+                                   for (auto _ : state) {
+                                     ShadowResult result =
+                                         shadows_or_stop(measured.scene, options_of(runner));
+                                     benchmark::DoNotOptimize(result);
+                                     measured.results[runner.name] = std::move(result);
+                                   }
+                                 })
+        ->Unit(benchmark::kNanosecond)
+        ->MinTime(extent == Extent::kShort ? 0.01 : 0.1)
+        ->Repetitions(extent == Extent::kShort || runner.slow ? 3 : 9);
+  }
+}
+
+/// Prints one scene's table. False if exact kernels disagree.
+bool report(const SceneChoice& choice, const Measured& measured, const TimeCollector& times) {
+  const PreparedScene& scene = measured.scene;
+  fmt::print("\n{}: {} polygons, {} light{}, grid of {} bits\n", choice.title,
+             grouped(scene.parts.size()), scene.lights.size(), scene.lights.size() == 1 ? "" : "s",
+             scene.position_bits);
+  std::optional<ExactAnswers> reference;
+  std::map<std::string, ExactAnswers> answers;
+  bool good = true;
+  for (const Runner& runner : kRunners) {
+    if (!kernel_info(runner.kernel).exact || !measured.results.contains(runner.name)) continue;
+    ShadowOptions options = options_of(runner);
+    options.exact_fractions = true;
+    ExactAnswers own = exact_answers(shadows_or_stop(scene, options));
+    if (!own.sums_to_one) {
+      fmt::print("{}: lit and shadow do not add up to exactly 1\n", runner.name);
+      good = false;
+    }
+    if (!reference) reference = own;
+    if (own.checksum != reference->checksum) good = false;
+    answers.emplace(runner.name, std::move(own));
+  }
+  const std::optional<double> base = times.median(name_of(choice, kRunners[1]));
+  Table table({"kernel", "CPU ms", "x double", "BSP ms", "fragments", "exact %", "wrong parts",
+               "worst", "answer"});
+  for (const Runner& runner : kRunners) {
+    const auto found = measured.results.find(runner.name);
+    const std::optional<double> time = times.median(name_of(choice, runner));
+    if (found == measured.results.end() || !time) continue;
+    const ShadowResult& result = found->second;
+    std::string exact_share = "-", wrong = "-", worst = "-", answer;
+    if (runner.kernel == KernelId::kPlane) {
+      ShadowOptions options = options_of(runner);
+      options.count_stages = true;
+      const StageCounts stages = shadows_or_stop(scene, options).stages;
+      exact_share = fmt::format("{:.2f}", 100.0 * static_cast<double>(stages.exact()) /
+                                              static_cast<double>(stages.total()));
+    }
+    if (const auto own = answers.find(runner.name); own != answers.end()) {
+      answer = own->second.checksum;
+    } else if (reference) {
+      const Deviation off = deviation(result, *reference);
+      wrong = grouped(off.wrong_parts);
+      worst = off.wrong_parts == 0 ? "-" : fmt::format("{:.0e}", off.largest);
+      answer = std::isfinite(off.sum) ? fmt::format("sum {:.6f}", off.sum) : "not a number";
+    }
+    table.add({runner.name, short_number(1e3 * *time), base ? short_number(*time / *base) : "-",
+               short_number(1e3 * result.scene_bsp_seconds), grouped(total_fragments(result)),
+               exact_share, wrong, worst, answer});
+  }
+  table.print();
+  if (reference) {
+    double sum = 0;
+    for (const double lit : reference->lit) sum += lit;
+    fmt::print("exact: sum {:.6f}{}\n", sum, good ? "" : "; EXACT KERNELS DISAGREE");
+  }
+  return good;
+}
+
+}  // namespace
+
+bool run_kernels(Extent extent) {
+  std::vector<std::unique_ptr<Measured>> measured;
+  for (const SceneChoice& choice : scene_choices()) {
+    measured.push_back(std::make_unique<Measured>());
+    measured.back()->scene = make_scene(
+        choice.generator, extent == Extent::kShort ? choice.short_parameters : choice.parameters);
+    register_runs(choice, *measured.back(), extent);
+  }
+  TimeCollector times;
+  benchmark::RunSpecifiedBenchmarks(&times);
+  fmt::print(
+      "\nKernels: CPU time, median of the repetitions, of scene BSP, shadows and certified "
+      "areas;\nshare of decisions left to the exact stage; parts whose lit fraction is off "
+      "by more than {:g}.\n",
+      kWrongBeyond);
+  bool good = true;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    good = report(scene_choices()[i], *measured[i], times) && good;
+  }
+  return good;
+}
+
+}  // namespace gnomon::bench

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts of the benchmark program; each prints its tables and returns whether all held.
+#ifndef GNOMON_BENCH_PARTS_H
+#define GNOMON_BENCH_PARTS_H
+
+#include <cstdint>
+
+#include "gnomon/scene/prepare.h"
+
+namespace gnomon::bench {
+
+enum class Extent {
+  kShort,  // seconds: smaller scenes, for continuous integration
+  kUsual,
+  kLong,  // the scene BSP also at a million polygons
+};
+
+/// Every kernel on every scene: time, ratio to double, fragments, exact stage, answer. False if the
+/// exact kernels' answers differ.
+bool run_kernels(Extent extent);
+/// Thickness of the rounded kernels' planes against wrong parts, over families of small scenes.
+bool run_thickness(Extent extent);
+/// Chin & Feiner 1989 and Slater 1992, ours beside the printed counts.
+bool run_papers(Extent extent);
+/// Splits, depth, memory and time of the scene BSP.
+bool run_scene_bsp(Extent extent);
+/// Pieces of the scene BSP of all polygons.
+std::uint64_t scene_bsp_pieces(const PreparedScene& scene);
+
+}  // namespace gnomon::bench
+
+#endif  // GNOMON_BENCH_PARTS_H
