@@ -35,7 +35,7 @@ Explanation explain_with(const PreparedScene& scene, const ShadowOptions& option
   if (lock_step.first) return FirstDifference{*lock_step.first, std::nullopt};
   for (const std::uint32_t light : lights) {
     LightRun<Space> run(scene, run_options, scene_space, light, kernel_options);
-    if (!lock_step.first) run.run(bsp, [](std::size_t) {});
+    if (!lock_step.first) run.run(bsp, [](std::size_t) {}, [](std::uint32_t, Side) {});
     if (lock_step.first) return FirstDifference{*lock_step.first, light};
   }
   return std::optional<FirstDifference>();

@@ -22,7 +22,8 @@ template <SceneSpaceModel Space>
 SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedScene& scene,
                                                  std::span<const std::uint32_t> parts,
                                                  std::uint64_t seed, bool identity,
-                                                 const std::atomic<bool>* interrupted) {
+                                                 const std::atomic<bool>* interrupted,
+                                                 std::uint64_t max_pieces) {
   using Vertex = typename Space::Vertex;
   SceneBsp<Vertex> tree;
   BspBuilderState<Vertex> state;
@@ -72,6 +73,10 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
   while (!tasks.empty()) {
     if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) {
       tree.interrupted = true;
+      break;
+    }
+    if (tree.pieces.size() > max_pieces) {
+      tree.too_many = true;
       break;
     }
     const Task task = tasks.back();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 #include <deque>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "gnomon/algorithms/scene_bsp.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/algorithms/svbsp.h"
+#include "pipeline.h"
 #include "scene_bsp_impl.h"
 #include "svbsp_impl.h"
 
@@ -37,6 +39,34 @@ inline Facing facing_of(const Part& part, Sign plane_at_light) {
   if (at_light == Sign::kPositive) return {Side::kFront, ShadowReason::kNone};
   if (part.two_sided) return {Side::kBack, ShadowReason::kNone};
   return {Side::kFront, ShadowReason::kFacesAway};
+}
+
+/// Appends the vertices of a loop to the points that the options ask for.
+template <LightSpaceModel Space, class AnyFragment>
+void export_loop(const Space& space, const Geometry& geometry, const ShadowOptions& options,
+                 const LoopView<typename Space::Vertex>& loop, AnyFragment& fragment,
+                 std::vector<std::array<double, 3>>& points,
+                 std::vector<std::array<mpq_class, 3>>& exact_points) {
+  fragment.first =
+      static_cast<std::uint32_t>(options.keep_points ? points.size() : exact_points.size());
+  fragment.count = loop.size();
+  for (std::uint32_t i = 0; i < loop.size(); ++i) {
+    const auto corner = loop.corner(i);
+    const bool input = corner.vertex.source != kMadeVertex;
+    if (options.keep_exact_points || (!input && Space::kExact)) {
+      std::array<mpq_class, 3> exact = space.exact_position(corner);
+      if (options.keep_points) {
+        points.push_back(input ? geometry.positions[corner.vertex.source]
+                               : nearest_doubles(exact));
+      }
+      if (options.keep_exact_points) exact_points.push_back(std::move(exact));
+    } else if (input) {
+      points.push_back(geometry.positions[corner.vertex.source]);
+    } else {
+      const std::array<Ball, 3> point = space.position(corner);
+      points.push_back({point[0].middle, point[1].middle, point[2].middle});
+    }
+  }
 }
 
 /// One light's computation: its space, tree and output.
@@ -73,9 +103,13 @@ class LightRun {
 
   const std::vector<std::uint32_t>& facing_parts() const { return facing_parts_; }
 
-  /// False if interrupted. `progress(done)` gets the number of nodes done.
-  template <class Progress>
-  bool run(const SceneBsp<SceneVertex>& bsp, const Progress& progress) {
+  enum class Outcome : std::uint8_t { kDone, kInterrupted, kTooManyFragments };
+
+  /// `progress(done)` gets the number of nodes done; `before_node(piece, side)` is called for each
+  /// facing piece of a node before any piece of that node is inserted.
+  template <class Progress, class BeforeNode>
+  Outcome run(const SceneBsp<SceneVertex>& bsp, const Progress& progress,
+              const BeforeNode& before_node) {
     if (options_.prefix) {
       tree_.plant(plan_prefix(scene_, scene_.lights[result_.light].point, facing_parts_));
     }
@@ -85,20 +119,29 @@ class LightRun {
       if ((i & 63) == 0) {
         if (options_.interrupted != nullptr &&
             options_.interrupted->load(std::memory_order_relaxed)) {
-          return false;
+          return Outcome::kInterrupted;
         }
         progress(i);
       }
-      filter_node(bsp, bsp.nodes[order[i]]);
+      const BspNode& node = bsp.nodes[order[i]];
+      for (std::uint32_t k = 0; k < node.count; ++k) {
+        const std::uint32_t piece = bsp.node_pieces[node.first + k];
+        const Facing& facing = facing_[bsp.pieces[piece].part];
+        if (facing.faces()) before_node(piece, facing.side);
+      }
+      filter_node(bsp, node);
+      if (output_.fragments.size() > options_.max_fragments) return Outcome::kTooManyFragments;
     }
     result_.tree_nodes = tree_.node_count();
     result_.dropped_slivers = tree_.vanished() + bsp.vanished;
-    return true;
+    return Outcome::kDone;
   }
 
   /// Groups fragments by part, collapses parts that agree, measures and exports.
   LightResult finish();
   StageCounts stage_counts() const { return space_.stage_counts(); }
+  Space& space() { return space_; }
+  SvbspTree<Space>& tree() { return tree_; }
 
  private:
   // The facing pieces of one node are coplanar: none shadows another, so all are classified before any
@@ -162,7 +205,6 @@ class LightRun {
     }
     import(whole_.view({0, part.count, index}, part.plane), part);
   }
-  void export_loop(const LoopView<Vertex>& loop, Fragment& fragment);
   void measure(PartResult& part, std::span<const ClassifiedLoop> fragments);
 
   const PreparedScene& scene_;
@@ -220,36 +262,16 @@ LightResult LightRun<Space>::finish() {
       Fragment fragment;
       fragment.state = f.state;
       fragment.caster = f.caster;
-      if (keep) export_loop(output_.loops.view(f.loop, scene_.parts[index].plane), fragment);
+      if (keep) {
+        export_loop(space_, scene_.geometry, options_,
+                    output_.loops.view(f.loop, scene_.parts[index].plane), fragment,
+                    result_.points, result_.exact_points);
+      }
       result_.fragments.push_back(fragment);
     }
     result_.parts.push_back(std::move(part));
   }
   return std::move(result_);
-}
-
-template <LightSpaceModel Space>
-void LightRun<Space>::export_loop(const LoopView<Vertex>& loop, Fragment& fragment) {
-  fragment.first = static_cast<std::uint32_t>(
-      options_.keep_points ? result_.points.size() : result_.exact_points.size());
-  fragment.count = loop.size();
-  for (std::uint32_t i = 0; i < loop.size(); ++i) {
-    const Corner<Vertex> corner = loop.corner(i);
-    const bool input = corner.vertex.source != kMadeVertex;
-    if (options_.keep_exact_points || (!input && Space::kExact)) {
-      const std::array<mpq_class, 3> exact = space_.exact_position(corner);
-      if (options_.keep_points) {
-        result_.points.push_back(input ? scene_.geometry.positions[corner.vertex.source]
-                                       : nearest_doubles(exact));
-      }
-      if (options_.keep_exact_points) result_.exact_points.push_back(exact);
-    } else if (input) {
-      result_.points.push_back(scene_.geometry.positions[corner.vertex.source]);
-    } else {
-      const std::array<Ball, 3> point = space_.position(corner);
-      result_.points.push_back({point[0].middle, point[1].middle, point[2].middle});
-    }
-  }
 }
 
 template <LightSpaceModel Space>
@@ -311,22 +333,62 @@ Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
     if (needed[i]) parts.push_back(i);
   }
   const SceneBsp<typename SceneSpace::Vertex> bsp = build_scene_bsp(
-      scene_space, scene, parts, options.seed, result.identity, options.interrupted);
+      scene_space, scene, parts, options.seed, result.identity, options.interrupted,
+      options.max_fragments);
   if (bsp.interrupted) return interrupted();
   result.scene_bsp_seconds = cpu_seconds() - start;
   result.bsp_nodes = bsp.nodes.size();
   result.bsp_depth = bsp.depth;
   for (const BspNode& node : bsp.nodes) result.bsp_fragments += node.count;
 
+  const auto too_many = [&] {
+    return fail(ErrorCode::kLimit,
+                "more than " + std::to_string(options.max_fragments) + " fragments",
+                "a simpler scene, or a higher limit");
+  };
+  if (bsp.too_many) return too_many();
+  std::optional<Pipeline<Space>> pipeline;
+  if (options.combined) {
+    if (runs.size() > 64) {
+      return fail(ErrorCode::kLimit, std::to_string(runs.size()) + " lights together",
+                  "at most 64");
+    }
+    pipeline.emplace(scene, scene_space, bsp);
+    for (LightRun<Space>& run : runs) pipeline->add_space(run.space());
+  }
   const double total = static_cast<double>(bsp.nodes.size()) * static_cast<double>(runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const double before = static_cast<double>(bsp.nodes.size()) * static_cast<double>(i);
-    const bool done = runs[i].run(bsp, [&](std::size_t nodes) {
-      if (options.progress) options.progress((before + static_cast<double>(nodes)) / total);
+  for (std::uint32_t i = 0; i < runs.size(); ++i) {
+    LightRun<Space>& run = runs[i];
+    const double before = static_cast<double>(bsp.nodes.size()) * i;
+    const auto outcome = run.run(
+        bsp,
+        [&](std::size_t nodes) {
+          if (options.progress) options.progress((before + static_cast<double>(nodes)) / total);
+        },
+        [&](std::uint32_t piece, Side side) {
+          if (pipeline) pipeline->filter(piece, side, i, run.tree());
+        });
+    switch (outcome) {
+      case LightRun<Space>::Outcome::kDone: break;
+      case LightRun<Space>::Outcome::kInterrupted: return interrupted();
+      case LightRun<Space>::Outcome::kTooManyFragments: return too_many();
+    }
+    result.stages += run.stage_counts();
+    result.lights.push_back(run.finish());
+  }
+  if (pipeline) {
+    pipeline->for_each([&](std::uint32_t part, Side side, std::uint64_t lit_by, const Space& space,
+                           const LoopView<typename Space::Vertex>& loop) {
+      CombinedFragment fragment{part, side, lit_by};
+      export_loop(space, scene.geometry, options, loop, fragment, result.combined_points,
+                  result.combined_exact_points);
+      result.combined.push_back(fragment);
     });
-    if (!done) return interrupted();
-    result.stages += runs[i].stage_counts();
-    result.lights.push_back(runs[i].finish());
+    std::stable_sort(result.combined.begin(), result.combined.end(),
+                     [](const CombinedFragment& a, const CombinedFragment& b) {
+                       return std::pair(a.part, -static_cast<int>(a.side)) <
+                              std::pair(b.part, -static_cast<int>(b.side));
+                     });
   }
   result.stages += scene_space.stage_counts();
   result.shadow_seconds = cpu_seconds() - start - result.scene_bsp_seconds;

@@ -144,17 +144,13 @@ PlaneRef PlaneLightSpace<Stats>::add_prefix_plane(const PrefixPlane& plane) {
 // H = n . d > 0 for i: H_i P_j - H_j P_i is constant along d; in q coordinates it is
 // (N_x, N_y, -o) . q / d_z, N = H_i n_j - H_j n_i, o = H_i d_j - H_j d_i.
 template <class Stats>
-PlaneRef PlaneLightSpace<Stats>::trace(PlaneId support, PlaneId cut) {
-  const std::uint64_t key = (std::uint64_t{support} << 32) | cut;
-  if (const auto found = traces_.find(key); found != traces_.end()) return found->second;
-  const ExactGeometry<mpz_class> exact(*geometry_);
-  const ExactPlane<mpz_class> i = exact.plane(support), j = exact.plane(cut);
+PlaneRef PlaneLightSpace<Stats>::trace(PlaneId support, const ExactPlane<mpz_class>& j) {
+  const ExactPlane<mpz_class> i = ExactGeometry<mpz_class>(*geometry_).plane(support);
   mpz_class hi = normal_dot(i.n, light_.grid), hj = normal_dot(j.n, light_.grid);
   if (!light_.directional) {
     hi -= i.d;
     hj -= j.d;
   }
-  const bool flip = sgn(hi) < 0;  // orient plane i to the light
   Vector3<mpz_class> normal;
   if (!light_.directional) {
     for (int k = 0; k < 3; ++k) normal[k] = hj * i.n[k] - hi * j.n[k];
@@ -167,12 +163,42 @@ PlaneRef PlaneLightSpace<Stats>::trace(PlaneId support, PlaneId cut) {
       for (mpz_class& x : normal) x = -x;
     }
   }
-  if (flip) {
+  if (sgn(hi) < 0) {  // plane i was not oriented to the light
     for (mpz_class& x : normal) x = -x;
   }
-  const PlaneRef ref = add_explicit(std::move(normal));
-  traces_.emplace(key, ref);
-  return ref;
+  return add_explicit(std::move(normal));
+}
+
+// A plane of another light in three dimensions: m . q with q = L - v is -m . v + m . L; for a
+// directional light m . q = m_x (x d_z - z d_x) + m_y (y d_z - z d_y) + m_z d_z.
+template <class Stats>
+ExactPlane<mpz_class> PlaneLightSpace<Stats>::in_scene(PlaneRef ref) const {
+  const Vector3<mpz_class> m = exact_normal<mpz_class>(PlaneRef(ref.index()));
+  ExactPlane<mpz_class> plane;
+  if (!light_.directional) {
+    for (int k = 0; k < 3; ++k) plane.n[k] = -m[k];
+    plane.d = -normal_dot(m, light_.grid);
+    return plane;
+  }
+  const auto [x, y, z] = axes_;
+  const std::array<mpz_class, 3>& d = light_.grid;
+  plane.n[x] = m[0] * d[z];
+  plane.n[y] = m[1] * d[z];
+  plane.n[z] = -(m[0] * d[x] + m[1] * d[y]);
+  plane.d = -m[2] * d[z];
+  return plane;
+}
+
+template <class Stats>
+PlaneRef PlaneLightSpace<Stats>::import_cut(const PlaneLightSpace& other, PlaneRef ref,
+                                            PlaneId support) {
+  const std::array<std::uint64_t, 3> key{reinterpret_cast<std::uintptr_t>(&other), ref.index(),
+                                         support};
+  auto found = cuts_.find(key);
+  if (found == cuts_.end()) {
+    found = cuts_.emplace(key, trace(support, other.in_scene(ref))).first;
+  }
+  return ref.flipped() ? -found->second : found->second;
 }
 
 template <class Stats>
@@ -180,8 +206,14 @@ PlaneRef PlaneLightSpace<Stats>::import_edge(PlaneRef scene_edge, PlaneId suppor
                                              const Vertex&, const Vertex&) {
   const SceneEdges names = scene_->edges();
   if (!names.is_input_edge(scene_edge)) {
-    const PlaneRef ref = trace(support, scene_edge.index());
-    return scene_edge.flipped() ? -ref : ref;
+    const std::uint64_t key = (std::uint64_t{support} << 32) | scene_edge.index();
+    auto found = traces_.find(key);
+    if (found == traces_.end()) {
+      const ExactPlane<mpz_class> cut =
+          ExactGeometry<mpz_class>(*geometry_).plane(scene_edge.index());
+      found = traces_.emplace(key, trace(support, cut)).first;
+    }
+    return scene_edge.flipped() ? -found->second : found->second;
   }
   const EdgeId edge = names.edge(scene_edge);
   if (plane_of_edge_[edge] == kExplicit) {

@@ -41,6 +41,7 @@ struct SceneBsp {
   std::uint64_t splits = 0;
   std::uint64_t vanished = 0;  // children with fewer than three vertices (rounded kernels)
   bool interrupted = false;
+  bool too_many = false;     // more than max_pieces: given up
 };
 
 /// Axis-aligned box in scene units, for heuristics.
@@ -68,7 +69,8 @@ template <SceneSpaceModel Space>
 SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedScene& scene,
                                                  std::span<const std::uint32_t> parts,
                                                  std::uint64_t seed, bool identity,
-                                                 const std::atomic<bool>* interrupted = nullptr);
+                                                 const std::atomic<bool>* interrupted = nullptr,
+                                                 std::uint64_t max_pieces = 100'000'000);
 
 /// Node indices front to back as seen from where `side_of_node` says: kFront if the viewpoint is in
 /// front of a node's plane. O(nodes), explicit stack.

@@ -58,6 +58,14 @@ struct LightResult {
   std::uint64_t dropped_slivers = 0;
 };
 
+/// A fragment of one side of a part, and the set of lights that reach all of it.
+struct CombinedFragment {
+  std::uint32_t part = 0;
+  Side side = Side::kFront;
+  std::uint64_t lit_by = 0;  // bit i: ShadowResult::lights[i]
+  std::uint32_t first = 0, count = 0;  // into combined_points / combined_exact_points
+};
+
 struct ShadowResult {
   std::string kernel;     // id of formats: "plane", "double", ...
   std::string algorithm;  // "svbsp"
@@ -65,6 +73,11 @@ struct ShadowResult {
   bool identity = false;
   double thickness = 0;   // relative plane thickness (float kernels)
   std::vector<LightResult> lights;
+  // Several lights together (ShadowOptions::combined): fragments of every side that faces a light,
+  // grouped by part and side; sides that face none have none.
+  std::vector<CombinedFragment> combined;
+  std::vector<std::array<double, 3>> combined_points;
+  std::vector<std::array<mpq_class, 3>> combined_exact_points;
   double scene_bsp_seconds = 0, shadow_seconds = 0;  // CPU time
   StageCounts stages;     // which stage answered; all zero unless ShadowOptions::count_stages
   std::uint64_t bsp_nodes = 0, bsp_fragments = 0, bsp_depth = 0;

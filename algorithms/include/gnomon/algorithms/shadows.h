@@ -26,6 +26,8 @@ struct ShadowOptions {
   bool exact_fractions = false;    // sum exact rational fractions per part (exact kernels)
   bool merge = true;               // merge sibling fragments, collapse parts that agree
   bool prefix = true;              // balanced prefix of light space
+  bool combined = false;           // also the set of lights that reach each fragment; at most 64 lights
+  std::uint64_t max_fragments = 20'000'000;  // pieces of the scene BSP, and fragments a light: kLimit
   bool count_stages = false;       // fill ShadowResult::stages (kernel plane)
   std::uint64_t seed = 1;          // of the root choice of the scene BSP
   std::function<void(double)> progress;         // fraction of the work done, 0..1; may be empty
@@ -33,7 +35,8 @@ struct ShadowOptions {
 };
 
 /// Classifies every part for every light asked for. Errors: kUsage (area light asked for),
-/// kInterrupted, kLimit.
+/// kInterrupted,
+/// kLimit (max_fragments; more than 64 lights with `combined`).
 Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options);
 
 }  // namespace gnomon

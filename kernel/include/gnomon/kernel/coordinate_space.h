@@ -111,6 +111,8 @@ class CoordinateLightSpace {
   PlaneRef import_edge(PlaneRef scene_edge, PlaneId support, bool reversed, const Vertex& from,
                        const Vertex& to);
   Vertex import_vertex(const typename SceneSpace::Vertex& vertex) const { return vertex; }
+  /// Vertices carry coordinates, so that an edge cut for another light needs no plane here.
+  PlaneRef import_cut(const CoordinateLightSpace&, PlaneRef, PlaneId) { return {}; }
   void finish_vertex(Vertex&, PlaneRef, PlaneRef) const {}
   /// With identity an edge keeps its plane; without, a new one is computed from the two vertices.
   PlaneRef shadow_plane(PlaneRef edge, const Vertex& from, const Vertex& to);

@@ -72,6 +72,8 @@ class EpeckLightSpace {
   PlaneRef import_edge(PlaneRef scene_edge, PlaneId support, bool reversed, const Vertex& from,
                        const Vertex& to);
   Vertex import_vertex(const Vertex& vertex) const { return vertex; }
+  /// Vertices carry coordinates, so that an edge cut for another light needs no plane here.
+  PlaneRef import_cut(const EpeckLightSpace&, PlaneRef, PlaneId) { return {}; }
   void finish_vertex(Vertex&, PlaneRef, PlaneRef) const {}
   PlaneRef shadow_plane(PlaneRef edge, const Vertex&, const Vertex&) { return edge; }
   PlaneRef add_prefix_plane(const PrefixPlane& plane);

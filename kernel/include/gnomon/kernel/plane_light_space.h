@@ -16,6 +16,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -51,6 +52,9 @@ class PlaneLightSpace {
   PlaneRef import_edge(PlaneRef scene_edge, PlaneId support, bool reversed, const Vertex& from,
                        const Vertex& to);
   Vertex import_vertex(const typename SceneSpace::Vertex& vertex) const;
+  /// The plane through this light and the line in which a plane of another light cuts `support`, same
+  /// sides: how an edge made by one light's tree goes on to the next (1989, sec. 5).
+  PlaneRef import_cut(const PlaneLightSpace& other, PlaneRef plane, PlaneId support);
   /// Completes a made vertex once the planes of its edges are known.
   void finish_vertex(Vertex& vertex, PlaneRef before, PlaneRef after) const;
   /// A fragment edge is its own shadow plane.
@@ -103,7 +107,8 @@ class PlaneLightSpace {
   std::array<double, 3> scaled(const Vector3<Int128>& v, bool is_normal,
                                unsigned magnitude_bits) const;
   PlaneRef add_explicit(Vector3<mpz_class> normal);
-  PlaneRef trace(PlaneId support, PlaneId cut);
+  PlaneRef trace(PlaneId support, const ExactPlane<mpz_class>& cut);
+  ExactPlane<mpz_class> in_scene(PlaneRef plane) const;
 
   const Geometry* geometry_;
   SceneSpace* scene_;
@@ -119,7 +124,8 @@ class PlaneLightSpace {
   std::vector<std::uint32_t> plane_of_edge_;  // edge -> plane, kExplicit if not made yet
   std::vector<Vector3<mpz_class>> explicit_;
   std::vector<unsigned> explicit_bits_;
-  std::unordered_map<std::uint64_t, PlaneRef> traces_;
+  std::unordered_map<std::uint64_t, PlaneRef> traces_;         // (support plane, cutting plane)
+  std::map<std::array<std::uint64_t, 3>, PlaneRef> cuts_;      // (other light, its plane, support)
   Stats stats_;
 };
 
