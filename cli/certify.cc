@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "gnomon/algorithms/explain.h"
 #include "gnomon/algorithms/shadows.h"
+#include "gnomon/oracle/prepared_check.h"
 #include "gnomon/oracle/read_candidate.h"
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/report/candidate_from_result.h"
@@ -73,6 +74,11 @@ class CertifyRun {
     certificate_.prepared = &loaded.prepared;
     certificate_.geometry_digest = geometry_digest(loaded.scene);
     certificate_.facing_area = report::facing_area(loaded.prepared, loaded.lights);
+    for (const oracle::PreparedFinding& finding :
+         oracle::check_prepared(loaded.scene, loaded.prepared)) {
+      certificate_.scene_findings.push_back(
+          (finding.polygon.empty() ? "" : "polygon " + finding.polygon + ": ") + finding.text);
+    }
     certificate_.left_out = loaded.area_lights;
     for (std::uint32_t light : loaded.lights) {
       certificate_.lights.push_back(loaded.scene.lights[light].id);
@@ -99,7 +105,8 @@ class CertifyRun {
     run.name = kernel.name();
     run.exact = kernel.exact();
     run.identity = kernel.identity;
-    run.thickness = kernel.exact() ? 0 : options_.thickness;
+    run.exact_decisions = kernel.exact() || kernel.kernel == KernelId::kEpick;
+    run.thickness = run.exact_decisions ? 0 : options_.thickness;
 
     progress_.set_label("kernel " + run.name);
     ShadowOptions shadow_options = options_of(kernel);
@@ -132,7 +139,7 @@ class CertifyRun {
   const std::vector<oracle::Candidate>& kept() const { return kept_; }
 
   int status() const {
-    bool failed = false, disagree = false;
+    bool failed = false, disagree = !certificate_.scene_findings.empty();
     for (const report::JudgedRun& run : certificate_.runs) {
       if (!run.report) {
         failed = failed || !run.exact;
@@ -249,8 +256,10 @@ int run_certify(const CertifyCommandOptions& options) {
     }
   }
 
-  const std::string text = report::certificate_text(run.certificate());
-  if (auto done = write_output({}, text); !done) return report_error(done.error());
+  if (options.json != "-") {
+    const std::string text = report::certificate_text(run.certificate());
+    if (auto done = write_output({}, text); !done) return report_error(done.error());
+  }
   if (!options.json.empty()) {
     auto output = Output::open(options.json);
     if (!output) return report_error(output.error());

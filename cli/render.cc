@@ -56,6 +56,7 @@ Expected<report::Camera> camera_of(const RenderOptions& options, const PreparedS
     if (!point) return tl::unexpected(point.error());
     *target = *point;
   }
+  if (!options.look_at.empty()) camera.centre_scene = false;
   if (camera.eye == camera.look_at) {
     return fail(ErrorCode::kUsage, "--eye and --look-at are the same point", "two different points");
   }
@@ -83,9 +84,6 @@ Expected<void> render(const RenderOptions& options) {
   if (!camera) return tl::unexpected(camera.error());
   const std::uint32_t light = loaded->lights.front();
   const std::string& id = loaded->scene.lights[light].id;
-  if (loaded->lights.size() > 1 && options.scene.lights.empty()) {
-    warn("the picture shows the light " + id + "; --light chooses another");
-  }
   loaded->lights = {light};
 
   report::PictureOptions picture;

@@ -193,6 +193,7 @@ void write_certificate_json(TextSink& sink, const Certificate& certificate, bool
   write_texts(json, "lights", certificate.lights);
   json.member("facing_area", certificate.facing_area);
   write_texts(json, "left_out", certificate.left_out);
+  write_texts(json, "scene_findings", certificate.scene_findings);
   if (certificate.interrupted) json.member("interrupted", true);
   json.key("runs");
   json.begin_array();

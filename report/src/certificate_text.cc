@@ -29,6 +29,7 @@ std::string bound(double upper) { return upper == 0 ? "0" : rounded(upper, 3); }
 std::string policy(const JudgedRun& run) {
   if (run.foreign) return "foreign";
   if (run.exact) return "exact";
+  if (run.exact_decisions) return "rounds points";
   return "thick " + rounded(run.thickness, 2);
 }
 
@@ -172,6 +173,10 @@ std::string certificate_text(const Certificate& certificate) {
                   TextTable::kWidth, 0, 2);
   if (!certificate.left_out.empty()) {
     text += wrapped("left out (area lights): " + joined(certificate.left_out), TextTable::kWidth, 0, 2);
+  }
+  for (const std::string& finding : certificate.scene_findings) {
+    text += wrapped("the prepared scene is wrong, a bug of this program: " + finding,
+                    TextTable::kWidth, 0, 2);
   }
   for (const JudgedRun& run : certificate.runs) {
     if (!run.report) continue;

@@ -58,7 +58,14 @@ inline std::vector<Vector> clipped(const std::vector<Vector>& loop, const Vector
   return result;
 }
 
-/// The intersection of two convex loops of one plane, whatever their orientation.
+/// A loop moved along the unit normal into the plane through a point.
+inline std::vector<Vector> projected(std::vector<Vector> loop, const Vector& normal,
+                                     const Vector& point) {
+  for (Vector& vertex : loop) vertex = vertex - dot(normal, vertex - point) * normal;
+  return loop;
+}
+
+/// The part of a loop inside a convex one of the same plane, whatever their orientation.
 inline std::vector<Vector> intersection(std::vector<Vector> loop, const std::vector<Vector>& other) {
   const Vector normal = area_vector(other);
   for (std::size_t i = 0; i < other.size() && !loop.empty(); ++i) {

@@ -101,7 +101,8 @@ class View {
     const double larger = std::max(width, height);
     scale_ = camera.field_of_view > 0
                  ? larger / 2 / std::tan(camera.field_of_view * std::numbers::pi / 360)
-                 : fitting_scale(scene, width, height);
+                 : 0;
+    frame(scene, width, height, camera.centre_scene);
     // A little beyond the frame on every side, so that outlines end outside of it.
     slope_x_ = width / 2 / scale_ * 1.02;
     slope_y_ = height / 2 / scale_ * 1.02;
@@ -116,8 +117,9 @@ class View {
       result.push_back({dot(d, right_), dot(d, up_), dot(d, forward_)});
     }
     result = clipped(result, {0, 0, 1}, near_);
-    for (const Vector& inward : {Vector{1, 0, slope_x_}, Vector{-1, 0, slope_x_},
-                                 Vector{0, 1, slope_y_}, Vector{0, -1, slope_y_}}) {
+    for (const Vector& inward :
+         {Vector{1, 0, slope_x_ - shift_[0]}, Vector{-1, 0, slope_x_ + shift_[0]},
+          Vector{0, 1, slope_y_ - shift_[1]}, Vector{0, -1, slope_y_ + shift_[1]}}) {
       if (result.empty()) break;
       result = clipped(result, inward, 0);
     }
@@ -135,8 +137,8 @@ class View {
   std::optional<PixelPoint> pixel_of(const Vector& point) const {
     const Vector d = point - eye_;
     const Vector seen{dot(d, right_), dot(d, up_), dot(d, forward_)};
-    if (seen[2] < near_ || std::abs(seen[0]) > slope_x_ * seen[2] ||
-        std::abs(seen[1]) > slope_y_ * seen[2]) {
+    if (seen[2] < near_ || std::abs(seen[0] - shift_[0] * seen[2]) > slope_x_ * seen[2] ||
+        std::abs(seen[1] - shift_[1] * seen[2]) > slope_y_ * seen[2]) {
       return std::nullopt;
     }
     return pixel(seen);
@@ -144,24 +146,46 @@ class View {
   const Vector& eye() const { return eye_; }
 
  private:
-  /// Pixels a unit at distance 1, so that all of the scene is in the frame; a view of 75 degrees from
-  /// where that cannot be.
-  double fitting_scale(const std::vector<Vector>& scene, double width, double height) const {
-    constexpr double kMargin = 0.94, kWidest = 0.77;  // tangent of half of 75 degrees
+  /// Chooses the scale (pixels a unit at distance 1) if none is set, and the middle of the frame if
+  /// asked, so that all of the scene is in view; 75 degrees from where that cannot be.
+  void frame(const std::vector<Vector>& scene, double width, double height, bool centre_scene) {
+    constexpr double kMargin = 0.93, kWidest = 0.77;  // tangent of half of 75 degrees
     const double least = std::max(width, height) / 2 / kWidest;
-    double scale = std::numeric_limits<double>::infinity();
+    PixelPoint low{0, 0}, high{0, 0};
+    bool first = true, all_in_front = true;
     for (const Vector& point : scene) {
       const Vector d = point - eye_;
       const double depth = dot(d, forward_);
-      if (depth <= 0) return least;
-      scale = std::min({scale, kMargin * width / 2 * depth / std::abs(dot(d, right_)),
-                        kMargin * height / 2 * depth / std::abs(dot(d, up_))});
+      all_in_front = all_in_front && depth > 0;
+      if (!all_in_front) break;
+      const PixelPoint seen{dot(d, right_) / depth, dot(d, up_) / depth};
+      for (int k = 0; k < 2; ++k) {
+        low[k] = first ? seen[k] : std::min(low[k], seen[k]);
+        high[k] = first ? seen[k] : std::max(high[k], seen[k]);
+      }
+      first = false;
     }
-    return std::isfinite(scale) ? std::max(scale, least) : least;
+    if (!all_in_front || first) {
+      if (scale_ <= 0) scale_ = least;
+      return;
+    }
+    PixelPoint reach{};
+    PixelPoint middle{};
+    for (int k = 0; k < 2; ++k) {
+      middle[k] = centre_scene ? (low[k] + high[k]) / 2 : 0;
+      reach[k] = std::max({high[k] - middle[k], middle[k] - low[k], 1e-12});
+    }
+    if (scale_ <= 0) {
+      scale_ = std::max(least, kMargin * std::min(width / 2 / reach[0], height / 2 / reach[1]));
+    }
+    centre_[0] -= scale_ * middle[0];
+    centre_[1] += scale_ * middle[1];
+    shift_ = middle;
   }
 
   Vector eye_, forward_, right_, up_;
-  PixelPoint centre_;
+  PixelPoint centre_;      // of the eye's axis, in pixels
+  PixelPoint shift_{0, 0};  // of the frame's middle from it, as a slope
   double scale_, slope_x_, slope_y_, near_;
 };
 
@@ -244,13 +268,15 @@ class Painter {
   void paint(const OrderedPiece& piece, const View& view, const ShadedPolygons& shown,
              const ShadedPolygons* truth) {
     const Part& part = prepared_.parts[piece.part];
-    Vector normal = unit(area_vector(whole_loop(part)));
-    const bool front = dot(normal, view.eye() - whole_loop(part).front()) > 0;
+    const std::vector<Vector> whole = whole_loop(part);
+    const Vector normal = unit(area_vector(whole));
+    const bool front = dot(normal, view.eye() - whole.front()) > 0;
     if (!front && !part.two_sided && !options_.backs) return;
     const auto side = front ? oracle::PolygonSide::kFront : oracle::PolygonSide::kBack;
+    // One shade a part, whatever the tree cut it into.
     Vector centre{};
-    for (const Vector& point : piece.loop) {
-      centre = centre + (1.0 / static_cast<double>(piece.loop.size())) * point;
+    for (const Vector& point : whole) {
+      centre = centre + (1.0 / static_cast<double>(whole.size())) * point;
     }
     const std::string& id = scene_.polygons[part.polygon].id;
     const std::vector<ShadedLoop>* loops = shown.find(id, side);
@@ -263,25 +289,30 @@ class Painter {
       set_box(own);
       for (const ShadedLoop& shaded : *loops) {
         if (!boxes_meet(own, shaded)) continue;
-        const std::vector<Vector> seen = intersection(piece.loop, shaded.loop);
+        // A foreign loop may be anything; the piece that cuts it is convex.
+        const std::vector<Vector> seen =
+            intersection(projected(shaded.loop, normal, whole.front()), piece.loop);
         if (seen.empty()) continue;
         fill(seen, colour(shaded.shade, normal, centre, view), view);
       }
-      if (truth != nullptr) paint_difference(piece, *loops, truth->find(id, side), view);
+      if (truth != nullptr) {
+        paint_difference(piece, normal, *loops, truth->find(id, side), view);
+      }
     }
     paint_outline(piece, part, view);
   }
 
   /// Where the classes of two results differ. Only overlaps of fragments are looked at: what one of
   /// them leaves uncovered shows as grey.
-  void paint_difference(const OrderedPiece& piece, const std::vector<ShadedLoop>& shown,
-                        const std::vector<ShadedLoop>* truth, const View& view) {
+  void paint_difference(const OrderedPiece& piece, const Vector& normal,
+                        const std::vector<ShadedLoop>& shown, const std::vector<ShadedLoop>* truth,
+                        const View& view) {
     if (truth == nullptr) return;
     for (const ShadedLoop& a : shown) {
       for (const ShadedLoop& b : *truth) {
         if (a.shade == b.shade || !boxes_meet(a, b)) continue;
-        const std::vector<Vector> wrong =
-            intersection(intersection(piece.loop, a.loop), b.loop);
+        const std::vector<Vector> wrong = intersection(
+            intersection(projected(a.loop, normal, piece.loop.front()), b.loop), piece.loop);
         if (wrong.empty()) continue;
         // A sliver of rounding is thinner than any pixel, and is not worth one.
         if (length(area_vector(wrong)) < 1e-9 * size_ * size_) continue;
@@ -397,6 +428,7 @@ Camera default_camera(const PreparedScene& prepared) {
   const auto [low, high] = bounding_box(prepared);
   Camera camera;
   camera.look_at = 0.5 * (low + high);
+  camera.centre_scene = true;
   const double size = std::max(length(high - low), 1e-300);
   camera.eye = camera.look_at + size * Vector{0.62, -0.86, 0.62};
   return camera;

@@ -23,6 +23,7 @@ struct JudgedRun {
   bool foreign = false;      // not one of our kernels
   bool exact = false;        // an exact kernel: anything but `identical` is a bug of ours
   bool identity = false;
+  bool exact_decisions = false;  // rounds points alone (epick): no thickness
   double thickness = 0;      // rounded kernels only
   std::uint64_t fragments = 0;
   std::uint64_t dropped_slivers = 0;
@@ -42,6 +43,7 @@ struct Certificate {
   std::vector<std::string> lights;      // judged
   double facing_area = 0;               // scene units squared, of all lights together
   std::vector<std::string> left_out;    // area lights
+  std::vector<std::string> scene_findings;  // what is wrong with the prepared scene: bugs of ours
   std::vector<JudgedRun> runs;
   bool interrupted = false;             // runs that were not reached are missing
 };

@@ -27,7 +27,8 @@ using Point = std::array<double, 3>;
 struct Camera {
   Point eye{}, look_at{};
   Point up{0, 0, 1};
-  double field_of_view = 0;  // degrees, across the larger side of the picture; 0: what shows the scene
+  double field_of_view = 0;   // degrees, across the larger side of the picture; 0: fits the scene
+  bool centre_scene = false;  // move the frame, not the eye, so that the scene is in its middle
 };
 
 /// A camera that has the whole scene in view, from a corner above it.
