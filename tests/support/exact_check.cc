@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 
+#include "gnomon/oracle/witness_check.h"
 #include "witness_check.h"
 
 namespace gnomon::test {
@@ -142,6 +143,18 @@ std::string check_exact(const Case& scene, const ExactCheck& check) {
                             report.reason);
         for (const std::string& problem : report.problems) wrong += "; " + problem;
         if (report.worst) wrong += "; " + report.worst->text;
+      }
+    }
+    if (wrong.empty() && i == 0 && check.witnesses) {
+      oracle::WitnessOptions exactly;
+      exactly.tolerance = 0;
+      exactly.width = 0;
+      const oracle::WitnessReport report = oracle::check_witnesses(
+          scene.scene(), scene.prepared(), candidate_of(scene, *result), exactly);
+      if (!report.findings.empty()) {
+        const oracle::WitnessFinding& finding = report.findings.front();
+        wrong = fmt::format("{}: claims, light '{}', polygon '{}': {}", result->kernel,
+                            finding.light, finding.polygon, finding.text);
       }
     }
     if (!wrong.empty()) return wrong;

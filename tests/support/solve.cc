@@ -2,6 +2,7 @@
 #include "solve.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -107,15 +108,29 @@ oracle::Candidate candidate_of(const Case& scene, const ShadowResult& result) {
   return candidate;
 }
 
-oracle::Report judge(const Case& scene, const ShadowResult& result) {
+oracle::Report judge(const Case& scene, const ShadowResult& result, bool strict) {
   oracle::CertifyOptions options;
-  options.strict = true;
+  options.strict = strict;
   options.threads = 1;
   options.most_regions = 4;
   const oracle::Candidate candidate = candidate_of(scene, result);
   Expected<oracle::Report> report = oracle::certify(scene.answer(), candidate, options);
   if (!report) throw std::runtime_error(to_string(report.error()));
   return std::move(*report);
+}
+
+ShadowOptions options_by_name(const std::string& name) {
+  const std::size_t at = name.find('@');
+  std::string kernel = name.substr(0, at);
+  const std::size_t plus = kernel.find("+identity");
+  const bool identity = plus != std::string::npos;
+  if (identity) kernel.resize(plus);
+  const std::optional<KernelId> id = kernel_by_name(kernel);
+  if (!id) throw std::runtime_error("no kernel " + name);
+  ShadowOptions options = options_for(*id);
+  options.identity = identity;
+  options.thickness = at == std::string::npos ? 0 : std::stod(name.substr(at + 1));
+  return options;
 }
 
 std::string text_of(const Scene& scene) {

@@ -44,8 +44,12 @@ ShadowOptions options_for(KernelId kernel);
 /// Requires: the result was computed with keep_exact_points.
 oracle::Candidate candidate_of(const Case& scene, const ShadowResult& result);
 
-/// Certified with one thread and no tolerance; area lights are left out.
-oracle::Report judge(const Case& scene, const ShadowResult& result);
+/// Certified with one thread, without tolerance (strict) or with the default one.
+oracle::Report judge(const Case& scene, const ShadowResult& result, bool strict = true);
+
+/// A kernel with its policies, by name: "double@1e-12" (thickness), "double+identity@0", "epick",
+/// "plane". Throws std::runtime_error for a name that is none.
+ShadowOptions options_by_name(const std::string& name);
 
 /// The scene as JSON, for messages.
 std::string text_of(const Scene& scene);
