@@ -27,6 +27,7 @@ struct Interval {
   double middle() const { return lower + (upper - lower) / 2; }
 };
 
+/// A convex loop, counter-clockwise seen from the side that it belongs to.
 struct Fragment {
   static constexpr std::uint32_t kNoCaster = 0xffffffffu;
   LightState state = LightState::kLit;
