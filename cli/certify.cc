@@ -94,7 +94,9 @@ class CertifyRun {
     run.foreign = true;
     for (const oracle::CandidateLight& light : read->lights) {
       for (const oracle::CandidatePolygon& polygon : light.polygons) {
-        run.fragments += polygon.fragments.size();
+        // Those that a tree made: what is in shadow as a whole for a reason is none.
+        run.fragments += static_cast<std::uint64_t>(std::ranges::count_if(
+            polygon.fragments, [](const auto& fragment) { return fragment.reason.empty(); }));
       }
     }
     return judge(std::move(run), std::move(*read));

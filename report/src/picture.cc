@@ -63,7 +63,7 @@ class ShadedPolygons {
  public:
   explicit ShadedPolygons(const CandidateLight& light) : background_(light.background) {
     for (const CandidatePolygon& polygon : light.polygons) {
-      std::vector<ShadedLoop>& loops = loops_[{polygon.id, polygon.side}];
+      std::vector<ShadedLoop> loops;
       for (const CandidateFragment& fragment : polygon.fragments) {
         ShadedLoop shaded{fragment.shade, {}, {}, {}};
         for (const oracle::ExactPoint& point : fragment.loop) {
@@ -73,6 +73,9 @@ class ShadedPolygons {
         set_box(shaded);
         loops.push_back(std::move(shaded));
       }
+      // A foreign file that names no side means the only one that counts.
+      if (!polygon.side_given) loops_[{polygon.id, oracle::PolygonSide::kBack}] = loops;
+      loops_[{polygon.id, polygon.side}] = std::move(loops);
     }
   }
 
@@ -282,24 +285,44 @@ class Painter {
     const std::vector<ShadedLoop>* loops = shown.find(id, side);
     // A side that no result lists does not face the light.
     const ShadeClass base = shown.background().value_or(ShadeClass::kShadow);
-    const bool covered = loops == nullptr || shown.background();
-    fill(piece.loop, covered ? colour(base, normal, centre, view) : kMissing, view);
-    if (loops != nullptr) {
-      ShadedLoop own{ShadeClass::kLit, piece.loop, {}, {}};
-      set_box(own);
-      for (const ShadedLoop& shaded : *loops) {
-        if (!boxes_meet(own, shaded)) continue;
-        // A foreign loop may be anything; the piece that cuts it is convex.
-        const std::vector<Vector> seen =
-            intersection(projected(shaded.loop, normal, whole.front()), piece.loop);
-        if (seen.empty()) continue;
-        fill(seen, colour(shaded.shade, normal, centre, view), view);
-      }
+    if (loops == nullptr) {
+      fill(piece.loop, colour(base, normal, centre, view), view);
+    } else {
+      paint_fragments(piece, normal, *loops, [&](std::optional<ShadeClass> shade) {
+        if (!shade && shown.background()) shade = base;
+        return shade ? colour(*shade, normal, centre, view) : kMissing;
+      }, view);
       if (truth != nullptr) {
         paint_difference(piece, normal, *loops, truth->find(id, side), view);
       }
     }
     paint_outline(piece, part, view);
+  }
+
+  /// `colour_of` nothing is what no fragment covers; it is only painted where that can be seen, since
+  /// it would shine through along the edges of what covers it.
+  template <class ColourOf>
+  void paint_fragments(const OrderedPiece& piece, const Vector& normal,
+                       const std::vector<ShadedLoop>& loops, const ColourOf& colour_of,
+                       const View& view) {
+    constexpr double kAll = 0.99999;
+    const Vector& on_plane = piece.loop.front();
+    ShadedLoop own{ShadeClass::kLit, piece.loop, {}, {}};
+    set_box(own);
+    std::vector<std::pair<ShadeClass, std::vector<Vector>>> seen;
+    double covered = 0;
+    for (const ShadedLoop& shaded : loops) {
+      if (!boxes_meet(own, shaded)) continue;
+      // A foreign loop may be anything; the piece that cuts it is convex.
+      std::vector<Vector> cut = intersection(projected(shaded.loop, normal, on_plane), piece.loop);
+      if (cut.empty()) continue;
+      covered += length(area_vector(cut));
+      seen.emplace_back(shaded.shade, std::move(cut));
+    }
+    if (covered < kAll * length(area_vector(piece.loop))) {
+      fill(piece.loop, colour_of(std::nullopt), view);
+    }
+    for (const auto& [shade, loop] : seen) fill(loop, colour_of(shade), view);
   }
 
   /// Where the classes of two results differ. Only overlaps of fragments are looked at: what one of

@@ -10,6 +10,7 @@
 
 #include <gmpxx.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>

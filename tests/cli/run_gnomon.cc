@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_gnomon.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+namespace gnomon::test {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+TestDirectory::TestDirectory() {
+  std::string pattern = (fs::temp_directory_path() / "gnomon-test-XXXXXX").string();
+  path_ = ::mkdtemp(pattern.data());
+}
+
+TestDirectory::~TestDirectory() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::size_t TestDirectory::count() const {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
+}
+
+RunResult run_gnomon(const std::vector<std::string>& arguments, const RunOptions& options) {
+  const TestDirectory directory;
+  const std::string in = directory.file("in"), err = directory.file("err");
+  const std::string out =
+      options.stdout_path.empty() ? directory.file("out") : options.stdout_path;
+  write_text(in, options.input);
+
+  std::vector<std::string> words = {GNOMON_PROGRAM};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+
+  int pipe_ends[2] = {-1, -1};
+  if (options.close_pipe && ::pipe(pipe_ends) != 0) return {};
+  const pid_t child = ::fork();
+  if (child == 0) {
+    for (const std::string& variable : options.environment) ::putenv(const_cast<char*>(variable.c_str()));
+    ::dup2(::open(in.c_str(), O_RDONLY), STDIN_FILENO);
+    ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+    if (options.close_pipe) {
+      ::close(pipe_ends[0]);
+      ::dup2(pipe_ends[1], STDOUT_FILENO);
+    } else {
+      ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
+    }
+    ::signal(SIGPIPE, SIG_DFL);
+    ::execv(argv[0], argv.data());
+    ::_exit(127);
+  }
+  if (options.close_pipe) {
+    ::close(pipe_ends[0]);
+    ::close(pipe_ends[1]);
+  }
+  if (options.signal != 0) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(options.signal_after));
+    ::kill(child, options.signal);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  RunResult result;
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
+  if (!options.close_pipe && options.stdout_path.empty()) result.out = read_text(out);
+  result.err = read_text(err);
+  return result;
+}
+
+}  // namespace gnomon::test
