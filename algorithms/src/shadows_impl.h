@@ -103,6 +103,8 @@ class LightRun {
 
   const std::vector<std::uint32_t>& facing_parts() const { return facing_parts_; }
 
+  /// The tree is smaller than a fragment's loop; this keeps it from outgrowing them.
+  static constexpr std::uint64_t kMostNodesAFragment = 8;
   enum class Outcome : std::uint8_t { kDone, kInterrupted, kTooManyFragments };
 
   /// `progress(done)` gets the number of nodes done; `before_node(piece, side)` is called for each
@@ -130,7 +132,10 @@ class LightRun {
         if (facing.faces()) before_node(piece, facing.side);
       }
       filter_node(bsp, node);
-      if (output_.fragments.size() > options_.max_fragments) return Outcome::kTooManyFragments;
+      if (output_.fragments.size() > options_.max_fragments ||
+          tree_.node_count() / kMostNodesAFragment > options_.max_fragments) {
+        return Outcome::kTooManyFragments;
+      }
     }
     result_.tree_nodes = tree_.node_count();
     result_.dropped_slivers = tree_.vanished() + bsp.vanished;

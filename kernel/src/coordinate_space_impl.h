@@ -31,6 +31,16 @@ template <class T>
 double to_double(T value) {
   return static_cast<double>(value);
 }
+inline mpq_class length_of(const std::array<mpq_class, 3>&) { return 0; }  // never needed: no thickness
+template <class T>
+  requires std::is_floating_point_v<T>
+T length_of(const std::array<T, 3>& v) {
+  return std::hypot(v[0], v[1], v[2]);
+}
+template <class T>
+Sign side_of_zero(const T& value, const T& thickness) {
+  return value > thickness ? Sign::kPositive : value < -thickness ? Sign::kNegative : Sign::kZero;
+}
 /// Scene's diagonal in scene units, from the nearest doubles.
 inline double diagonal(const Geometry& geometry) {
   std::array<double, 3> low{}, high{};
@@ -49,9 +59,13 @@ inline double diagonal(const Geometry& geometry) {
 
 template <class T>
 CoordinatePlanes<T>::CoordinatePlanes(const Geometry& geometry, const KernelOptions& options)
-    : geometry_(&geometry), identity_(kExact || options.identity), thickness_(0) {
+    : geometry_(&geometry),
+      identity_(kExact || options.identity),
+      thickness_(0),
+      relative_thickness_(0) {
   if constexpr (!kExact) {
     if (options.thickness > 0) {
+      relative_thickness_ = static_cast<T>(options.thickness);
       thickness_ = static_cast<T>(options.thickness * coordinate_detail::diagonal(geometry));
     }
   }
@@ -165,7 +179,12 @@ template <class T>
 Sign CoordinateLightSpace<T>::light_side(PlaneId id) const {
   const CoordinatePlane<T>& plane = scene_->support(id);
   const T value = coordinate_detail::dot(plane.n, light_);
-  if (directional_) return sign_of(value);
+  if (directional_) {
+    // The thickness of a plane of the scene's size, as an angle to a direction.
+    const T thickness =
+        scene_->arithmetic().relative_thickness() * coordinate_detail::length_of(light_);
+    return coordinate_detail::side_of_zero(value, thickness);
+  }
   Vertex light;
   light.x = light_;
   return static_cast<Sign>(scene_->arithmetic().side(plane, light));

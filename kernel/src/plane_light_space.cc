@@ -20,6 +20,12 @@ double largest(const std::array<double, 3>& v) {
   return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
 }
 
+/// For a vector that was rounded once: relative error 2u, unless underflow took part of it.
+void set_bound(const std::array<double, 3>& v, double& magnitude, double& error) {
+  magnitude = largest(v);
+  error = magnitude >= kLeastBound && magnitude < kInfinity ? 2 * kUnit * magnitude : kInfinity;
+}
+
 unsigned bits(const Vector3<mpz_class>& v) {
   std::size_t most = 1;
   for (const mpz_class& x : v) most = std::max(most, mpz_sizeinbase(x.get_mpz_t(), 2));
@@ -36,7 +42,9 @@ template <class Stats>
 PlaneLightSpace<Stats>::PlaneLightSpace(SceneSpace& scene, const LightPoint& light,
                                         const KernelOptions&)
     : geometry_(&scene.geometry()), scene_(&scene), light_(light), axes_(LightAxes::of(light)) {
-  const unsigned b = geometry_->grid.bits();
+  const unsigned grid_bits = geometry_->grid.bits();
+  // The grid's bits are those of the vertices; a lamp may stand far outside.
+  const unsigned b = light.directional ? grid_bits : std::max(grid_bits, bits(light.grid));
   q_bits_ = light_space_bits(light.directional, b, bits(light.grid));
   edge_bits_ = shadow_plane_bits(q_bits_);
   stretch_ = light.directional ? static_cast<int>(b) : 0;
@@ -44,10 +52,10 @@ PlaneLightSpace<Stats>::PlaneLightSpace(SceneSpace& scene, const LightPoint& lig
   if (narrow_) {
     for (int k = 0; k < 3; ++k) narrow_light_[k] = light.grid[k].get_si();
   }
-  const unsigned shift = light.directional ? bits(light.grid) : b;
+  const unsigned shift = light.directional ? bits(light.grid) : grid_bits;
   for (int k = 0; k < 3; ++k) {
     const double value = to_double_scaled(light.grid[k], shift);
-    light_enclosure_[k] = Ball(value, 2 * kUnit * std::fabs(value));
+    light_enclosure_[k] = Ball(value, 2 * kUnit * std::fabs(value) + Ball::kTiny);
   }
   plane_of_edge_.assign(geometry_->edges.size(), kExplicit);
 }
@@ -125,8 +133,7 @@ PlaneRef PlaneLightSpace<Stats>::add_explicit(Vector3<mpz_class> normal) {
   plane.a = static_cast<std::uint32_t>(explicit_.size());
   const unsigned width = bits(normal);
   plane.n = scaled(normal, true, width);
-  plane.magnitude = largest(plane.n);
-  plane.error = 2 * kUnit * plane.magnitude;
+  set_bound(plane.n, plane.magnitude, plane.error);
   explicit_bits_.push_back(width);
   explicit_.push_back(std::move(normal));
   planes_.push_back(plane);
@@ -226,8 +233,7 @@ PlaneRef PlaneLightSpace<Stats>::import_edge(PlaneRef scene_edge, PlaneId suppor
     } else {
       plane.n = scaled(cross(q<mpz_class>(ends.a), q<mpz_class>(ends.b)), true, edge_bits_);
     }
-    plane.magnitude = largest(plane.n);
-    plane.error = 2 * kUnit * plane.magnitude;
+    set_bound(plane.n, plane.magnitude, plane.error);
     plane_of_edge_[edge] = static_cast<std::uint32_t>(planes_.size());
     planes_.push_back(plane);
   }
@@ -245,8 +251,7 @@ typename PlaneLightSpace<Stats>::Vertex PlaneLightSpace<Stats>::import_vertex(
   } else {
     result.ray = scaled(q<mpz_class>(vertex.source), false, q_bits_);
   }
-  result.magnitude = largest(result.ray);
-  result.error = 2 * kUnit * result.magnitude;
+  set_bound(result.ray, result.magnitude, result.error);
   return result;
 }
 
@@ -265,6 +270,7 @@ void PlaneLightSpace<Stats>::finish_vertex(Vertex& vertex, PlaneRef before, Plan
   // Two products whose factors err by m.error and n.error; three roundings of at most |m||n| each.
   vertex.error = 2.01 * (m.magnitude * n.error + m.error * (n.magnitude + n.error)) +
                  4.01 * kUnit * m.magnitude * n.magnitude;
+  if (!(vertex.magnitude >= kLeastBound)) vertex.error = kInfinity;
 }
 
 template <class Stats>
@@ -300,7 +306,7 @@ Side PlaneLightSpace<Stats>::side_of_plane(PlaneRef ref, const Corner<Vertex>& c
   const double bound =
       3.01 * (plane.magnitude * vertex.error + plane.error * (vertex.magnitude + vertex.error)) +
       10 * kUnit * plane.magnitude * vertex.magnitude;
-  if (std::fabs(value) > bound && bound >= kLeastBound && bound < kInfinity) {
+  if (std::fabs(value) > bound && bound >= kLeastBound && std::fabs(value) < kInfinity) {
     stats_.count(Stage::kFilter);
     return side_of((value > 0) != ref.flipped() ? Sign::kPositive : Sign::kNegative);
   }
@@ -348,7 +354,9 @@ std::array<Ball, 3> PlaneLightSpace<Stats>::position(const Corner<Vertex>& corne
   std::array<Ball, 3> point;
   if (vertex.source != kMadeVertex) {
     const typename SceneSpace::Vertex input = scene_->input_vertex(vertex.source);
-    for (int k = 0; k < 3; ++k) point[k] = Ball(input.x[k], input.error * input.x[k]);
+    for (int k = 0; k < 3; ++k) {
+      point[k] = Ball(input.x[k], input.error * input.x[k] + Ball::kTiny);
+    }
     return point;
   }
   const std::array<Ball, 4> plane = scene_->plane_enclosure(corner.support);

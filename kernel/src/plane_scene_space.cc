@@ -68,10 +68,13 @@ typename PlaneSceneSpace<Stats>::Vertex PlaneSceneSpace<Stats>::input_vertex(Ver
 template <class Stats>
 std::array<Ball, 4> PlaneSceneSpace<Stats>::plane_enclosure(PlaneId id) const {
   const FilteredPlane& plane = planes_[id];
+  // A small component may have underflowed before the plane was scaled up by at most 2^900.
+  constexpr double kUnderflow = 0x1p-170;
   std::array<Ball, 4> result;
   for (int k = 0; k < 4; ++k) {
     const double value = k < 3 ? plane.n[k] : plane.d;
-    result[k] = plane.usable ? Ball(value, 2 * Ball::kUnit * std::fabs(value)) : Ball(0, kInfinity);
+    result[k] = plane.usable ? Ball(value, 2 * Ball::kUnit * std::fabs(value) + kUnderflow)
+                             : Ball(0, kInfinity);
   }
   return result;
 }

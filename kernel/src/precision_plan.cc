@@ -15,8 +15,9 @@ std::string_view width_name(IntegerWidth width) {
 std::vector<PredicateBits> precision_plan(bool directional, unsigned b, unsigned e) {
   const unsigned q = light_space_bits(directional, b, e);
   const unsigned n = shadow_plane_bits(q);
-  // A trace is P_j(L) n_i - P_i(L) n_j: support normals 2b + 1, values 3b + 3 (docs/exactness.md).
-  const unsigned trace = directional ? 5 * b + 2 * e + 9 : 5 * b + 6;
+  // A trace is P_j(L) n_i - P_i(L) n_j: support normals 2b + 1, values 3b + 3; for a direction H_i d_j -
+  // H_j d_i with H below 2b + e + 3 bits (docs/exactness.md).
+  const unsigned trace = directional ? 5 * b + e + 7 : 5 * b + 5;
   std::vector<PredicateBits> plan = {
       {"support normal", 2, 2 * b + 2, IntegerWidth::k128},
       {"support plane at a vertex", 3, 3 * b + 5, IntegerWidth::k128},

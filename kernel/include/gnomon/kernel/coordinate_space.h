@@ -63,11 +63,13 @@ class CoordinatePlanes {
   Vertex crossing(const CoordinatePlane<T>& plane, const Vertex& from, const Vertex& to) const;
   Vertex input_vertex(VertexId v) const;
   bool identity() const { return identity_; }
+  const T& relative_thickness() const { return relative_thickness_; }
 
  private:
   const Geometry* geometry_;
   bool identity_;
-  T thickness_;  // in scene units; 0 for exact T
+  T thickness_;           // in scene units; 0 for exact T
+  T relative_thickness_;  // as a fraction of the scene's diagonal
 };
 
 template <class T>
