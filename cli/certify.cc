@@ -53,8 +53,11 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
     if (std::ranges::find(kernels, *kernel) == kernels.end()) kernels.push_back(*kernel);
   }
   if (!kernels.empty() || !options.candidates.empty()) return kernels;
-  kernels = {{KernelId::kFloat, false},      {KernelId::kDouble, false}, {KernelId::kDouble, true},
-             {KernelId::kLongDouble, false}, {KernelId::kEpick, false}};
+  kernels = {{KernelId::kFloat, false},
+             {KernelId::kDouble, false},
+             {KernelId::kDouble, true},
+             {KernelId::kLongDouble, false},
+             {KernelId::kEpick, false}};
   if (parts <= kSmallScene) {
     kernels.push_back({KernelId::kEpeck, false});
     kernels.push_back({KernelId::kRational, false});
@@ -130,8 +133,8 @@ class CertifyRun {
       run.fragments += light.fragment_total;
       run.dropped_slivers += light.dropped_slivers;
     }
-    auto candidate = report::candidate_from_result(loaded_.scene, loaded_.prepared, *result,
-                                                   run.name, false);
+    auto candidate =
+        report::candidate_from_result(loaded_.scene, loaded_.prepared, *result, run.name, false);
     return judge(std::move(run), std::move(candidate), kernel);
   }
 
@@ -170,8 +173,8 @@ class CertifyRun {
     return shadow_options;
   }
 
-  /// CPU seconds of the classification alone, without points for the oracle: the median of a few runs
-  /// where one is short.
+  /// CPU seconds of the classification alone, without points for the oracle: the median of a few
+  /// runs where one is short.
   Expected<double> cpu_time(const ShadowOptions& shadow_options) {
     constexpr std::size_t kMostRuns = 5;
     constexpr double kEnough = 0.05;
@@ -269,8 +272,8 @@ int run_certify(const CertifyCommandOptions& options) {
     if (auto done = output->finish(); !done) return report_error(done.error());
   }
   if (!options.report_directory.empty()) {
-    const auto done = write_certificate_report(options.report_directory, *loaded,
-                                               run.certificate(), run.kept(), options.times);
+    const auto done = write_certificate_report(options.report_directory, *loaded, run.certificate(),
+                                               run.kept(), options.times);
     if (!done) return report_error(done.error());
   }
   return run.status();
@@ -280,8 +283,8 @@ int run_certify(const CertifyCommandOptions& options) {
 
 void add_certify_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<CertifyCommandOptions>();
-  CLI::App& command =
-      *app.add_subcommand("certify", "Judge kernels, or a foreign result, against the exact answer");
+  CLI::App& command = *app.add_subcommand(
+      "certify", "Judge kernels, or a foreign result, against the exact answer");
   command.footer(
       "Without --kernel and --candidate, every kernel that suits the size of the scene is run.\n"
       "Verdicts: identical; within tolerance; failed, with the worst place as a witness.\n\n"
@@ -313,20 +316,23 @@ void add_certify_command(CLI::App& app, Action& action) {
                   "Errors that moving one vertex by this much would undo are apart, not failures")
       ->check(not_negative())
       ->type_name("C");
-  command.add_option("--leaks", options->leaks, "Fail with more invented and lost regions than this")
+  command
+      .add_option("--leaks", options->leaks, "Fail with more invented and lost regions than this")
       ->type_name("N");
   command.add_flag("--subset", options->subset,
                    "A candidate need not have all lights and polygons");
   command
-      .add_option("--thickness", options->thickness,
-                  "Rounded kernels: half the thickness of a plane, relative to the scene's diagonal")
+      .add_option(
+          "--thickness", options->thickness,
+          "Rounded kernels: half the thickness of a plane, relative to the scene's diagonal")
       ->check(not_negative())
       ->type_name("F")
       ->default_str(report::shortest(kDefaultThickness));
   command.add_flag("--explain", options->explain,
                    "Name the first decision in which a failing kernel differs from the exact one");
-  command.add_option("--report", options->report_directory,
-                     "Write verdict.json, table.txt and pictures to this directory")
+  command
+      .add_option("--report", options->report_directory,
+                  "Write verdict.json, table.txt and pictures to this directory")
       ->type_name("DIR");
   command.add_option("--json", options->json, "Write the verdicts as JSON; - is standard output")
       ->type_name("FILE");

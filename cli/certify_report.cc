@@ -15,7 +15,8 @@ namespace gnomon::cli {
 
 namespace {
 
-const oracle::CandidateLight* find_light(const oracle::Candidate& candidate, const std::string& id) {
+const oracle::CandidateLight* find_light(const oracle::Candidate& candidate,
+                                         const std::string& id) {
   const auto found = std::ranges::find(candidate.lights, id, &oracle::CandidateLight::id);
   return found == candidate.lights.end() ? nullptr : &*found;
 }
@@ -71,8 +72,8 @@ class Pictures {
     panels.push_back({"exact answer", truth, nullptr, {}});
     const oracle::CandidateLight* shown = find_light(candidate, light);
     if (shown != nullptr) {
-      panels.push_back({run.name + ": " + name_of(report.verdict), shown, truth,
-                        worst_places(report, light)});
+      panels.push_back(
+          {run.name + ": " + name_of(report.verdict), shown, truth, worst_places(report, light)});
     }
     return write_panels(file, light, panels);
   }
@@ -158,8 +159,8 @@ Expected<void> write_certificate_report(const std::filesystem::path& directory,
     const oracle::Candidate& candidate = candidates[next++];
     if (run.report->verdict == oracle::Verdict::kIdentical) continue;
     if (run.report->verdict == oracle::Verdict::kFailed) {
-      const auto done = pictures.write("scene-" + file_name_part(run.name) + ".svg", *exact, run,
-                                       candidate);
+      const auto done =
+          pictures.write("scene-" + file_name_part(run.name) + ".svg", *exact, run, candidate);
       if (!done) return done;
     }
     const auto off = [](const report::JudgedRun& judged) {

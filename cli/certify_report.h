@@ -13,9 +13,9 @@
 
 namespace gnomon::cli {
 
-/// `candidates`: one for each run of the certificate that has a report, in the same order. scene.svg
-/// shows the exact answer beside the run that is worst; every other failed run has a picture of its
-/// own, scene-NAME.svg. Errors: kFile.
+/// `candidates`: one for each run of the certificate that has a report, in the same order.
+/// scene.svg shows the exact answer beside the run that is worst; every other failed run has a
+/// picture of its own, scene-NAME.svg. Errors: kFile.
 Expected<void> write_certificate_report(const std::filesystem::path& directory,
                                         const LoadedScene& loaded,
                                         const report::Certificate& certificate,

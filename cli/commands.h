@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The commands of `gnomon`, one source each. Each adds its options to the parser and, when it is the
-// one that was typed, leaves an action to run; the action returns the exit status.
+// The commands of `gnomon`, one source each. Each adds its options to the parser and, when it is
+// the one that was typed, leaves an action to run; the action returns the exit status.
 #ifndef GNOMON_CLI_COMMANDS_H
 #define GNOMON_CLI_COMMANDS_H
 

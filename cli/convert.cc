@@ -47,7 +47,8 @@ void add_convert_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<ConvertOptions>();
   CLI::App& command = *app.add_subcommand("convert", "Write a scene in another format");
   command.footer(
-      "The format of OUT is that of its extension. What it cannot hold (holes, ids, lights, flags) is\n"
+      "The format of OUT is that of its extension. What it cannot hold (holes, ids, lights, flags) "
+      "is\n"
       "named in warnings.\n\n"
       "Examples:\n"
       "  gnomon convert house.obj house.json --sun=1,2,3\n"

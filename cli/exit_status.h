@@ -18,9 +18,12 @@ enum ExitStatus : int {
 
 constexpr ExitStatus status_of(ErrorCode code) {
   switch (code) {
-    case ErrorCode::kLimit: return kLimitReached;
-    case ErrorCode::kInterrupted: return kInterruptedStatus;
-    default: return kBadInput;
+    case ErrorCode::kLimit:
+      return kLimitReached;
+    case ErrorCode::kInterrupted:
+      return kInterruptedStatus;
+    default:
+      return kBadInput;
   }
 }
 

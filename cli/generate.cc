@@ -66,7 +66,8 @@ int run_generate(const GenerateOptions& options) {
     return done ? kDone : report_error(done.error());
   }
   if (options.name.empty()) {
-    return report_usage("generate: no NAME", "the name of a scene; 'gnomon generate --list' names them");
+    return report_usage("generate: no NAME",
+                        "the name of a scene; 'gnomon generate --list' names them");
   }
   if (generator_by_name(options.name) == nullptr) {
     return report_usage("generate: there is no scene '" + options.name + "'",
@@ -96,8 +97,8 @@ int run_generate(const GenerateOptions& options) {
 
 void add_generate_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<GenerateOptions>();
-  CLI::App& command =
-      *app.add_subcommand("generate", "Make a scene: those of the papers, and families of hard ones");
+  CLI::App& command = *app.add_subcommand(
+      "generate", "Make a scene: those of the papers, and families of hard ones");
   command.footer(
       "The same name, parameters and seed give the same scene on every machine.\n\n"
       "Examples:\n"

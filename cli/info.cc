@@ -39,7 +39,8 @@ int run_info(const InfoOptions& options) {
 
 void add_info_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<InfoOptions>();
-  CLI::App& command = *app.add_subcommand("info", "What a scene holds and which precision it needs");
+  CLI::App& command =
+      *app.add_subcommand("info", "What a scene holds and which precision it needs");
   command.footer("Example:\n  gnomon info house.obj --sun=1,2,3");
   add_scene_options(command, options->scene);
   command.remove_option(command.get_option("--light"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command line: finds the command, runs it, and turns whatever happens into one clear line and an
-// exit status.
+// The command line: finds the command, runs it, and turns whatever happens into one clear line and
+// an exit status.
 #include <charconv>
 #include <cmath>
 #include <cstdio>

@@ -13,7 +13,8 @@ namespace {
 
 void print_line(std::string line) {
   // One message is one line, whatever a file's name or content holds.
-  std::ranges::replace_if(line, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  std::ranges::replace_if(
+      line, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   line += '\n';
   std::fwrite(line.data(), 1, line.size(), stderr);
 }

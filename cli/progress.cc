@@ -10,7 +10,9 @@
 namespace gnomon::cli {
 
 ProgressBar::ProgressBar(std::string what)
-    : terminal_(::isatty(STDERR_FILENO) != 0), what_(std::move(what)), next_(Clock::now() + kDelay) {}
+    : terminal_(::isatty(STDERR_FILENO) != 0),
+      what_(std::move(what)),
+      next_(Clock::now() + kDelay) {}
 
 void ProgressBar::show(double done) {
   if (!terminal_) return;
@@ -23,8 +25,8 @@ void ProgressBar::show(double done) {
   const int filled = static_cast<int>(share * kCells);
   const std::string number = std::to_string(static_cast<int>(share * 100));
   std::string line = what_.substr(0, 36) + " [" + std::string(filled, '#') +
-                     std::string(kCells - filled, '.') + "] " + std::string(3 - number.size(), ' ') +
-                     number + " %";
+                     std::string(kCells - filled, '.') + "] " +
+                     std::string(3 - number.size(), ' ') + number + " %";
   const std::size_t width = line.size();
   if (width < shown_width_) line.append(shown_width_ - width, ' ');
   shown_width_ = std::max(width, shown_width_);

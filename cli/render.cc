@@ -58,12 +58,14 @@ Expected<report::Camera> camera_of(const RenderOptions& options, const PreparedS
   }
   if (!options.look_at.empty()) camera.centre_scene = false;
   if (camera.eye == camera.look_at) {
-    return fail(ErrorCode::kUsage, "--eye and --look-at are the same point", "two different points");
+    return fail(ErrorCode::kUsage, "--eye and --look-at are the same point",
+                "two different points");
   }
   return camera;
 }
 
-const oracle::CandidateLight* find_light(const oracle::Candidate& candidate, const std::string& id) {
+const oracle::CandidateLight* find_light(const oracle::Candidate& candidate,
+                                         const std::string& id) {
   for (const oracle::CandidateLight& light : candidate.lights) {
     if (light.id == id) return &light;
   }
@@ -132,18 +134,22 @@ void add_render_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App& command = *app.add_subcommand("render", "Paint the classified scene as an SVG picture");
   command.footer(
-      "Without RESULT the exact answer is shown. With --candidate the candidate is shown, and where it\n"
+      "Without RESULT the exact answer is shown. With --candidate the candidate is shown, and "
+      "where it\n"
       "differs is marked.\n\n"
       "Example:\n"
       "  gnomon render room.json --eye 9,-7,6 --look-at 2,2,1 --light bulb -o room.svg");
   add_scene_options(command, options->scene);
-  command.add_option("RESULT", options->result, "A result to show, with fragments")->type_name("FILE");
+  command.add_option("RESULT", options->result, "A result to show, with fragments")
+      ->type_name("FILE");
   command.add_option("--eye", options->eye, "Where the eye is [above a corner of the scene]")
       ->type_name("x,y,z");
   command.add_option("--look-at", options->look_at, "What it looks at [the middle of the scene]")
       ->type_name("x,y,z");
   command.add_option("--up", options->up, "What is up [0,0,1]")->type_name("x,y,z");
-  command.add_option("--fov", options->field_of_view, "Field of view across the larger side, degrees [shows all of the scene]")
+  command
+      .add_option("--fov", options->field_of_view,
+                  "Field of view across the larger side, degrees [shows all of the scene]")
       ->check(CLI::Range(1.0, 170.0))
       ->type_name("F");
   command.add_option("--width", options->width, "Width of the picture in pixels")

@@ -51,9 +51,12 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       ->type_name("x,y,z");
   repeatable(command.add_option("--area", options.areas, "Add an area light (repeatable)"))
       ->type_name("x,y,z:x,y,z:...");
-  command.add_option("--lights", options.lights_file, "Add the lights of a file that holds only lights")
+  command
+      .add_option("--lights", options.lights_file,
+                  "Add the lights of a file that holds only lights")
       ->type_name("FILE");
-  repeatable(command.add_option("--light", options.lights, "Only the light with this id (repeatable)"))
+  repeatable(
+      command.add_option("--light", options.lights, "Only the light with this id (repeatable)"))
       ->type_name("ID");
 }
 
@@ -116,8 +119,8 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) 
     }
   }
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    const bool asked =
-        options.lights.empty() || std::ranges::find(options.lights, lights[i].id) != options.lights.end();
+    const bool asked = options.lights.empty() ||
+                       std::ranges::find(options.lights, lights[i].id) != options.lights.end();
     if (!asked) continue;
     if (lights[i].type == LightType::kArea) {
       loaded.area_lights.push_back(lights[i].id);
@@ -127,7 +130,8 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) 
   }
   if (!needs_light) return loaded;
   for (const std::string& id : loaded.area_lights) {
-    warn("light " + id + " is an area light and left out; only point and directional lights are "
+    warn("light " + id +
+         " is an area light and left out; only point and directional lights are "
          "classified by this version");
   }
   if (loaded.lights.empty()) {

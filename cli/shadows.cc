@@ -106,8 +106,11 @@ int run_shadows(const ShadowsOptions& options) {
 
 void add_shadows_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<ShadowsOptions>();
-  CLI::App& command = *app.add_subcommand("shadows", "Classify a scene: which part of which polygon is lit");
-  command.footer("Example:\n  gnomon shadows room.json --kernel exact --exact-fractions --fragments -o room.result.json");
+  CLI::App& command =
+      *app.add_subcommand("shadows", "Classify a scene: which part of which polygon is lit");
+  command.footer(
+      "Example:\n  gnomon shadows room.json --kernel exact --exact-fractions --fragments -o "
+      "room.result.json");
   add_scene_options(command, options->scene);
   command
       .add_option("--kernel", options->kernel,
@@ -121,8 +124,9 @@ void add_shadows_command(CLI::App& app, Action& action) {
   command.add_flag("--identity", options->identity,
                    "Rounded kernels: a vertex made by a plane is on it, whatever its numbers say");
   command
-      .add_option("--thickness", options->thickness,
-                  "Rounded kernels: half the thickness of a plane, relative to the scene's diagonal")
+      .add_option(
+          "--thickness", options->thickness,
+          "Rounded kernels: half the thickness of a plane, relative to the scene's diagonal")
       ->check(not_negative())
       ->type_name("F")
       ->default_str(report::shortest(kDefaultThickness));
@@ -137,7 +141,8 @@ void add_shadows_command(CLI::App& app, Action& action) {
   command.add_flag("--no-merge", options->no_merge, "Leave sibling fragments as the tree cut them");
   command.add_flag("--no-prefix", options->no_prefix,
                    "Without the balanced prefix: the tree of the 1989 paper");
-  command.add_flag("--stats", options->stats, "Print counts, CPU times and, for plane, who decided, to standard error");
+  command.add_flag("--stats", options->stats,
+                   "Print counts, CPU times and, for plane, who decided, to standard error");
   command.add_option("-o,--output", options->output, "Result file; standard output if absent")
       ->type_name("FILE");
   command.callback([options, &action] { action = [options] { return run_shadows(*options); }; });

@@ -35,28 +35,29 @@ std::string findings_text(const VerifyOptions& options, const oracle::WitnessRep
   constexpr std::size_t kWidth = report::TextTable::kWidth;
   std::string text;
   for (const oracle::PreparedFinding& finding : scene_findings) {
-    text += wrapped("scene" + (finding.polygon.empty() ? "" : ", polygon " + finding.polygon) + ": " +
-                        finding.text,
+    text += wrapped("scene" + (finding.polygon.empty() ? "" : ", polygon " + finding.polygon) +
+                        ": " + finding.text,
                     kWidth, 0, 4);
   }
   for (const oracle::WitnessFinding& finding : report.findings) {
     std::string place;
     if (!finding.light.empty()) place += "light " + finding.light;
-    if (!finding.polygon.empty()) place += (place.empty() ? "" : ", ") + ("polygon " + finding.polygon);
+    if (!finding.polygon.empty())
+      place += (place.empty() ? "" : ", ") + ("polygon " + finding.polygon);
     if (finding.fragment) place += ", fragment " + std::to_string(*finding.fragment);
     text += wrapped((place.empty() ? "" : place + ": ") + finding.text, kWidth, 0, 4);
   }
   if (report.violations > report.findings.size()) {
     text += "... and " + grouped(report.violations - report.findings.size()) + " more\n";
   }
-  text += wrapped(options.result + ": " + grouped(report.polygons) + " polygon sides, " +
-                      grouped(report.fragments) + " fragments (" + grouped(report.exact_fragments) +
-                      " with exact loops), " + grouped(report.witnesses) + " witnesses checked: " +
-                      (report.interrupted ? "interrupted"
-                       : report.violations == 0
-                           ? "every claim holds"
-                           : grouped(report.violations) + " claims do not hold"),
-                  kWidth, 0, 4);
+  text +=
+      wrapped(options.result + ": " + grouped(report.polygons) + " polygon sides, " +
+                  grouped(report.fragments) + " fragments (" + grouped(report.exact_fragments) +
+                  " with exact loops), " + grouped(report.witnesses) + " witnesses checked: " +
+                  (report.interrupted       ? "interrupted"
+                   : report.violations == 0 ? "every claim holds"
+                                            : grouped(report.violations) + " claims do not hold"),
+              kWidth, 0, 4);
   return text;
 }
 
@@ -99,8 +100,8 @@ int run_verify(const VerifyOptions& options) {
   witness_options.tolerance = options.tolerance;
   witness_options.width = options.width;
   // Lights left out by --light, or not classified by this version, are not missed.
-  witness_options.subset = options.subset || !options.scene.lights.empty() ||
-                           !loaded->area_lights.empty();
+  witness_options.subset =
+      options.subset || !options.scene.lights.empty() || !loaded->area_lights.empty();
   witness_options.progress = progress.callback();
   witness_options.interrupted = &interrupted();
   const auto report =
@@ -129,7 +130,8 @@ void add_verify_command(CLI::App& app, Action& action) {
   CLI::App& command =
       *app.add_subcommand("verify", "Check a result's own claims: tiling, witnesses, fractions");
   command.footer(
-      "With code that shares nothing with the algorithms; exactly where the result has exact loops.\n\n"
+      "With code that shares nothing with the algorithms; exactly where the result has exact "
+      "loops.\n\n"
       "Example:\n"
       "  gnomon shadows room.json --exact-loops --exact-fractions -o room.result.json\n"
       "  gnomon verify room.json room.result.json");

@@ -12,10 +12,14 @@ namespace {
 
 oracle::ShadeClass shade_of(LightState state) {
   switch (state) {
-    case LightState::kLit: return oracle::ShadeClass::kLit;
-    case LightState::kShadow: return oracle::ShadeClass::kShadow;
-    case LightState::kPenumbra: return oracle::ShadeClass::kPenumbra;
-    case LightState::kUmbra: return oracle::ShadeClass::kUmbra;
+    case LightState::kLit:
+      return oracle::ShadeClass::kLit;
+    case LightState::kShadow:
+      return oracle::ShadeClass::kShadow;
+    case LightState::kPenumbra:
+      return oracle::ShadeClass::kPenumbra;
+    case LightState::kUmbra:
+      return oracle::ShadeClass::kUmbra;
   }
   return oracle::ShadeClass::kShadow;
 }
@@ -64,12 +68,11 @@ oracle::Candidate candidate_from_result(const Scene& scene, const PreparedScene&
     oracle::CandidateLight& judged = candidate.lights.emplace_back();
     judged.id = scene.lights[prepared.lights[light.light].light].id;
     for (std::uint32_t polygon = 0; polygon + 1 < prepared.first_part.size(); ++polygon) {
-      for (const ClassifiedSide& side :
-           polygon_sides(prepared, light, polygon, claim_fractions)) {
+      for (const ClassifiedSide& side : polygon_sides(prepared, light, polygon, claim_fractions)) {
         oracle::CandidatePolygon& entry = judged.polygons.emplace_back();
         entry.id = scene.polygons[polygon].id;
-        entry.side = side.side == Side::kBack ? oracle::PolygonSide::kBack
-                                              : oracle::PolygonSide::kFront;
+        entry.side =
+            side.side == Side::kBack ? oracle::PolygonSide::kBack : oracle::PolygonSide::kFront;
         entry.lit_fraction = side.exact_lit;
         entry.shadow_fraction = side.exact_shadow;
         const std::uint32_t first = prepared.first_part[polygon];
@@ -85,8 +88,7 @@ oracle::Candidate candidate_from_result(const Scene& scene, const PreparedScene&
             judged_fragment.shade = shade_of(fragment.state);
             if (!copy_loop(light, fragment, judged_fragment.loop)) continue;
             if (fragment.caster != Fragment::kNoCaster) {
-              judged_fragment.caster =
-                  scene.polygons[prepared.parts[fragment.caster].polygon].id;
+              judged_fragment.caster = scene.polygons[prepared.parts[fragment.caster].polygon].id;
             }
             entry.fragments.push_back(std::move(judged_fragment));
           }

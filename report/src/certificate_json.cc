@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gnomon/report/json_writer.h"
 #include "gnomon/report/certificate.h"
+#include "gnomon/report/json_writer.h"
 
 namespace gnomon::report {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 
 #include "gnomon/report/certificate.h"
 #include "gnomon/report/number_text.h"
@@ -24,7 +25,14 @@ std::string plural(std::uint64_t count, const std::string& one) {
 }
 
 /// An upper bound for people; exact zero is "0".
-std::string bound(double upper) { return upper == 0 ? "0" : rounded(upper, 3); }
+std::string bound(double upper) {
+  if (!std::isfinite(upper)) return "?";  // beyond the range of doubles
+  return upper == 0 ? "0" : rounded(upper, 3);
+}
+
+std::string ratio(double value) {
+  return (value < 100 ? rounded(value, 2) : grouped(static_cast<std::uint64_t>(value))) + "x";
+}
 
 std::string policy(const JudgedRun& run) {
   if (run.foreign) return "foreign";
@@ -50,8 +58,7 @@ std::vector<std::string> row(const JudgedRun& run, double facing_area,
                              std::optional<double> reference) {
   std::string time = "-";
   if (!run.foreign && run.error.empty()) {
-    time = reference ? rounded(run.cpu_seconds / *reference, 2) + "x"
-                     : rounded(run.cpu_seconds, 3) + " s";
+    time = reference ? ratio(run.cpu_seconds / *reference) : rounded(run.cpu_seconds, 3) + " s";
   }
   if (!run.report) return {run.name, policy(run), "no result", "-", "-", "-", "-", time};
   const oracle::Report& report = *run.report;
@@ -59,9 +66,14 @@ std::vector<std::string> row(const JudgedRun& run, double facing_area,
   std::string verdict = name_of(report.verdict);
   if (report.interrupted) verdict = "interrupted";
   if (report.by_points) {
-    return {run.name, policy(run), verdict,
+    return {run.name,
+            policy(run),
+            verdict,
             grouped(report.points_wrong) + " of " + grouped(report.points_checked) + " points",
-            grouped(totals.wrong_polygons), "-", grouped(run.fragments), time};
+            grouped(totals.wrong_polygons),
+            "-",
+            grouped(run.fragments),
+            time};
   }
   return {run.name,
           policy(run),
@@ -91,13 +103,13 @@ void add_notes(const JudgedRun& run, TextTable& table) {
     const auto add = [&](std::uint64_t count, const std::string& what) {
       if (count > 0) counts += (counts.empty() ? "" : ", ") + plural(count, what);
     };
-    add(totals.regions, "region") ;
+    add(totals.regions, "region");
     if (!counts.empty()) counts += " of error";
     add(totals.invented, "invented region");
     add(totals.lost, "lost region");
     add(totals.ill_conditioned_regions, "ill-conditioned region");
     add(totals.self_crossing, "self-crossing loop");
-    add(run.dropped_slivers, "loop") ;
+    add(run.dropped_slivers, "loop");
     if (run.dropped_slivers > 0) counts += " vanished in rounding";
     if (totals.off_plane.upper > 0) {
       counts += (counts.empty() ? "" : ", ") + std::string("vertices up to ") +
@@ -172,7 +184,8 @@ std::string certificate_text(const Certificate& certificate) {
                       "; lights: " + joined(certificate.lights),
                   TextTable::kWidth, 0, 2);
   if (!certificate.left_out.empty()) {
-    text += wrapped("left out (area lights): " + joined(certificate.left_out), TextTable::kWidth, 0, 2);
+    text +=
+        wrapped("left out (area lights): " + joined(certificate.left_out), TextTable::kWidth, 0, 2);
   }
   for (const std::string& finding : certificate.scene_findings) {
     text += wrapped("the prepared scene is wrong, a bug of this program: " + finding,
@@ -181,15 +194,14 @@ std::string certificate_text(const Certificate& certificate) {
   for (const JudgedRun& run : certificate.runs) {
     if (!run.report) continue;
     const oracle::Report& report = *run.report;
-    text += wrapped("tolerance " + rounded(report.tolerance, 3) + " of each polygon, width " +
-                        rounded(report.width, 3) + " (scene diagonal " + rounded(report.diagonal, 6) +
-                        ")" +
-                        (report.clearance > 0 ? ", clearance " + rounded(report.clearance, 3) : "") +
-                        (report.by_points
-                             ? "; above " + grouped(report.most_pairs) +
-                                   " pairs of parts exact points are compared, not areas"
-                             : ""),
-                    TextTable::kWidth, 0, 2);
+    text += wrapped(
+        "tolerance " + rounded(report.tolerance, 3) + " of each polygon, width " +
+            rounded(report.width, 3) + " (scene diagonal " + rounded(report.diagonal, 6) + ")" +
+            (report.clearance > 0 ? ", clearance " + rounded(report.clearance, 3) : "") +
+            (report.by_points ? "; above " + grouped(report.most_pairs) +
+                                    " pairs of parts exact points are compared, not areas"
+                              : ""),
+        TextTable::kWidth, 0, 2);
     break;
   }
   text += '\n';

@@ -66,7 +66,8 @@ inline std::vector<Vector> projected(std::vector<Vector> loop, const Vector& nor
 }
 
 /// The part of a loop inside a convex one of the same plane, whatever their orientation.
-inline std::vector<Vector> intersection(std::vector<Vector> loop, const std::vector<Vector>& other) {
+inline std::vector<Vector> intersection(std::vector<Vector> loop,
+                                        const std::vector<Vector>& other) {
   const Vector normal = area_vector(other);
   for (std::size_t i = 0; i < other.size() && !loop.empty(); ++i) {
     const Vector& a = other[i];

@@ -187,7 +187,7 @@ class View {
   }
 
   Vector eye_, forward_, right_, up_;
-  PixelPoint centre_;      // of the eye's axis, in pixels
+  PixelPoint centre_;       // of the eye's axis, in pixels
   PixelPoint shift_{0, 0};  // of the frame's middle from it, as a slope
   double scale_, slope_x_, slope_y_, near_;
 };
@@ -222,8 +222,9 @@ class Painter {
     const View view(options_.camera, left, top, options_.width, options_.height, size_,
                     prepared_.geometry.positions);
     const std::string clip = "frame" + std::to_string(panels_++);
-    svg_.define("<clipPath id=\"" + clip + "\"><rect x=\"" + std::to_string(static_cast<int>(left)) +
-                "\" y=\"" + std::to_string(static_cast<int>(top)) + "\" width=\"" +
+    svg_.define("<clipPath id=\"" + clip + "\"><rect x=\"" +
+                std::to_string(static_cast<int>(left)) + "\" y=\"" +
+                std::to_string(static_cast<int>(top)) + "\" width=\"" +
                 std::to_string(static_cast<int>(options_.width)) + "\" height=\"" +
                 std::to_string(static_cast<int>(options_.height)) + "\"/></clipPath>");
     svg_.begin_group("clip-path=\"url(#" + clip + ")\" stroke-linejoin=\"round\"");
@@ -288,10 +289,13 @@ class Painter {
     if (loops == nullptr) {
       fill(piece.loop, colour(base, normal, centre, view), view);
     } else {
-      paint_fragments(piece, normal, *loops, [&](std::optional<ShadeClass> shade) {
-        if (!shade && shown.background()) shade = base;
-        return shade ? colour(*shade, normal, centre, view) : kMissing;
-      }, view);
+      paint_fragments(
+          piece, normal, *loops,
+          [&](std::optional<ShadeClass> shade) {
+            if (!shade && shown.background()) shade = base;
+            return shade ? colour(*shade, normal, centre, view) : kMissing;
+          },
+          view);
       if (truth != nullptr) {
         paint_difference(piece, normal, *loops, truth->find(id, side), view);
       }
@@ -299,8 +303,8 @@ class Painter {
     paint_outline(piece, part, view);
   }
 
-  /// `colour_of` nothing is what no fragment covers; it is only painted where that can be seen, since
-  /// it would shine through along the edges of what covers it.
+  /// `colour_of` nothing is what no fragment covers; it is only painted where that can be seen,
+  /// since it would shine through along the edges of what covers it.
   template <class ColourOf>
   void paint_fragments(const OrderedPiece& piece, const Vector& normal,
                        const std::vector<ShadedLoop>& loops, const ColourOf& colour_of,

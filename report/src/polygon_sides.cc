@@ -19,7 +19,8 @@ mpz_class squared_length(const std::array<mpz_class, 3>& vector) {
   return vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2];
 }
 
-/// The root of a sum of squares to 160 bits beyond the integer part: the error is far below a double's.
+/// The root of a sum of squares to 160 bits beyond the integer part: the error is far below a
+/// double's.
 mpq_class precise_part_area(const PreparedScene& scene, const Part& part) {
   constexpr unsigned kShift = 160;
   mpz_class root = squared_length(doubled_area_vector(scene, part)) << (2 * kShift);
@@ -47,7 +48,8 @@ PartSide part_side(const PartResult& result, Side side) {
 }
 
 /// Sum of weight * share over sum of weights, where the weights are exact.
-void sum_exactly(const PreparedScene& scene, std::uint32_t first, bool exact, ClassifiedSide& side) {
+void sum_exactly(const PreparedScene& scene, std::uint32_t first, bool exact,
+                 ClassifiedSide& side) {
   // Areas in one plane are proportional to any non-zero component of the area vector.
   const std::array<mpz_class, 3> normal = doubled_area_vector(scene, scene.parts[first]);
   std::size_t axis = 0;
@@ -146,7 +148,8 @@ double nearest_area(const PreparedScene& scene, const Part& part) {
 
 mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon) {
   mpq_class sum = 0;
-  for (std::uint32_t part = scene.first_part[polygon]; part < scene.first_part[polygon + 1]; ++part) {
+  for (std::uint32_t part = scene.first_part[polygon]; part < scene.first_part[polygon + 1];
+       ++part) {
     sum += precise_part_area(scene, scene.parts[part]);
   }
   return sum;
@@ -154,7 +157,8 @@ mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon) {
 
 double nearest_double(const mpq_class& value) {
   const Enclosure bounds = oracle::enclose(value);
-  if (bounds.lower == bounds.upper || !std::isfinite(bounds.lower) || !std::isfinite(bounds.upper)) {
+  if (bounds.lower == bounds.upper || !std::isfinite(bounds.lower) ||
+      !std::isfinite(bounds.upper)) {
     return bounds.middle();
   }
   const mpq_class below = value - mpq_class(bounds.lower), above = mpq_class(bounds.upper) - value;
@@ -175,7 +179,7 @@ double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>&
 }
 
 std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const LightResult& light,
-                                       std::uint32_t polygon, bool exact) {
+                                          std::uint32_t polygon, bool exact) {
   const std::uint32_t first = scene.first_part[polygon], last = scene.first_part[polygon + 1];
   std::vector<ClassifiedSide> sides;
   if (first == last) return sides;
@@ -229,20 +233,28 @@ std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const Ligh
 
 std::string_view reason_name(ShadowReason reason) {
   switch (reason) {
-    case ShadowReason::kNone: return "";
-    case ShadowReason::kFacesAway: return "faces-away";
-    case ShadowReason::kLightInPlane: return "light-in-plane";
-    case ShadowReason::kBehindLight: return "behind-light";
+    case ShadowReason::kNone:
+      return "";
+    case ShadowReason::kFacesAway:
+      return "faces-away";
+    case ShadowReason::kLightInPlane:
+      return "light-in-plane";
+    case ShadowReason::kBehindLight:
+      return "behind-light";
   }
   return "";
 }
 
 std::string_view state_name(LightState state) {
   switch (state) {
-    case LightState::kLit: return "lit";
-    case LightState::kShadow: return "shadow";
-    case LightState::kPenumbra: return "penumbra";
-    case LightState::kUmbra: return "umbra";
+    case LightState::kLit:
+      return "lit";
+    case LightState::kShadow:
+      return "shadow";
+    case LightState::kPenumbra:
+      return "penumbra";
+    case LightState::kUmbra:
+      return "umbra";
   }
   return "";
 }

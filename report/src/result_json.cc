@@ -59,7 +59,8 @@ class ResultWriter {
   void write_findings() {
     for (const LightResult& light : result_.lights) {
       if (light.dropped_slivers == 0) continue;
-      findings_.push_back("light " + light_id(light) + ": " + std::to_string(light.dropped_slivers) +
+      findings_.push_back("light " + light_id(light) + ": " +
+                          std::to_string(light.dropped_slivers) +
                           " loops vanished in rounding and were dropped");
     }
     if (findings_.empty()) return;
@@ -122,8 +123,8 @@ class ResultWriter {
       json_.member("fraction", exact->get_str());
     } else {
       if (!std::isfinite(share.middle())) {
-        find("light " + light_id(light) + ", polygon " + scene_.polygons[side.polygon].id + ": its " +
-             std::string(name) + " fraction is not a number");
+        find("light " + light_id(light) + ", polygon " + scene_.polygons[side.polygon].id +
+             ": its " + std::string(name) + " fraction is not a number");
       }
       json_.member("fraction", share.middle());
       // A whole that has no one exact fraction says how certain its number is.
@@ -175,7 +176,8 @@ class ResultWriter {
     for (std::uint32_t i = 0; i < side.parts.size(); ++i) {
       const PartSide& part = side.parts[i];
       if (part.reason != ShadowReason::kNone) {
-        if (is_listed(LightState::kShadow)) write_whole_part(prepared_.parts[first + i], part.reason);
+        if (is_listed(LightState::kShadow))
+          write_whole_part(prepared_.parts[first + i], part.reason);
         continue;
       }
       for (std::uint32_t f = 0; f < part.result->fragment_count; ++f) {
@@ -240,7 +242,8 @@ class ResultWriter {
                  [&](const auto& point) { write_point(point); });
     }
     if (options_.exact_loops) {
-      write_loop("exact_loop", std::span(light.exact_points).subspan(fragment.first, fragment.count),
+      write_loop("exact_loop",
+                 std::span(light.exact_points).subspan(fragment.first, fragment.count),
                  [&](const auto& point) { write_exact_point(point); });
     }
     if (fragment.caster != Fragment::kNoCaster) {

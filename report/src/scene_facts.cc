@@ -15,7 +15,8 @@ namespace {
 FacingShare facing_of(const PreparedScene& prepared, const LightPoint& light) {
   FacingShare share;
   for (std::size_t polygon = 0; polygon + 1 < prepared.first_part.size(); ++polygon) {
-    const std::uint32_t first = prepared.first_part[polygon], last = prepared.first_part[polygon + 1];
+    const std::uint32_t first = prepared.first_part[polygon],
+                        last = prepared.first_part[polygon + 1];
     if (first == last) continue;
     bool faces = false, in_plane = true;
     for (std::uint32_t index = first; index < last; ++index) {
@@ -46,7 +47,8 @@ void count_families(const PreparedScene& prepared, SceneFacts& facts) {
   facts.planes = family.size();
   if (!family.empty()) facts.largest_family = *std::ranges::max_element(family);
   for (std::size_t polygon = 0; polygon + 1 < prepared.first_part.size(); ++polygon) {
-    for (std::uint32_t p = prepared.first_part[polygon]; p < prepared.first_part[polygon + 1]; ++p) {
+    for (std::uint32_t p = prepared.first_part[polygon]; p < prepared.first_part[polygon + 1];
+         ++p) {
       if (owner[prepared.parts[p].plane] != kSeveral) continue;
       ++facts.sharing_plane;
       break;
@@ -124,21 +126,30 @@ SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared) {
 
 std::string_view repair_name(Repair repair) {
   switch (repair) {
-    case Repair::kRepeatedVertices: return "repeated vertices: dropped";
-    case Repair::kCollinearVertices: return "collinear vertices: dropped";
-    case Repair::kZeroArea: return "zero area: polygon dropped";
-    case Repair::kNotPlanar: return "not planar: triangulated";
-    case Repair::kNotConvex: return "not convex: cut into convex parts";
-    case Repair::kHoles: return "holes: cut into convex parts";
+    case Repair::kRepeatedVertices:
+      return "repeated vertices: dropped";
+    case Repair::kCollinearVertices:
+      return "collinear vertices: dropped";
+    case Repair::kZeroArea:
+      return "zero area: polygon dropped";
+    case Repair::kNotPlanar:
+      return "not planar: triangulated";
+    case Repair::kNotConvex:
+      return "not convex: cut into convex parts";
+    case Repair::kHoles:
+      return "holes: cut into convex parts";
   }
   return "";
 }
 
 std::string_view light_type_name(LightType type) {
   switch (type) {
-    case LightType::kPoint: return "point";
-    case LightType::kDirectional: return "directional";
-    case LightType::kArea: return "area";
+    case LightType::kPoint:
+      return "point";
+    case LightType::kDirectional:
+      return "directional";
+    case LightType::kArea:
+      return "area";
   }
   return "";
 }

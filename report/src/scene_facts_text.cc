@@ -20,7 +20,8 @@ std::string entry(const std::string& label, const std::string& text) {
 }
 
 std::string point_text(const std::array<double, 3>& point) {
-  return "(" + rounded(point[0], 9) + ", " + rounded(point[1], 9) + ", " + rounded(point[2], 9) + ")";
+  return "(" + rounded(point[0], 9) + ", " + rounded(point[1], 9) + ", " + rounded(point[2], 9) +
+         ")";
 }
 
 std::string position_text(const Position& position) {
@@ -97,9 +98,9 @@ std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_not
   std::string text;
   text += entry("scene", (facts.name.empty() ? "(no name)" : facts.name) + ", from " + facts.file);
   text += entry("geometry", facts.geometry_digest);
-  text += entry("numbers", facts.numbers == NumberMeaning::kDecimal
-                               ? "decimals, exactly as written"
-                               : "the nearest doubles, exactly");
+  text +=
+      entry("numbers", facts.numbers == NumberMeaning::kDecimal ? "decimals, exactly as written"
+                                                                : "the nearest doubles, exactly");
   text += entry("as read", grouped(facts.vertices) + " vertices, " + grouped(facts.polygons) +
                                " polygons with " + grouped(facts.holes) + " holes, up to " +
                                grouped(facts.largest_loop) + " vertices a loop; " +
@@ -117,12 +118,13 @@ std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_not
   text += entry("box", point_text(facts.low) + " to " + point_text(facts.high) + ", diagonal " +
                            rounded(facts.diagonal, 9));
   const double step = facts.step.get_d();
-  text += entry("grid", "step " + (facts.step.get_str().size() <= 24 ? facts.step.get_str()
-                                                                      : rounded(step, 6)) +
-                            ", b = " + std::to_string(facts.position_bits) + " bits a coordinate" +
-                            (facts.has_directional ? ", e = " + std::to_string(facts.direction_bits) +
-                                                         " bits a direction"
-                                                   : ""));
+  text += entry("grid",
+                "step " +
+                    (facts.step.get_str().size() <= 24 ? facts.step.get_str() : rounded(step, 6)) +
+                    ", b = " + std::to_string(facts.position_bits) + " bits a coordinate" +
+                    (facts.has_directional
+                         ? ", e = " + std::to_string(facts.direction_bits) + " bits a direction"
+                         : ""));
   if (!facts.repairs.empty()) {
     text += "\nmade convex and planar\n" + notes_text(scene, facts, all_notes);
   }

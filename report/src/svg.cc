@@ -22,11 +22,20 @@ std::string escaped(std::string_view text) {
   std::string result;
   for (char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     }
   }
   return result;
@@ -75,8 +84,8 @@ void SvgPicture::polygon(std::span<const PixelPoint> loop, const Paint& paint) {
 }
 
 void SvgPicture::line(PixelPoint a, PixelPoint b, const Paint& paint) {
-  body_ += "<path d=\"M" + pixel(a[0]) + ' ' + pixel(a[1]) + 'L' + pixel(b[0]) + ' ' + pixel(b[1]) +
-           '"';
+  body_ +=
+      "<path d=\"M" + pixel(a[0]) + ' ' + pixel(a[1]) + 'L' + pixel(b[0]) + ' ' + pixel(b[1]) + '"';
   attributes(paint);
   body_ += "/>\n";
 }
@@ -97,8 +106,8 @@ void SvgPicture::rectangle(PixelPoint corner, double width, double height, const
 
 void SvgPicture::text(PixelPoint at, std::string_view words, double size, Colour colour,
                       std::string_view anchor, bool bold) {
-  body_ += "<text x=\"" + pixel(at[0]) + "\" y=\"" + pixel(at[1]) + "\" font-size=\"" + pixel(size) +
-           "\" fill=\"" + colour_text(colour) + '"';
+  body_ += "<text x=\"" + pixel(at[0]) + "\" y=\"" + pixel(at[1]) + "\" font-size=\"" +
+           pixel(size) + "\" fill=\"" + colour_text(colour) + '"';
   if (anchor != "start") body_ += " text-anchor=\"" + std::string(anchor) + '"';
   if (bold) body_ += " font-weight=\"600\"";
   body_ += '>' + escaped(words) + "</text>\n";

@@ -77,8 +77,8 @@ TEST_F(CommandLine, WrongUsageIsStatusTwoAndOneLine) {
   expect_one_line_error(run_gnomon({"shadows", table_, "--algorithm", "magic"}), 2, "svbsp");
   expect_one_line_error(run_gnomon({"shadows", table_, "--thickness", "nan"}), 2, "nan");
   expect_one_line_error(run_gnomon({"shadows", table_, "--thickness=-1"}), 2, "-1");
-  expect_one_line_error(run_gnomon({"shadows", table_, "--kernel", "double", "--exact-fractions"}), 2,
-                        "rounds");
+  expect_one_line_error(run_gnomon({"shadows", table_, "--kernel", "double", "--exact-fractions"}),
+                        2, "rounds");
   expect_one_line_error(run_gnomon({"shadows", table_, "--light", "moon"}), 2, "bulb");
   expect_one_line_error(run_gnomon({"shadows", table_, "--point=1,2"}), 2, "--point");
   expect_one_line_error(run_gnomon({"shadows", table_, "--sun=0,0,0"}), 2, "--sun");
@@ -95,11 +95,13 @@ TEST_F(CommandLine, BadFilesAreStatusTwoAndNameThePlace) {
   write_text(directory_.file("empty.json"), "");
   expect_one_line_error(run_gnomon({"certify", directory_.file("empty.json")}), 2, "empty");
   write_text(directory_.file("broken.json"), std::string(kTable).substr(0, 100));
-  expect_one_line_error(run_gnomon({"shadows", directory_.file("broken.json")}), 2, "broken.json:2:");
+  expect_one_line_error(run_gnomon({"shadows", directory_.file("broken.json")}), 2,
+                        "broken.json:2:");
   write_text(directory_.file("index.json"), R"({"format": "gnomon-scene", "version": 1,
  "vertices": [[0,0,0],[4,0,0],[4,4,0]],
  "polygons": [{"loop": [0,1,7]}]})");
-  expect_one_line_error(run_gnomon({"info", directory_.file("index.json")}), 2, "/polygons/0/loop/2");
+  expect_one_line_error(run_gnomon({"info", directory_.file("index.json")}), 2,
+                        "/polygons/0/loop/2");
   expect_one_line_error(run_gnomon({"certify", table_, "--candidate", table_}), 2, "table.json");
   write_text(directory_.file("huge.json"), R"({"format": "gnomon-scene", "version": 1,
  "numbers": "decimal", "vertices": [[0,0,1e5000]], "polygons": []})");
@@ -140,7 +142,8 @@ TEST_F(CommandLine, AreaLightsAreLeftOutWithAWarning) {
 }
 
 TEST_F(CommandLine, CertifyPassesAndFails) {
-  const RunResult good = run_gnomon({"certify", table_, "--kernel", "exact", "--kernel", "rational"});
+  const RunResult good =
+      run_gnomon({"certify", table_, "--kernel", "exact", "--kernel", "rational"});
   EXPECT_EQ(good.status, 0) << good.out << good.err;
   EXPECT_THAT(good.out, HasSubstr("identical"));
 
@@ -160,8 +163,9 @@ TEST_F(CommandLine, CertifyPassesAndFails) {
 
 TEST_F(CommandLine, VerifyFindsAFalseClaim) {
   const std::string result = directory_.file("result.json");
-  ASSERT_EQ(run_gnomon({"shadows", table_, "--exact-loops", "--exact-fractions", "-o", result}).status,
-            0);
+  ASSERT_EQ(
+      run_gnomon({"shadows", table_, "--exact-loops", "--exact-fractions", "-o", result}).status,
+      0);
   const RunResult good = run_gnomon({"verify", table_, result});
   EXPECT_EQ(good.status, 0) << good.out;
   std::string text = read_text(result);
@@ -174,7 +178,8 @@ TEST_F(CommandLine, VerifyFindsAFalseClaim) {
 }
 
 TEST_F(CommandLine, TheHumanTableFitsOneHundredColumns) {
-  const RunResult result = run_gnomon({"certify", std::string(GNOMON_EXAMPLES) + "/table-chair.json"});
+  const RunResult result =
+      run_gnomon({"certify", std::string(GNOMON_EXAMPLES) + "/table-chair.json"});
   EXPECT_THAT(result.status, testing::AnyOf(0, 1)) << result.err;
   std::istringstream stream(result.out);
   for (std::string line; std::getline(stream, line);) EXPECT_LE(line.size(), 100u) << line;
@@ -261,10 +266,9 @@ TEST_F(CommandLine, AnInterruptLeavesNoPartialFile) {
   RunOptions options;
   options.signal = SIGINT;
   options.signal_after = 0.5;
-  const RunResult result =
-      run_gnomon({"shadows", scene, "--kernel", "rational", "--fragments", "-o",
-                  directory_.file("result.json")},
-                 options);
+  const RunResult result = run_gnomon({"shadows", scene, "--kernel", "rational", "--fragments",
+                                       "-o", directory_.file("result.json")},
+                                      options);
   EXPECT_EQ(result.status, 130) << result.err;
   EXPECT_EQ(directory_.count(), before);
 }

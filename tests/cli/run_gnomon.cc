@@ -44,8 +44,7 @@ std::size_t TestDirectory::count() const {
 RunResult run_gnomon(const std::vector<std::string>& arguments, const RunOptions& options) {
   const TestDirectory directory;
   const std::string in = directory.file("in"), err = directory.file("err");
-  const std::string out =
-      options.stdout_path.empty() ? directory.file("out") : options.stdout_path;
+  const std::string out = options.stdout_path.empty() ? directory.file("out") : options.stdout_path;
   write_text(in, options.input);
 
   std::vector<std::string> words = {GNOMON_PROGRAM};
@@ -58,7 +57,8 @@ RunResult run_gnomon(const std::vector<std::string>& arguments, const RunOptions
   if (options.close_pipe && ::pipe(pipe_ends) != 0) return {};
   const pid_t child = ::fork();
   if (child == 0) {
-    for (const std::string& variable : options.environment) ::putenv(const_cast<char*>(variable.c_str()));
+    for (const std::string& variable : options.environment)
+      ::putenv(const_cast<char*>(variable.c_str()));
     ::dup2(::open(in.c_str(), O_RDONLY), STDIN_FILENO);
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
     if (options.close_pipe) {

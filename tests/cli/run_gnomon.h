@@ -10,16 +10,16 @@
 namespace gnomon::test {
 
 struct RunOptions {
-  std::string input;                      // for standard input
-  std::string stdout_path;                // standard output goes to this file instead
-  bool close_pipe = false;                // standard output is a pipe that nobody reads
-  std::vector<std::string> environment;   // "NAME=VALUE", added
-  int signal = 0;                         // sent ...
-  double signal_after = 0;                // ... so many seconds after the start
+  std::string input;                     // for standard input
+  std::string stdout_path;               // standard output goes to this file instead
+  bool close_pipe = false;               // standard output is a pipe that nobody reads
+  std::vector<std::string> environment;  // "NAME=VALUE", added
+  int signal = 0;                        // sent ...
+  double signal_after = 0;               // ... so many seconds after the start
 };
 
 struct RunResult {
-  int status = -1;    // exit status; 1000 + signal if a signal ended it
+  int status = -1;  // exit status; 1000 + signal if a signal ended it
   std::string out, err;
 };
 

@@ -33,8 +33,9 @@ TEST(JsonWriter, LinesAndInline) {
 }
 
 TEST(JsonWriter, StringsAreAlwaysValid) {
-  const std::string nasty = std::string("a\"b\\c\n\t\x01\x7f") + "\xff\xc3(\xe2\x82 é\xf0\x9f\x98\x80" +
-                            std::string("\xed\xa0\x80") + std::string(1, '\0');
+  const std::string nasty = std::string("a\"b\\c\n\t\x01\x7f") +
+                            "\xff\xc3(\xe2\x82 é\xf0\x9f\x98\x80" + std::string("\xed\xa0\x80") +
+                            std::string(1, '\0');
   StringSink sink;
   {
     JsonWriter json(sink);

@@ -40,7 +40,8 @@ Classified classify(const std::string& text, KernelId kernel = KernelId::kPlane)
   return all;
 }
 
-/// A floor with a notch (two convex parts), half under a roof; and a square bent along its diagonal.
+/// A floor with a notch (two convex parts), half under a roof; and a square bent along its
+/// diagonal.
 constexpr const char* kScene = R"({"format": "gnomon-scene", "version": 1,
  "vertices": [[0,0,0],[4,0,0],[4,2,0],[2,2,0],[2,4,0],[0,4,0], [0,0,1],[2,0,1],[2,4,1],[0,4,1],
               [9,0,0],[10,0,0],[10,1,1],[9,1,0], [7,7,0],[8,7,0],[9,7,0]],

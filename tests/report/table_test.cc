@@ -19,8 +19,7 @@ TEST(TextTable, AlignsColumns) {
   TextTable table({{"name"}, {"count", Align::kRight}});
   table.add_row({"a", "1"});
   table.add_row({"longer", "1,000"});
-  EXPECT_EQ(table.to_string(),
-            "name    count\n-------------\na           1\nlonger  1,000\n");
+  EXPECT_EQ(table.to_string(), "name    count\n-------------\na           1\nlonger  1,000\n");
 }
 
 TEST(TextTable, CountsCharactersNotBytes) {

@@ -19,18 +19,18 @@
 namespace gnomon::report {
 
 struct JudgedRun {
-  std::string name;          // "double+identity", or the file of a foreign result
-  bool foreign = false;      // not one of our kernels
-  bool exact = false;        // an exact kernel: anything but `identical` is a bug of ours
+  std::string name;      // "double+identity", or the file of a foreign result
+  bool foreign = false;  // not one of our kernels
+  bool exact = false;    // an exact kernel: anything but `identical` is a bug of ours
   bool identity = false;
   bool exact_decisions = false;  // rounds points alone (epick): no thickness
-  double thickness = 0;      // rounded kernels only
+  double thickness = 0;          // rounded kernels only
   std::uint64_t fragments = 0;
   std::uint64_t dropped_slivers = 0;
   double cpu_seconds = 0;
-  std::string error;         // why there is no report; empty if there is one
+  std::string error;  // why there is no report; empty if there is one
   std::optional<oracle::Report> report;
-  std::string explanation;   // the first decision that went another way, if asked for
+  std::string explanation;  // the first decision that went another way, if asked for
 
   bool failed() const { return !report || report->verdict == oracle::Verdict::kFailed; }
 };
@@ -40,16 +40,16 @@ struct Certificate {
   const Scene* scene = nullptr;
   const PreparedScene* prepared = nullptr;
   std::string geometry_digest;
-  std::vector<std::string> lights;      // judged
-  double facing_area = 0;               // scene units squared, of all lights together
-  std::vector<std::string> left_out;    // area lights
+  std::vector<std::string> lights;          // judged
+  double facing_area = 0;                   // scene units squared, of all lights together
+  std::vector<std::string> left_out;        // area lights
   std::vector<std::string> scene_findings;  // what is wrong with the prepared scene: bugs of ours
   std::vector<JudgedRun> runs;
-  bool interrupted = false;             // runs that were not reached are missing
+  bool interrupted = false;  // runs that were not reached are missing
 };
 
-/// For people: a head that names scene and tolerances, a table of at most 100 columns, the worst place
-/// of every run that failed below its row.
+/// For people: a head that names scene and tolerances, a table of at most 100 columns, the worst
+/// place of every run that failed below its row.
 std::string certificate_text(const Certificate& certificate);
 
 /// For programs: stable, in the order of the runs; CPU times only if asked for.

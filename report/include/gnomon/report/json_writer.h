@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes JSON in one stable layout: what is told to stand on lines stands one element a line, what is
-// inline stays on one line, so that a result can be read, searched and compared line by line.
+// Writes JSON in one stable layout: what is told to stand on lines stands one element a line, what
+// is inline stays on one line, so that a result can be read, searched and compared line by line.
 //
-// Guarantees: doubles read back to the same value, in every locale; NaN and infinity become null; the
-// output is valid UTF-8 whatever the strings hold (a broken byte becomes U+FFFD).
+// Guarantees: doubles read back to the same value, in every locale; NaN and infinity become null;
+// the output is valid UTF-8 whatever the strings hold (a broken byte becomes U+FFFD).
 #ifndef GNOMON_REPORT_JSON_WRITER_H
 #define GNOMON_REPORT_JSON_WRITER_H
 
@@ -38,8 +38,7 @@ class JsonWriter {
   void value(double number);
   void value(bool truth);
   template <std::integral Integer>
-    requires(!std::same_as<Integer, bool>)
-  void value(Integer number) {
+  requires(!std::same_as<Integer, bool>) void value(Integer number) {
     element();
     buffer_ += std::to_string(number);
     flush_if_full();

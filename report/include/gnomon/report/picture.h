@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A picture of a classified scene from any eye, painted back to front as in the papers: lit faces shaded
-// by their orientation to the light, shadows darker and cooler, and, where a second result is given,
-// what it has otherwise in a signal colour.
+// A picture of a classified scene from any eye, painted back to front as in the papers: lit faces
+// shaded by their orientation to the light, shadows darker and cooler, and, where a second result
+// is given, what it has otherwise in a signal colour.
 //
-// The order is the scene BSP's and exact; what is painted is clipped and projected in doubles, which is
-// enough for pixels and decides nothing.
+// The order is the scene BSP's and exact; what is painted is clipped and projected in doubles,
+// which is enough for pixels and decides nothing.
 #ifndef GNOMON_REPORT_PICTURE_H
 #define GNOMON_REPORT_PICTURE_H
 
@@ -56,8 +56,8 @@ struct Panel {
   std::vector<Mark> marks;
 };
 
-/// Panels side by side, one legend below them. `pieces` back to front as seen from the camera's eye;
-/// `light` is an index into PreparedScene::lights.
+/// Panels side by side, one legend below them. `pieces` back to front as seen from the camera's
+/// eye; `light` is an index into PreparedScene::lights.
 SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared, std::uint32_t light,
                        const std::vector<OrderedPiece>& pieces, const std::vector<Panel>& panels,
                        const PictureOptions& options);

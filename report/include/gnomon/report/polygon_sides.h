@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From parts back to the polygons of the file: every input polygon once for each side that faces the
-// light, or once with its front if none does, with the shares of its parts added up.
+// From parts back to the polygons of the file: every input polygon once for each side that faces
+// the light, or once with its front if none does, with the shares of its parts added up.
 //
 // Exactness: shares of coplanar parts are weighted by exact areas and summed as rationals; for a
 // polygon whose parts lie in several planes (areas are then square roots) the sum is a certified
@@ -33,18 +33,18 @@ struct PartSide {
 struct ClassifiedSide {
   std::uint32_t polygon = 0;
   Side side = Side::kFront;
-  std::vector<PartSide> parts;     // none if the polygon was dropped
+  std::vector<PartSide> parts;                // none if the polygon was dropped
   ShadowReason reason = ShadowReason::kNone;  // set if all parts share it
-  bool coplanar = true;            // all parts lie in one plane
-  mpq_class area;                  // scene units squared, far closer than a double
-  Interval lit, shadow;            // fractions of the polygon's area
+  bool coplanar = true;                       // all parts lie in one plane
+  mpq_class area;                             // scene units squared, far closer than a double
+  Interval lit, shadow;                       // fractions of the polygon's area
   std::optional<mpq_class> exact_lit, exact_shadow;  // if coplanar and computed
 };
 
 /// The sides of one polygon that face the light, front before back; empty if it was dropped.
 /// `exact`: the parts carry exact fractions.
 std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const LightResult& light,
-                                       std::uint32_t polygon, bool exact);
+                                          std::uint32_t polygon, bool exact);
 
 /// The exact share of one part, as far as `exact_fractions` were asked for.
 mpq_class exact_lit_share(const PartSide& part);
@@ -52,7 +52,8 @@ mpq_class exact_shadow_share(const PartSide& part);
 
 /// Twice the part's area vector on the scene's grid, in the orientation of its own front.
 std::array<mpz_class, 3> doubled_area_vector(const PreparedScene& scene, const Part& part);
-/// The sign of the part's own plane at a point or directional light: positive if its front faces it.
+/// The sign of the part's own plane at a point or directional light: positive if its front faces
+/// it.
 Sign sign_at_light(const PreparedScene& scene, const Part& part, const LightPoint& light);
 /// Bounds of the part's area in scene units squared; [0, infinity] beyond the range of doubles.
 Interval part_area(const PreparedScene& scene, const Part& part);

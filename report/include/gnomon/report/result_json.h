@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A shadow result as a file (docs/formats.md, "Result"), one fragment a line.
 //
-// Guarantees: the same result gives the same bytes; doubles read back to the same value; what a rounded
-// kernel could not compute (NaN, infinity) is null and named under "findings".
+// Guarantees: the same result gives the same bytes; doubles read back to the same value; what a
+// rounded kernel could not compute (NaN, infinity) is null and named under "findings".
 #ifndef GNOMON_REPORT_RESULT_JSON_H
 #define GNOMON_REPORT_RESULT_JSON_H
 
@@ -17,11 +17,11 @@
 namespace gnomon::report {
 
 struct ResultJsonOptions {
-  std::string geometry_digest;       // "sha256:..."
-  bool fragments = false;            // loops of nearest doubles; needs LightResult::points
-  bool exact_fractions = false;      // "p/q" instead of numbers; needs PartResult::exact_lit
-  bool exact_loops = false;          // needs LightResult::exact_points
-  std::optional<LightState> only;    // list fragments of this class alone
+  std::string geometry_digest;     // "sha256:..."
+  bool fragments = false;          // loops of nearest doubles; needs LightResult::points
+  bool exact_fractions = false;    // "p/q" instead of numbers; needs PartResult::exact_lit
+  bool exact_loops = false;        // needs LightResult::exact_points
+  std::optional<LightState> only;  // list fragments of this class alone
 };
 
 void write_result_json(TextSink& sink, const Scene& scene, const PreparedScene& prepared,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a scene holds, and which precision it needs: everything that `gnomon info` prints, as values.
-// All of it is exact; sizes in scene units are the nearest doubles.
+// What a scene holds, and which precision it needs: everything that `gnomon info` prints, as
+// values. All of it is exact; sizes in scene units are the nearest doubles.
 #ifndef GNOMON_REPORT_SCENE_FACTS_H
 #define GNOMON_REPORT_SCENE_FACTS_H
 
@@ -21,9 +21,9 @@ namespace gnomon::report {
 struct LightFacts {
   std::string id;
   LightType type = LightType::kPoint;
-  Position position;             // or to_light
-  std::size_t corners = 0;       // of an area light
-  FacingShare facing;            // point and directional lights
+  Position position;        // or to_light
+  std::size_t corners = 0;  // of an area light
+  FacingShare facing;       // point and directional lights
 };
 
 struct SceneFacts {
@@ -33,13 +33,13 @@ struct SceneFacts {
   std::size_t vertices = 0, polygons = 0, holes = 0, largest_loop = 0;
   std::size_t two_sided = 0, not_casting = 0;
   // As prepared.
-  std::size_t positions = 0;      // distinct, of those used
+  std::size_t positions = 0;  // distinct, of those used
   std::size_t parts = 0, dropped = 0;
   std::map<Repair, std::size_t> repairs;  // polygons each was done to
   std::vector<PreparationNote> notes;
-  std::size_t planes = 0;         // coplanar families
-  std::size_t sharing_plane = 0;  // polygons with a part in a plane of another polygon
-  std::size_t largest_family = 0; // parts
+  std::size_t planes = 0;          // coplanar families
+  std::size_t sharing_plane = 0;   // polygons with a part in a plane of another polygon
+  std::size_t largest_family = 0;  // parts
   std::size_t edges = 0, shared_edges = 0, crowded_edges = 0;  // of two parts; of more
   std::array<double, 3> low{}, high{};
   double diagonal = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures as SVG: shapes in the order in which they are painted, coordinates in pixels with y down,
-// rounded to a hundredth. No scripts, no external references, no fonts embedded.
+// Pictures as SVG: shapes in the order in which they are painted, coordinates in pixels with y
+// down, rounded to a hundredth. No scripts, no external references, no fonts embedded.
 #ifndef GNOMON_REPORT_SVG_H
 #define GNOMON_REPORT_SVG_H
 
@@ -26,7 +26,7 @@ Colour mix(Colour a, Colour b, double share);
 std::string colour_text(Colour colour);
 
 struct Paint {
-  std::string fill = "none";    // "#rrggbb", "none", "url(#id)"
+  std::string fill = "none";  // "#rrggbb", "none", "url(#id)"
   std::string stroke = "none";
   double stroke_width = 0;
   double opacity = 1;

@@ -37,7 +37,8 @@ class TextTable {
   /// A note below the row that was added last, wrapped and indented.
   void add_note(std::string text);
 
-  /// No line is longer than `width`; the widest columns of text are shortened ("...") until they fit.
+  /// No line is longer than `width`; the widest columns of text are shortened ("...") until they
+  /// fit.
   std::string to_string(std::size_t width = kWidth) const;
 
  private:
