@@ -47,8 +47,8 @@ const std::vector<SceneChoice>& scene_choices() {
       {"generic quads", "quads", {{"n", 1000}}, {{"n", 60}}},
       {"grid city", "city", {{"n", 600}}, {{"n", 20}}},
       {"recursive tetrahedron", "tetra", {{"level", 5}}, {{"level", 3}}},
-      {"lattice soup", "lattice", {{"n", 100}, {"size", 12}}, {{"n", 16}, {"size", 4}}},
-      {"panels a hair off a wall", "near-coplanar", {{"n", 200}}, {{"n", 12}}},
+      {"lattice soup", "lattice", {{"n", 60}, {"size", 12}}, {{"n", 16}, {"size", 4}}},
+      {"panels a hair off a wall", "near-coplanar", {{"n", 60}}, {{"n", 12}}},
   };
   return kScenes;
 }
@@ -107,7 +107,7 @@ void register_runs(const SceneChoice& choice, Measured& measured, Extent extent)
                                  })
         ->Unit(benchmark::kNanosecond)
         ->MinTime(extent == Extent::kShort ? 0.01 : 0.1)
-        ->Repetitions(extent == Extent::kShort || runner.slow ? 3 : 9);
+        ->Repetitions(extent == Extent::kShort || runner.slow ? 3 : 7);
   }
 }
 

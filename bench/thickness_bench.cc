@@ -48,8 +48,8 @@ const std::vector<Family>& families() {
   return kFamilies;
 }
 
-constexpr std::array<double, 9> kThicknesses{0,     1e-16, 1e-15, 1e-14, 1e-13,
-                                             1e-12, 1e-11, 1e-9,  1e-7};
+constexpr std::array<double, 12> kThicknesses{0,     1e-16, 1e-15, 1e-14, 1e-13, 1e-12,
+                                              1e-11, 1e-10, 1e-9,  1e-7,  1e-6,  1e-5};
 
 struct Tally {
   std::uint64_t wrong_parts = 0, wrong_scenes = 0;
