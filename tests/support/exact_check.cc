@@ -98,6 +98,29 @@ std::string check_sums(const Case& scene, const ShadowResult& result) {
   return {};
 }
 
+/// The same without exact fractions: the bounds then come from arithmetic in doubles, and must
+/// hold.
+std::string check_bounds(const Case& scene, const ShadowResult& exact, ShadowOptions options) {
+  options.exact_fractions = options.keep_exact_points = false;
+  const Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
+  if (!result) return to_string(result.error());
+  for (std::size_t l = 0; l < exact.lights.size(); ++l) {
+    for (std::size_t i = 0; i < exact.lights[l].parts.size(); ++i) {
+      const PartResult &truth = exact.lights[l].parts[i], &bounds = result->lights[l].parts[i];
+      const auto holds = [](const Interval& interval, const mpq_class& value) {
+        return mpq_class(interval.lower) <= value && value <= mpq_class(interval.upper) &&
+               interval.upper - interval.lower < 1e-6;
+      };
+      if (!holds(bounds.lit, truth.exact_lit) || !holds(bounds.shadow, truth.exact_shadow)) {
+        return fmt::format("{}, light '{}', polygon '{}': lit {} is not in [{}, {}]", exact.kernel,
+                           light_of(scene, exact.lights[l].light), polygon_of(scene, truth.part),
+                           truth.exact_lit.get_str(), bounds.lit.lower, bounds.lit.upper);
+      }
+    }
+  }
+  return {};
+}
+
 std::string compare_kernels(const Case& scene, const ShadowResult& a, const ShadowResult& b) {
   if (a.lights.size() != b.lights.size()) return "not the same lights";
   for (std::size_t l = 0; l < a.lights.size(); ++l) {
@@ -132,6 +155,7 @@ std::string check_exact(const Case& scene, const ExactCheck& check) {
     Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
     if (!result) return to_string(result.error());
     std::string wrong = check_sums(scene, *result);
+    if (wrong.empty()) wrong = check_bounds(scene, *result, options);
     if (wrong.empty() && check.witnesses) wrong = find_false_witness(scene, *result);
     if (wrong.empty() && i == 0) wrong = compare_with_oracle(scene, *result);
     if (wrong.empty() && i > 0) wrong = compare_kernels(scene, first, *result);

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The entry point itself: what it refuses, what it reports while it works, which stage it says
+// answered.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "families.h"
+#include "scene_pen.h"
+#include "solve.h"
+
+namespace gnomon::test {
+namespace {
+
+std::unique_ptr<Case> box_on_floor() {
+  ScenePen pen;
+  pen.polygon({{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}}).box({0, 0, 0}, {2, 2, 2});
+  pen.lamp({1, 1, 6}).sun({1, 0, 1});
+  return Case::make(pen.take());
+}
+
+ErrorCode code_of(const Case& scene, const ShadowOptions& options) {
+  const Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
+  EXPECT_FALSE(result);
+  return result ? ErrorCode::kFile : result.error().code;
+}
+
+TEST(ComputeShadows, RefusesWhatIsNoThickness) {
+  const auto scene = box_on_floor();
+  ShadowOptions options;
+  options.kernel = KernelId::kDouble;
+  for (const double thickness : {-1e-12, 1.0, std::numeric_limits<double>::infinity(),
+                                 std::numeric_limits<double>::quiet_NaN()}) {
+    options.thickness = thickness;
+    EXPECT_EQ(code_of(*scene, options), ErrorCode::kUsage) << thickness;
+  }
+}
+
+TEST(ComputeShadows, RefusesAreaLightsAndLightsThatAreNot) {
+  ScenePen pen;
+  pen.polygon({{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}}).lamp({0, 0, 4});
+  Scene scene = pen.take();
+  Light panel;
+  panel.id = "panel";
+  panel.type = LightType::kArea;
+  for (const Triple& p : {Triple{0, 0, 4}, Triple{0, 1, 4}, Triple{1, 1, 4}, Triple{1, 0, 4}}) {
+    panel.loop.push_back(pen.position(p));
+  }
+  scene.lights.push_back(panel);
+  const auto both = Case::make(scene);
+  ASSERT_TRUE(both);
+  ShadowOptions options;
+  options.lights = {1};
+  EXPECT_EQ(code_of(*both, options), ErrorCode::kUsage);
+  options.lights = {7};
+  EXPECT_EQ(code_of(*both, options), ErrorCode::kUsage);
+  options.lights = {};
+  const Expected<ShadowResult> result = compute_shadows(both->prepared(), options);
+  ASSERT_TRUE(result);
+  ASSERT_EQ(result->lights.size(), 1u);  // all that are not area lights
+  EXPECT_EQ(result->lights[0].light, 0u);
+}
+
+TEST(ComputeShadows, StopsWhenInterrupted) {
+  const auto scene = box_on_floor();
+  const std::atomic<bool> stop = true;
+  for (const KernelInfo& kernel : kernel_list()) {
+    ShadowOptions options;
+    options.kernel = kernel.id;
+    options.interrupted = &stop;
+    EXPECT_EQ(code_of(*scene, options), ErrorCode::kInterrupted) << kernel.name;
+  }
+}
+
+TEST(ComputeShadows, ReportsProgressThatGrows) {
+  const auto scene = box_on_floor();
+  ShadowOptions options;
+  std::vector<double> seen;
+  options.progress = [&](double done) { seen.push_back(done); };
+  ASSERT_TRUE(compute_shadows(scene->prepared(), options));
+  ASSERT_FALSE(seen.empty());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    EXPECT_GE(seen[i], i == 0 ? 0.0 : seen[i - 1]);
+    EXPECT_LE(seen[i], 1.0);
+  }
+}
+
+TEST(ComputeShadows, EveryKernelSaysWhatItIs) {
+  const auto scene = box_on_floor();
+  for (const KernelInfo& kernel : kernel_list()) {
+    ShadowOptions options;
+    options.kernel = kernel.id;
+    const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
+    ASSERT_TRUE(result) << kernel.name;
+    EXPECT_EQ(result->kernel, kernel.name);
+    EXPECT_EQ(result->algorithm, "svbsp");
+    EXPECT_EQ(result->exact, kernel.exact);
+    EXPECT_EQ(result->thickness, kernel.exact ? 0 : options.thickness);
+    ASSERT_EQ(result->lights.size(), 2u);
+    for (const LightResult& light : result->lights) {
+      ASSERT_EQ(light.parts.size(), scene->prepared().parts.size());
+      std::uint64_t fragments = 0;
+      for (const PartResult& part : light.parts) {
+        fragments += part.fragment_count;
+        EXPECT_NEAR(part.lit.middle() + part.shadow.middle(), 1, 1e-5) << kernel.name;
+      }
+      EXPECT_EQ(fragments, light.fragment_total);
+    }
+    // The lamp sees the floor and the top; the sun also a side.
+    EXPECT_EQ(result->lights[0].facing_parts, 2u) << kernel.name;
+    EXPECT_EQ(result->lights[1].facing_parts, 3u) << kernel.name;
+    EXPECT_EQ(result->lights[1].facing_edges, 12u) << kernel.name;
+  }
+}
+
+StageCounts stages_of(const std::string& family, bool count) {
+  StageCounts sum;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const auto scene = Case::make(family_by_name(family).make(seed));
+    if (!scene) continue;
+    ShadowOptions options;
+    options.count_stages = count;
+    const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
+    if (result) sum += result->stages;
+  }
+  return sum;
+}
+
+TEST(StageCounts, AreOffUnlessAskedFor) { EXPECT_EQ(stages_of("Lattice", false).total(), 0u); }
+
+TEST(StageCounts, GenericScenesAreForTheFilter) {
+  const StageCounts counts = stages_of("Generic", true);
+  EXPECT_GT(counts.identity, 0u);
+  EXPECT_GT(counts.filter, 100 * counts.exact());
+}
+
+TEST(StageCounts, LatticesNeedNarrowIntegersOnly) {
+  const StageCounts counts = stages_of("Lattice", true);
+  EXPECT_GT(counts.exact128, 0u);
+  EXPECT_GT(counts.exactly_zero, 0u);
+  EXPECT_EQ(counts.unbounded, 0u);
+  EXPECT_LE(counts.exactly_zero, counts.exact());
+}
+
+TEST(StageCounts, MixedMagnitudesNeedUnboundedIntegers) {
+  EXPECT_GT(stages_of("MixedMagnitudes", true).unbounded, 0u);
+}
+
+}  // namespace
+}  // namespace gnomon::test
