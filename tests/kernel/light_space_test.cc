@@ -296,5 +296,25 @@ INSTANTIATE_TEST_SUITE_P(Bits, LightSpace, testing::ValuesIn(all_parameters()),
                                   std::to_string(info.param.bits);
                          });
 
+/// Where products of two, three, six and nine factors reach the end of the doubles.
+TEST(LightSpaceUnderflow, EverySideIsTrue) {
+  Random random(77);
+  for (const unsigned far :
+       {119u, 179u, 180u, 184u, 215u, 269u, 355u, 359u, 365u, 535u, 541u, 1070u}) {
+    for (const SoupKind kind : {SoupKind::kLattice, SoupKind::kNear, SoupKind::kFull}) {
+      for (int round = 0; round < 6; ++round) {
+        const unsigned bits = std::array{6u, 20u, 50u}[random.below(3)];
+        const TriangleSoup soup = clustered_soup(random, kind, bits, far + bits);
+        for (const bool directional : {false, true}) {
+          const LightPoint light = random_light(random, kind, bits, directional);
+          check_soup(soup, light, random, bits);
+          check_traces(soup, light);
+        }
+        ASSERT_FALSE(testing::Test::HasFailure()) << "2^" << far;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gnomon::test

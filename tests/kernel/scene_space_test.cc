@@ -183,5 +183,21 @@ TEST(SceneSpaceStages, EachStageAnswersWhatIsItsOwn) {
   EXPECT_EQ(space.stage_counts().total(), 4u);
 }
 
+/// Where products of two, three, six and nine factors reach the end of the doubles.
+TEST(SceneSpaceUnderflow, EverySideIsTrue) {
+  Random random(77);
+  for (const unsigned far :
+       {119u, 179u, 180u, 184u, 215u, 269u, 355u, 359u, 365u, 535u, 541u, 1070u}) {
+    for (const SoupKind kind : {SoupKind::kLattice, SoupKind::kNear, SoupKind::kFull}) {
+      for (int round = 0; round < 6; ++round) {
+        const unsigned bits = std::array{6u, 20u, 50u}[random.below(3)];
+        const TriangleSoup soup = clustered_soup(random, kind, bits, far + bits);
+        check_soup(soup, random);
+        ASSERT_FALSE(testing::Test::HasFailure()) << "2^" << far;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gnomon::test

@@ -164,6 +164,19 @@ inline TriangleSoup random_soup(Random& random, SoupKind kind, unsigned bits, in
   return TriangleSoup(triangles, exponent_of_step);
 }
 
+/// A cluster of `bits` bits, and one vertex 2^far away that makes all of it tiny on the scene's
+/// scale: where products of the cluster's coordinates underflow.
+inline TriangleSoup clustered_soup(Random& random, SoupKind kind, unsigned bits, unsigned far) {
+  std::vector<std::array<Integers, 3>> triangles(6);
+  for (auto& triangle : triangles) {
+    for (Integers& corner : triangle) {
+      for (mpz_class& x : corner) x = random_coordinate(random, kind, bits);
+    }
+  }
+  triangles.push_back({{{0, 0, 0}, {mpz_class(1) << far, 0, 1}, {0, mpz_class(1) << far, 0}}});
+  return TriangleSoup(triangles, 0);
+}
+
 }  // namespace gnomon::test
 
 #endif  // GNOMON_TESTS_KERNEL_TRIANGLE_SOUP_H
