@@ -53,16 +53,18 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
     if (std::ranges::find(kernels, *kernel) == kernels.end()) kernels.push_back(*kernel);
   }
   if (!kernels.empty() || !options.candidates.empty()) return kernels;
-  kernels = {{KernelId::kFloat, false},
-             {KernelId::kDouble, false},
-             {KernelId::kDouble, true},
-             {KernelId::kLongDouble, false},
-             {KernelId::kEpick, false}};
+  // With no thickness, as a program that compares with zero; then with the thickness that helps most.
+  kernels = {{.kernel = KernelId::kFloat},
+             {.kernel = KernelId::kDouble, .thin = true},
+             {.kernel = KernelId::kDouble},
+             {.kernel = KernelId::kDouble, .identity = true},
+             {.kernel = KernelId::kLongDouble},
+             {.kernel = KernelId::kEpick}};
   if (parts <= kSmallScene) {
-    kernels.push_back({KernelId::kEpeck, false});
-    kernels.push_back({KernelId::kRational, false});
+    kernels.push_back({.kernel = KernelId::kEpeck});
+    kernels.push_back({.kernel = KernelId::kRational});
   }
-  kernels.push_back({KernelId::kPlane, false});
+  kernels.push_back({.kernel = KernelId::kPlane});
   return kernels;
 }
 
@@ -111,7 +113,7 @@ class CertifyRun {
     run.exact = kernel.exact();
     run.identity = kernel.identity;
     run.exact_decisions = kernel.exact() || kernel.kernel == KernelId::kEpick;
-    run.thickness = run.exact_decisions ? 0 : options_.thickness;
+    run.thickness = run.exact_decisions || kernel.thin ? 0 : options_.thickness;
 
     progress_.set_label("kernel " + run.name);
     ShadowOptions shadow_options = options_of(kernel);
@@ -166,7 +168,7 @@ class CertifyRun {
     ShadowOptions shadow_options;
     shadow_options.kernel = kernel.kernel;
     shadow_options.identity = kernel.identity;
-    shadow_options.thickness = options_.thickness;
+    shadow_options.thickness = kernel.thin ? 0 : options_.thickness;
     shadow_options.lights = loaded_.lights;
     shadow_options.progress = progress_.callback();
     shadow_options.interrupted = &interrupted();
@@ -294,7 +296,8 @@ void add_certify_command(CLI::App& app, Action& action) {
       "  gnomon certify room.json --candidate other.result.json --tolerance 1e-6 --report out");
   add_scene_options(command, options->scene);
   repeatable(command.add_option("--kernel", options->kernels,
-                                "A kernel to run, such as double or double+identity (repeatable)"))
+                                "A kernel to run, such as double, double+identity or double+thin (thickness 0)\n"
+                                "(repeatable)"))
       ->type_name("K");
   repeatable(command.add_option("--candidate", options->candidates,
                                 "A result file to judge instead (repeatable)"))

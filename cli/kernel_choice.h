@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A kernel as it is named on the command line: `double`, `double+identity`, `exact`.
+// A kernel as it is named on the command line: `double`, `double+identity`, `double+thin`, `exact`.
 #ifndef GNOMON_CLI_KERNEL_CHOICE_H
 #define GNOMON_CLI_KERNEL_CHOICE_H
 
@@ -14,9 +14,10 @@ namespace gnomon::cli {
 struct KernelChoice {
   KernelId kernel = kDefaultExactKernel;
   bool identity = false;  // rounded kernels only
+  bool thin = false;      // kernels with a thickness only: planes of thickness 0
 
   bool exact() const { return kernel_info(kernel).exact; }
-  /// "double+identity".
+  /// Such as "double+identity".
   std::string name() const;
   friend bool operator==(const KernelChoice&, const KernelChoice&) = default;
 };

@@ -60,7 +60,7 @@ int run(int argc, char** argv) {
       "Exit status: 0 done, every verdict identical or within tolerance; 1 a candidate or rounded\n"
       "kernel failed; 2 bad usage or input, or a file that cannot be read or written; 3 a limit;\n"
       "4 exact kernels and oracle disagree (a bug of ours); 130 interrupted.\n\n"
-      "Example:\n  gnomon generate table -o table.json && gnomon certify table.json");
+      "Example:\n  gnomon generate table-chair -o table.json && gnomon certify table.json");
   Action action;
   add_certify_command(app, action);
   add_shadows_command(app, action);

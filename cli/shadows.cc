@@ -28,6 +28,7 @@ struct ShadowsOptions {
   double thickness = kDefaultThickness;
   bool fragments = false, exact_fractions = false, exact_loops = false;
   bool lit_only = false, shadow_only = false;
+  bool combined = false;
   bool no_merge = false, no_prefix = false;
   bool stats = false;
   std::string output;
@@ -72,11 +73,12 @@ int run_shadows(const ShadowsOptions& options) {
   ShadowOptions shadow_options;
   shadow_options.kernel = kernel->kernel;
   shadow_options.identity = options.identity || kernel->identity;
-  shadow_options.thickness = options.thickness;
+  shadow_options.thickness = kernel->thin ? 0 : options.thickness;
   shadow_options.lights = loaded->lights;
-  shadow_options.keep_points = options.fragments;
+  shadow_options.keep_points = options.fragments || (options.combined && !options.exact_loops);
   shadow_options.keep_exact_points = options.exact_loops;
   shadow_options.exact_fractions = options.exact_fractions;
+  shadow_options.combined = options.combined;
   shadow_options.count_stages = options.stats;
   shadow_options.merge = !options.no_merge;
   shadow_options.prefix = !options.no_prefix;
@@ -91,6 +93,7 @@ int run_shadows(const ShadowsOptions& options) {
   json_options.fragments = options.fragments;
   json_options.exact_fractions = options.exact_fractions;
   json_options.exact_loops = options.exact_loops;
+  json_options.combined = options.combined;
   if (options.lit_only) json_options.only = LightState::kLit;
   if (options.shadow_only) json_options.only = LightState::kShadow;
   auto output = Output::open(options.output);
@@ -135,6 +138,8 @@ void add_shadows_command(CLI::App& app, Action& action) {
                    "Write fractions as exact rationals \"p/q\" (exact kernels)");
   command.add_flag("--exact-loops", options->exact_loops,
                    "Write fragments with exact rational coordinates (exact kernels)");
+  command.add_flag("--combined", options->combined,
+                   "Also write fragments with the set of lights that reach each of them");
   auto* lit_only = command.add_flag("--lit-only", options->lit_only, "List lit fragments only");
   command.add_flag("--shadow-only", options->shadow_only, "List shadow fragments only")
       ->excludes(lit_only);

@@ -389,10 +389,12 @@ Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
                   result.combined_exact_points);
       result.combined.push_back(fragment);
     });
+    const auto key = [&](const CombinedFragment& fragment) {
+      return std::pair(scene.parts[fragment.part].polygon, -static_cast<int>(fragment.side));
+    };
     std::stable_sort(result.combined.begin(), result.combined.end(),
-                     [](const CombinedFragment& a, const CombinedFragment& b) {
-                       return std::pair(a.part, -static_cast<int>(a.side)) <
-                              std::pair(b.part, -static_cast<int>(b.side));
+                     [&](const CombinedFragment& a, const CombinedFragment& b) {
+                       return key(a) < key(b);
                      });
   }
   result.stages += scene_space.stage_counts();

@@ -54,21 +54,28 @@ Sign direction_orientation(const Point& a, const Point& d, const Point& c, const
   return static_cast<Sign>(sgn(determinant(qd, qc, qv)));
 }
 
-/// Rounded value of a plane, for constructions.
-double value(const EpickPlane& plane, const Point& v) {
-  std::array<double, 3> first, second, third;
-  for (int k = 0; k < 3; ++k) {
-    first[k] = plane.kind == EpickPlane::Kind::kDirection ? plane.b[k] : plane.b[k] - plane.a[k];
-    second[k] = plane.c[k] - plane.a[k];
-    third[k] = v[k] - plane.a[k];
+/// Coefficients in doubles, for constructions.
+Epick::Plane_3 coefficients(const EpickPlane& plane) {
+  const Epick::Point_3 a = cgal(plane.a), c = cgal(plane.c);
+  if (plane.kind == EpickPlane::Kind::kDirection) {
+    const Epick::Vector_3 d(plane.b[0], plane.b[1], plane.b[2]);
+    return {a, CGAL::cross_product(d, c - a)};
   }
-  return determinant(first, second, third);
+  return {a, cgal(plane.b), c};
 }
 
-EpickVertex interpolate(double at_from, double at_to, const Point& from, const Point& to) {
-  const double t = at_from / (at_from - at_to);
+/// CGAL's own construction. The predicates put the two ends strictly on different sides, exactly; the
+/// construction knows nothing of that, and where an edge lies almost in the plane it may put the point
+/// far outside the edge. That is what the kernel does, so that is what is measured.
+EpickVertex meet(const Epick::Plane_3& plane, const Point& from, const Point& to) {
   EpickVertex vertex;
-  for (int k = 0; k < 3; ++k) vertex.x[k] = from[k] + t * (to[k] - from[k]);
+  const auto result = CGAL::intersection(plane, Epick::Line_3(cgal(from), cgal(to)));
+  const Epick::Point_3* point = result ? boost::get<Epick::Point_3>(&*result) : nullptr;
+  for (int k = 0; k < 3; ++k) {
+    // No point: parallel, or in the plane, after rounding. Either end is as good.
+    vertex.x[static_cast<std::size_t>(k)] =
+        point != nullptr ? (*point)[k] : from[static_cast<std::size_t>(k)];
+  }
   return vertex;
 }
 
@@ -104,9 +111,7 @@ Side EpickSceneSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) 
 
 EpickVertex EpickSceneSpace::crossing(PlaneRef ref, PlaneRef, bool, const Corner<Vertex>& from,
                                       const Corner<Vertex>& to) const {
-  const EpickPlane plane = support(ref.index());
-  return interpolate(value(plane, from.vertex.x), value(plane, to.vertex.x), from.vertex.x,
-                     to.vertex.x);
+  return meet(coefficients(support(ref.index())), from.vertex.x, to.vertex.x);
 }
 
 EpickLightSpace::EpickLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions&)
@@ -223,14 +228,10 @@ EpickVertex EpickLightSpace::crossing(PlaneRef ref, PlaneRef, bool, const Corner
                                       const Corner<Vertex>& to) const {
   const EpickPlane& plane = planes_[ref.index()];
   if (plane.kind != EpickPlane::Kind::kLinear) {
-    return interpolate(value(plane, from.vertex.x), value(plane, to.vertex.x), from.vertex.x,
-                       to.vertex.x);
+    return meet(coefficients(plane), from.vertex.x, to.vertex.x);
   }
   const auto& e = linear_[plane.linear].enclosure;
-  const auto at = [&](const Point& v) {
-    return e[0].middle * v[0] + e[1].middle * v[1] + e[2].middle * v[2] - e[3].middle;
-  };
-  return interpolate(at(from.vertex.x), at(to.vertex.x), from.vertex.x, to.vertex.x);
+  return meet({e[0].middle, e[1].middle, e[2].middle, -e[3].middle}, from.vertex.x, to.vertex.x);
 }
 
 std::array<Ball, 3> EpickLightSpace::position(const Corner<Vertex>& corner) const {

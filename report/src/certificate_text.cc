@@ -37,7 +37,7 @@ std::string ratio(double value) {
 std::string policy(const JudgedRun& run) {
   if (run.foreign) return "foreign";
   if (run.exact) return "exact";
-  if (run.exact_decisions) return "rounds points";
+  if (run.exact_decisions) return "points";
   return "thick " + rounded(run.thickness, 2);
 }
 
@@ -69,7 +69,7 @@ std::vector<std::string> row(const JudgedRun& run, double facing_area,
     return {run.name,
             policy(run),
             verdict,
-            grouped(report.points_wrong) + " of " + grouped(report.points_checked) + " points",
+            grouped(report.points_wrong) + "/" + grouped(report.points_checked),
             grouped(totals.wrong_polygons),
             "-",
             grouped(run.fragments),
@@ -79,7 +79,7 @@ std::vector<std::string> row(const JudgedRun& run, double facing_area,
           policy(run),
           verdict,
           bound(error_share(totals, facing_area)),
-          grouped(totals.wrong_polygons) + " of " + grouped(totals.polygons),
+          grouped(totals.wrong_polygons) + "/" + grouped(totals.polygons),
           bound(totals.width.upper),
           grouped(run.fragments),
           time};

@@ -37,6 +37,7 @@ class ResultWriter {
     json_.begin_array();
     for (const LightResult& light : result_.lights) write_light(light);
     json_.end_array();
+    if (options_.combined) write_combined();
     write_findings();
     json_.end_object();
     json_.finish();
@@ -51,6 +52,40 @@ class ResultWriter {
       json_.begin_object(JsonLayout::kInline);
       json_.member("id", scene_.polygons[note.polygon].id);
       json_.member("detail", note.detail);
+      json_.end_object();
+    }
+    json_.end_array();
+  }
+
+  /// Fragments of each polygon's side with the lights that reach all of them: the pipeline of lights.
+  void write_combined() {
+    json_.key("combined");
+    json_.begin_array();
+    for (std::size_t i = 0; i < result_.combined.size();) {
+      const std::uint32_t polygon = prepared_.parts[result_.combined[i].part].polygon;
+      const Side side = result_.combined[i].side;
+      json_.begin_object();
+      json_.member("id", scene_.polygons[polygon].id);
+      json_.member("side", side_name(side));
+      json_.key("fragments");
+      json_.begin_array();
+      for (; i < result_.combined.size() &&
+             prepared_.parts[result_.combined[i].part].polygon == polygon &&
+             result_.combined[i].side == side;
+           ++i) {
+        const CombinedFragment& fragment = result_.combined[i];
+        json_.begin_object(JsonLayout::kInline);
+        json_.key("lit_by");
+        json_.begin_array(JsonLayout::kInline);
+        for (std::size_t light = 0; light < result_.lights.size(); ++light) {
+          if (fragment.lit_by >> light & 1) json_.value(light_id(result_.lights[light]));
+        }
+        json_.end_array();
+        write_loops(result_.combined_points, result_.combined_exact_points, fragment.first,
+                    fragment.count);
+        json_.end_object();
+      }
+      json_.end_array();
       json_.end_object();
     }
     json_.end_array();
@@ -213,6 +248,19 @@ class ResultWriter {
     json_.end_array();
   }
 
+  void write_loops(const std::vector<std::array<double, 3>>& points,
+                   const std::vector<std::array<mpq_class, 3>>& exact_points, std::uint32_t first,
+                   std::uint32_t count) {
+    if (!points.empty()) {
+      write_loop("loop", std::span(points).subspan(first, count),
+                 [&](const auto& point) { write_point(point); });
+    }
+    if (!exact_points.empty()) {
+      write_loop("exact_loop", std::span(exact_points).subspan(first, count),
+                 [&](const auto& point) { write_exact_point(point); });
+    }
+  }
+
   void write_whole_part(const Part& part, ShadowReason reason) {
     const Geometry& geometry = prepared_.geometry;
     json_.begin_object(JsonLayout::kInline);
@@ -237,15 +285,7 @@ class ResultWriter {
   void write_fragment(const LightResult& light, const Fragment& fragment) {
     json_.begin_object(JsonLayout::kInline);
     json_.member("class", state_name(fragment.state));
-    if (options_.fragments) {
-      write_loop("loop", std::span(light.points).subspan(fragment.first, fragment.count),
-                 [&](const auto& point) { write_point(point); });
-    }
-    if (options_.exact_loops) {
-      write_loop("exact_loop",
-                 std::span(light.exact_points).subspan(fragment.first, fragment.count),
-                 [&](const auto& point) { write_exact_point(point); });
-    }
+    write_loops(light.points, light.exact_points, fragment.first, fragment.count);
     if (fragment.caster != Fragment::kNoCaster) {
       json_.member("caster", scene_.polygons[prepared_.parts[fragment.caster].polygon].id);
     }

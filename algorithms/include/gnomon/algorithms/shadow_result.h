@@ -75,7 +75,7 @@ struct ShadowResult {
   double thickness = 0;   // relative plane thickness (float kernels)
   std::vector<LightResult> lights;
   // Several lights together (ShadowOptions::combined): fragments of every side that faces a light,
-  // grouped by part and side; sides that face none have none.
+  // grouped by polygon and side; sides that face none have none.
   std::vector<CombinedFragment> combined;
   std::vector<std::array<double, 3>> combined_points;
   std::vector<std::array<mpq_class, 3>> combined_exact_points;

@@ -73,7 +73,8 @@ class PairSceneSpace {
       lock_step_->first = DifferingDecision{
           "support plane " + std::to_string(plane.index()) + " of the scene BSP",
           describe_vertex(corner.vertex.source),
-          exact_.approximate(corner.vertex.exact),
+          corner.vertex.source != kMadeVertex ? geometry().positions[corner.vertex.source]
+                                              : exact_.approximate(corner.vertex.exact),
           tested_.approximate(corner.vertex.tested),
           corner.support,
           tested,
@@ -123,6 +124,7 @@ class PairLightSpace {
   PairLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options)
       : tested_(scene.tested(), light, options),
         exact_(scene.exact(), light, options),
+        scene_(&scene),
         lock_step_(&scene.lock_step()) {}
 
   bool knows_identity() const { return tested_.knows_identity(); }
@@ -177,7 +179,9 @@ class PairLightSpace {
                                  exact,
                                  lock_step_->decisions};
       for (int k = 0; k < 3; ++k) {
-        decision.position[k] = point[k].get_d();
+        decision.position[k] = corner.vertex.source != kMadeVertex
+                                   ? scene_->geometry().positions[corner.vertex.source][k]
+                                   : point[k].get_d();
         decision.tested_position[k] = rounded[k].middle;
       }
       if (corner.vertex.source == kMadeVertex) {
@@ -228,6 +232,7 @@ class PairLightSpace {
 
   Tested tested_;
   Exact exact_;
+  const SceneSpace* scene_;
   LockStep* lock_step_;
   std::vector<std::pair<PlaneRef, PlaneRef>> planes_;
 };

@@ -21,6 +21,7 @@ struct ResultJsonOptions {
   bool fragments = false;          // loops of nearest doubles; needs LightResult::points
   bool exact_fractions = false;    // "p/q" instead of numbers; needs PartResult::exact_lit
   bool exact_loops = false;        // needs LightResult::exact_points
+  bool combined = false;           // all lights together; needs ShadowResult::combined
   std::optional<LightState> only;  // list fragments of this class alone
 };
 
