@@ -53,7 +53,9 @@ void set_box(ShadedLoop& shaded) {
 
 bool boxes_meet(const ShadedLoop& a, const ShadedLoop& b) {
   for (int k = 0; k < 3; ++k) {
-    if (a.low[k] > b.high[k] || b.low[k] > a.high[k]) return false;
+    // Flat boxes of one plane may miss each other by a rounding of their coordinates.
+    const double slack = 1e-12 * (std::fabs(a.low[k]) + std::fabs(b.low[k]));
+    if (a.low[k] > b.high[k] + slack || b.low[k] > a.high[k] + slack) return false;
   }
   return true;
 }
