@@ -78,7 +78,7 @@ TEST_F(KnownWrong, Warning2PiecesOfAnEdgeAreNotCollinear) {
 
 TEST_F(KnownWrong, Warning3VerticesOnTheEdgesOfOthers) {
   load("i_crack_in_needle");
-  for (const std::string policy : {"double@0", "double@1e-12", "double+identity@0", "epick"}) {
+  for (const std::string policy : {"double@0", "double@1e-12", "double+identity@0"}) {
     const oracle::Report report = failed(policy);
     EXPECT_GT(report.totals.t_vertices, 0u) << policy;
     EXPECT_GT(report.totals.uncovered.lower, 0) << policy;
@@ -87,15 +87,16 @@ TEST_F(KnownWrong, Warning3VerticesOnTheEdgesOfOthers) {
 
 TEST_F(KnownWrong, Warning4LightInThePlane) {
   load("i_light_in_plane");
-  for (const std::string policy :
-       {"float@0", "float@1e-12", "double@0", "double@1e-12", "double+identity@0",
-        "double+identity@1e-12", "longdouble@0", "epick", "epick+identity"}) {
+  for (const std::string policy : {"float@0", "float@1e-12", "double@0", "double+identity@0",
+                                   "longdouble@0", "epick", "epick+identity"}) {
     const oracle::Report report = failed(policy);
     ASSERT_TRUE(report.worst);
     EXPECT_EQ(report.worst->found, oracle::ShadeClass::kLit) << policy;
     EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kShadow) << policy;
     EXPECT_NE(report.worst->text.find("in its plane"), std::string::npos) << report.worst->text;
   }
+  // Here a thickness helps; a lamp far away takes that back, see the next.
+  EXPECT_NE(judged("double@1e-12").verdict, oracle::Verdict::kFailed);
 }
 
 TEST_F(KnownWrong, Warning4LampFarAwayInThePlane) {
@@ -111,9 +112,8 @@ TEST_F(KnownWrong, Warning4LampFarAwayInThePlane) {
 
 TEST_F(KnownWrong, Warning4SunInThePlane) {
   load("i_sun_in_plane");
-  for (const std::string policy : {"float@1e-12", "double@1e-12", "double+identity@1e-12"}) {
-    failed(policy);
-  }
+  failed("float@1e-12");  // a thickness below what the number type rounds is worse than none
+  EXPECT_EQ(judged("float@0").verdict, oracle::Verdict::kIdentical);
 }
 
 TEST_F(KnownWrong, CoplanarPolygonsShadowEachOther) {
