@@ -154,7 +154,7 @@ class CertifyRun {
       }
       if (run.report->oracle_fault) disagree = true;
       if (run.report->interrupted) continue;
-      if (run.exact && run.report->verdict != oracle::Verdict::kIdentical) disagree = true;
+      if (run.exact && !run.report->confirms_exact()) disagree = true;
       if (!run.exact && run.failed()) failed = true;
     }
     if (certificate_.interrupted) return kInterruptedStatus;

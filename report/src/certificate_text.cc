@@ -140,9 +140,7 @@ std::string conclusion(const Certificate& certificate) {
     } else {
       tolerated.push_back(run.name);
     }
-    const bool agrees = run.report && run.report->verdict == oracle::Verdict::kIdentical &&
-                        !run.report->oracle_fault;
-    if (run.exact && !agrees) wrong_exact.push_back(run.name);
+    if (run.exact && !(run.report && run.report->confirms_exact())) wrong_exact.push_back(run.name);
   }
   std::string text;
   if (!identical.empty()) text += "Identical to the exact answer: " + joined(identical, 20) + ". ";

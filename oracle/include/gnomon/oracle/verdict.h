@@ -36,8 +36,10 @@ struct CertifyOptions {
   bool subset = false;              // lights and polygons may be missing
   std::optional<std::uint64_t> leaks;  // fail with more invented and lost regions than this
   std::vector<std::uint32_t> lights;   // indices into PreparedScene::lights; empty: all
-  std::uint64_t most_pairs = 100'000'000;
+  std::uint64_t most_pairs = 1'000'000'000;  // a minute for a city of that size
   std::uint32_t points_a_polygon = 8;  // above the limit: of its fragments, and as many at random
+  // Points times parts; where all polygons would take more, every n-th polygon side is checked.
+  std::uint64_t most_point_pairs = 50'000'000;
   std::uint64_t seed = 1;              // of the random points
   std::size_t exact_limit = 200;       // boundary edges up to which areas are also exact
   std::size_t most_regions = 16;       // kept a polygon side
@@ -79,6 +81,12 @@ struct Report {
   std::uint64_t pairs = 0, most_pairs = 0;
   bool interrupted = false;           // not everything was compared
   bool oracle_fault = false;          // the oracle contradicted itself: a bug of ours
+
+  /// What an exact kernel must reach: identical; where only points were checked, nothing wrong found.
+  bool confirms_exact() const {
+    return !oracle_fault &&
+           verdict == (by_points ? Verdict::kWithinTolerance : Verdict::kIdentical);
+  }
 };
 
 /// Errors: kUsage (tolerance, width or clearance negative or NaN). An interrupted run is a report.
