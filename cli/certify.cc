@@ -53,13 +53,11 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
     if (std::ranges::find(kernels, *kernel) == kernels.end()) kernels.push_back(*kernel);
   }
   if (!kernels.empty() || !options.candidates.empty()) return kernels;
-  // With no thickness, as a program that compares with zero; then with the thickness that helps most.
-  kernels = {{.kernel = KernelId::kFloat},
-             {.kernel = KernelId::kDouble, .thin = true},
-             {.kernel = KernelId::kDouble},
-             {.kernel = KernelId::kDouble, .identity = true},
-             {.kernel = KernelId::kLongDouble},
-             {.kernel = KernelId::kEpick}};
+  // With no thickness, as a program that compares with zero; then with the thickness that helps
+  // most.
+  kernels = {{.kernel = KernelId::kFloat},      {.kernel = KernelId::kDouble, .thin = true},
+             {.kernel = KernelId::kDouble},     {.kernel = KernelId::kDouble, .identity = true},
+             {.kernel = KernelId::kLongDouble}, {.kernel = KernelId::kEpick}};
   if (parts <= kSmallScene) {
     kernels.push_back({.kernel = KernelId::kEpeck});
     kernels.push_back({.kernel = KernelId::kRational});
@@ -295,9 +293,10 @@ void add_certify_command(CLI::App& app, Action& action) {
       "  gnomon certify room.json --kernel double --kernel double+identity --explain\n"
       "  gnomon certify room.json --candidate other.result.json --tolerance 1e-6 --report out");
   add_scene_options(command, options->scene);
-  repeatable(command.add_option("--kernel", options->kernels,
-                                "A kernel to run, such as double, double+identity or double+thin (thickness 0)\n"
-                                "(repeatable)"))
+  repeatable(command.add_option(
+                 "--kernel", options->kernels,
+                 "A kernel to run, such as double, double+identity or double+thin (thickness 0)\n"
+                 "(repeatable)"))
       ->type_name("K");
   repeatable(command.add_option("--candidate", options->candidates,
                                 "A result file to judge instead (repeatable)"))

@@ -12,9 +12,12 @@ namespace {
 
 const char* name(Side side) {
   switch (side) {
-    case Side::kFront: return "in front";
-    case Side::kBack: return "behind";
-    case Side::kOn: return "on it";
+    case Side::kFront:
+      return "in front";
+    case Side::kBack:
+      return "behind";
+    case Side::kOn:
+      return "on it";
   }
   return "?";
 }
@@ -52,8 +55,8 @@ std::string to_sentence(const FirstDifference& difference, const PreparedScene& 
   if (difference.light) {
     where = "light " + light_names[scene.lights[*difference.light].light];
   }
-  std::string sentence = "Decision " + std::to_string(decision.decisions + 1) + " (" + where +
-                         "): " + decision.vertex;
+  std::string sentence =
+      "Decision " + std::to_string(decision.decisions + 1) + " (" + where + "): " + decision.vertex;
   if (decision.vertex != "the light") sentence += ", at " + text(decision.position);
   sentence += ", is asked against " + decision.plane + ". " + kernel + " says " +
               name(decision.tested) + ", exact says " + name(decision.exact) + ".";

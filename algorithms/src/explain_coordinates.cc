@@ -11,7 +11,8 @@ Explanation explain_coordinates(const PreparedScene& scene, const ShadowOptions&
       return explain_with<CoordinateLightSpace<float>>(scene, options, lights);
     case KernelId::kLongDouble:
       return explain_with<CoordinateLightSpace<long double>>(scene, options, lights);
-    default: return explain_with<CoordinateLightSpace<double>>(scene, options, lights);
+    default:
+      return explain_with<CoordinateLightSpace<double>>(scene, options, lights);
   }
 }
 

@@ -30,12 +30,14 @@ Explanation explain_with(const PreparedScene& scene, const ShadowOptions& option
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
   std::vector<std::uint32_t> parts(scene.parts.size());
   for (std::uint32_t i = 0; i < parts.size(); ++i) parts[i] = i;
-  const auto bsp = build_scene_bsp(scene_space, scene, parts, options.seed, options.identity,
-                                   &lock_step.stop);
+  const auto bsp =
+      build_scene_bsp(scene_space, scene, parts, options.seed, options.identity, &lock_step.stop);
   if (lock_step.first) return FirstDifference{*lock_step.first, std::nullopt};
   for (const std::uint32_t light : lights) {
     LightRun<Space> run(scene, run_options, scene_space, light, kernel_options);
-    if (!lock_step.first) run.run(bsp, [](std::size_t) {}, [](std::uint32_t, Side) {});
+    if (!lock_step.first)
+      run.run(
+          bsp, [](std::size_t) {}, [](std::uint32_t, Side) {});
     if (lock_step.first) return FirstDifference{*lock_step.first, light};
   }
   return std::optional<FirstDifference>();

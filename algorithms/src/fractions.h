@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Areas as fractions of a part: measured in a coordinate plane (a linear map, so that ratios of areas
-// on one support plane stay what they are), enclosed in doubles, exact rationals where asked for or
-// where the enclosure says too little.
+// Areas as fractions of a part: measured in a coordinate plane (a linear map, so that ratios of
+// areas on one support plane stay what they are), enclosed in doubles, exact rationals where asked
+// for or where the enclosure says too little.
 #ifndef GNOMON_ALGORITHMS_SRC_FRACTIONS_H
 #define GNOMON_ALGORITHMS_SRC_FRACTIONS_H
 
@@ -55,8 +55,8 @@ template <LightSpaceModel Space>
 class PartMeasure {
  public:
   using Loop = LoopView<typename Space::Vertex>;
-  /// An enclosure whose radius is not below this fraction of the part is replaced by exact arithmetic;
-  /// most are far narrower.
+  /// An enclosure whose radius is not below this fraction of the part is replaced by exact
+  /// arithmetic; most are far narrower.
   static constexpr double kWidest = 0x1p-32;
 
   PartMeasure(const Space& space, Chart chart, const Loop& part, bool always_exact)

@@ -38,9 +38,8 @@ std::vector<OrderedPiece> back_to_front(const PreparedScene& scene,
       OrderedPiece piece{range.part, {}};
       for (std::uint32_t v = 0; v < range.count; ++v) {
         const auto& vertex = bsp.loops.vertex(range.first + v);
-        piece.loop.push_back(vertex.source != kMadeVertex
-                                 ? scene.geometry.positions[vertex.source]
-                                 : space.approximate(vertex));
+        piece.loop.push_back(vertex.source != kMadeVertex ? scene.geometry.positions[vertex.source]
+                                                          : space.approximate(vertex));
       }
       pieces.push_back(std::move(piece));
     }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Several lights in a pipeline (Chin & Feiner 1989, sec. 5): the fragments that one light's SVBSP tree
-// leaves are filtered through the next, front to back from that light, so that each fragment at the end
-// carries the set of lights that reach all of it.
+// Several lights in a pipeline (Chin & Feiner 1989, sec. 5): the fragments that one light's SVBSP
+// tree leaves are filtered through the next, front to back from that light, so that each fragment
+// at the end carries the set of lights that reach all of it.
 //
-// The trees themselves grow from the scene's own polygons, never from fragments of earlier lights (the
-// "more coherent fragments" of sec. 6): planes stay of bounded degree, and a light's tree does not
-// depend on the order of the lights. Between lights a fragment is stored without any light's space: each
-// edge by who made it (the scene, or the tree of light j), from which every space derives its plane.
+// The trees themselves grow from the scene's own polygons, never from fragments of earlier lights
+// (the "more coherent fragments" of sec. 6): planes stay of bounded degree, and a light's tree does
+// not depend on the order of the lights. Between lights a fragment is stored without any light's
+// space: each edge by who made it (the scene, or the tree of light j), from which every space
+// derives its plane.
 #ifndef GNOMON_ALGORITHMS_SRC_PIPELINE_H
 #define GNOMON_ALGORITHMS_SRC_PIPELINE_H
 
@@ -54,8 +55,8 @@ class Pipeline {
 
   void add_space(Space& space) { spaces_.push_back(&space); }
 
-  /// Filters what is left of a piece through the current run's tree, which nothing behind the piece has
-  /// been inserted into yet. `run` is the index of its space.
+  /// Filters what is left of a piece through the current run's tree, which nothing behind the piece
+  /// has been inserted into yet. `run` is the index of its space.
   void filter(std::uint32_t piece, Side side, std::uint32_t run, SvbspTree<Space>& tree) {
     std::vector<Item>& items = side == Side::kFront ? front_[piece] : back_[piece];
     const LoopRange& range = bsp_.pieces[piece];
@@ -69,8 +70,8 @@ class Pipeline {
       tree.filter(loop_.view({0, loop_.size(), range.part}, part.plane),
                   {.classify = true, .insert = false}, output_);
       for (const ClassifiedLoop& fragment : output_.fragments) {
-        next.push_back(item_of(output_.loops.view(fragment.loop, part.plane), item,
-                               side == Side::kBack, run));
+        next.push_back(
+            item_of(output_.loops.view(fragment.loop, part.plane), item, side == Side::kBack, run));
         next.back().lit_by = item.lit_by;
         if (fragment.state == LightState::kLit) next.back().lit_by |= std::uint64_t{1} << run;
       }
@@ -79,8 +80,8 @@ class Pipeline {
     last_run_[side == Side::kFront ? 0 : 1][piece] = run;
   }
 
-  /// Calls visit(part, side, lit_by, space, loop) for every fragment; the loop is in the space of the
-  /// last light that the side faces.
+  /// Calls visit(part, side, lit_by, space, loop) for every fragment; the loop is in the space of
+  /// the last light that the side faces.
   template <class Visit>
   void for_each(const Visit& visit) {
     for (std::uint32_t piece = 0; piece < bsp_.pieces.size(); ++piece) {

@@ -8,10 +8,10 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kFewest = 64;      // parts below which a prefix costs more than it gives
+constexpr std::size_t kFewest = 64;  // parts below which a prefix costs more than it gives
 constexpr std::size_t kLeafSize = 8;
-constexpr double kGrowth = 1.1;          // split only while f(left) + f(right) < 1.1 f(node)
-constexpr int kFractionBits = 20;        // of a split value
+constexpr double kGrowth = 1.1;    // split only while f(left) + f(right) < 1.1 f(node)
+constexpr int kFractionBits = 20;  // of a split value
 
 using Point = std::array<double, 3>;
 
@@ -23,7 +23,8 @@ struct ChartBox {
 double n_log_n(std::size_t n) { return n < 2 ? 0 : static_cast<double>(n) * std::log2(n); }
 
 /// Keeps the part of a convex polygon of directions with n . q >= 0 (Sutherland & Hodgman).
-void clip(std::vector<Point>& polygon, const std::array<double, 3>& n, std::vector<Point>& scratch) {
+void clip(std::vector<Point>& polygon, const std::array<double, 3>& n,
+          std::vector<Point>& scratch) {
   scratch.clear();
   const auto value = [&](const Point& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; };
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -33,8 +34,8 @@ void clip(std::vector<Point>& polygon, const std::array<double, 3>& n, std::vect
     if (at_p >= 0) scratch.push_back(p);
     if ((at_p < 0) != (at_r < 0)) {
       const double t = at_p / (at_p - at_r);
-      scratch.push_back({p[0] + t * (r[0] - p[0]), p[1] + t * (r[1] - p[1]),
-                         p[2] + t * (r[2] - p[2])});
+      scratch.push_back(
+          {p[0] + t * (r[0] - p[0]), p[1] + t * (r[1] - p[1]), p[2] + t * (r[2] - p[2])});
     }
   }
   polygon.swap(scratch);
@@ -136,9 +137,8 @@ class Planner {
   }
 
   /// A k-d tree of the region's chart: (q_u / q_w, q_v / q_w) with u, v, w = chart, sign q_w > 0.
-  void grow(std::span<const std::uint32_t> parts,
-            const std::vector<std::array<double, 3>>& region, std::array<int, 3> chart, int sign,
-            std::int32_t parent, bool front) {
+  void grow(std::span<const std::uint32_t> parts, const std::vector<std::array<double, 3>>& region,
+            std::array<int, 3> chart, int sign, std::int32_t parent, bool front) {
     const auto [u, v, w] = chart;
     std::vector<ChartBox> boxes;
     std::vector<Point> polygon, scratch;
@@ -202,8 +202,8 @@ class Planner {
         }
       }
       if (best_axis < 0) continue;
-      // q_a / q_w > value, times |q_w|: sign (2^f q_a - 2^f value q_w), f fraction bits. The chart of
-      // a directional light is in units of the grid's extent, q in grid units: value times 2^b.
+      // q_a / q_w > value, times |q_w|: sign (2^f q_a - 2^f value q_w), f fraction bits. The chart
+      // of a directional light is in units of the grid's extent, q in grid units: value times 2^b.
       PrefixPlane plane;
       mpz_class scale = mpz_class(1) << kFractionBits;
       mpz_class offset = static_cast<long>(std::ldexp(best_value, kFractionBits));

@@ -9,8 +9,8 @@
 namespace gnomon {
 namespace {
 
-// Measured on cities and soups of 1,000 to 100,000 polygons: more candidates or a larger sample cost
-// more time than the splits they avoid.
+// Measured on cities and soups of 1,000 to 100,000 polygons: more candidates or a larger sample
+// cost more time than the splits they avoid.
 constexpr std::size_t kCandidates = 8;
 constexpr std::size_t kSample = 48;
 constexpr double kSplitCost = 6;
@@ -57,7 +57,8 @@ std::size_t RootChooser::choose(std::span<const std::uint32_t> candidates,
     for (std::size_t s = 0; s < sample; ++s) {
       const std::size_t other = n <= kSample ? s : random() % n;
       const ApproximateBox& box = boxes[candidates[other]];
-      // The box's extreme values of n . x - d; a tolerance of rounding size keeps touching boxes whole.
+      // The box's extreme values of n . x - d; a tolerance of rounding size keeps touching boxes
+      // whole.
       double low = -plane[3], high = -plane[3], size = std::fabs(plane[3]);
       for (int k = 0; k < 3; ++k) {
         const double a = plane[k] * box.low[k], b = plane[k] * box.high[k];
@@ -67,9 +68,12 @@ std::size_t RootChooser::choose(std::span<const std::uint32_t> candidates,
       }
       const double slack = 16 * std::numeric_limits<double>::epsilon() * size;
       if (high <= slack && low >= -slack) continue;
-      if (low >= -slack) ++front;
-      else if (high <= slack) ++back;
-      else ++splits;
+      if (low >= -slack)
+        ++front;
+      else if (high <= slack)
+        ++back;
+      else
+        ++splits;
     }
     const double imbalance = std::fabs(static_cast<double>(front) - static_cast<double>(back));
     const double cost = kSplitCost * static_cast<double>(splits) + imbalance;

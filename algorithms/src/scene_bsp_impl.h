@@ -57,8 +57,8 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
   }
 
   struct Task {
-    std::uint32_t count;   // of the last entries of `work`
-    std::int32_t parent;   // node, or kEmpty for the root
+    std::uint32_t count;  // of the last entries of `work`
+    std::int32_t parent;  // node, or kEmpty for the root
     bool is_front;
     std::uint32_t depth;
   };
@@ -97,9 +97,15 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
       const LoopRange range = tree.pieces[piece];
       const LoopView<Vertex> loop = tree.loops.view(range, state.planes[piece]);
       switch (record.decide(space, PlaneRef(plane), loop)) {
-        case Placement::kFront: state.front.push_back(piece); break;
-        case Placement::kBack: state.back.push_back(piece); break;
-        case Placement::kOn: state.on.push_back(piece); break;
+        case Placement::kFront:
+          state.front.push_back(piece);
+          break;
+        case Placement::kBack:
+          state.back.push_back(piece);
+          break;
+        case Placement::kOn:
+          state.on.push_back(piece);
+          break;
         case Placement::kSpanning: {
           ++tree.splits;
           parent_loop.clear();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// One function a kernel, each in a source of its own, so that CGAL is compiled once and in parallel.
+// One function a kernel, each in a source of its own, so that CGAL is compiled once and in
+// parallel.
 #ifndef GNOMON_ALGORITHMS_SRC_SHADOW_KERNELS_H
 #define GNOMON_ALGORITHMS_SRC_SHADOW_KERNELS_H
 

@@ -40,13 +40,20 @@ Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowO
   if (!selected) return tl::unexpected<Error>(selected.error());
   const std::vector<std::uint32_t>& lights = *selected;
   switch (options.kernel) {
-    case KernelId::kFloat: return shadows_float(scene, options, lights);
-    case KernelId::kDouble: return shadows_double(scene, options, lights);
-    case KernelId::kLongDouble: return shadows_long_double(scene, options, lights);
-    case KernelId::kEpick: return shadows_epick(scene, options, lights);
-    case KernelId::kEpeck: return shadows_epeck(scene, options, lights);
-    case KernelId::kRational: return shadows_rational(scene, options, lights);
-    case KernelId::kPlane: return shadows_plane(scene, options, lights);
+    case KernelId::kFloat:
+      return shadows_float(scene, options, lights);
+    case KernelId::kDouble:
+      return shadows_double(scene, options, lights);
+    case KernelId::kLongDouble:
+      return shadows_long_double(scene, options, lights);
+    case KernelId::kEpick:
+      return shadows_epick(scene, options, lights);
+    case KernelId::kEpeck:
+      return shadows_epeck(scene, options, lights);
+    case KernelId::kRational:
+      return shadows_rational(scene, options, lights);
+    case KernelId::kPlane:
+      return shadows_plane(scene, options, lights);
   }
   return fail(ErrorCode::kUsage, "unknown kernel");
 }

@@ -56,8 +56,7 @@ void export_loop(const Space& space, const Geometry& geometry, const ShadowOptio
     if (options.keep_exact_points || (!input && Space::kExact)) {
       std::array<mpq_class, 3> exact = space.exact_position(corner);
       if (options.keep_points) {
-        points.push_back(input ? geometry.positions[corner.vertex.source]
-                               : nearest_doubles(exact));
+        points.push_back(input ? geometry.positions[corner.vertex.source] : nearest_doubles(exact));
       }
       if (options.keep_exact_points) exact_points.push_back(std::move(exact));
     } else if (input) {
@@ -149,8 +148,8 @@ class LightRun {
   SvbspTree<Space>& tree() { return tree_; }
 
  private:
-  // The facing pieces of one node are coplanar: none shadows another, so all are classified before any
-  // is inserted (docs: semantics; a filter that inserts one first is a classic bug).
+  // The facing pieces of one node are coplanar: none shadows another, so all are classified before
+  // any is inserted (docs: semantics; a filter that inserts one first is a classic bug).
   void filter_node(const SceneBsp<SceneVertex>& bsp, const BspNode& node) {
     pieces_.clear();
     for (std::uint32_t i = 0; i < node.count; ++i) {
@@ -269,8 +268,8 @@ LightResult LightRun<Space>::finish() {
       fragment.caster = f.caster;
       if (keep) {
         export_loop(space_, scene_.geometry, options_,
-                    output_.loops.view(f.loop, scene_.parts[index].plane), fragment,
-                    result_.points, result_.exact_points);
+                    output_.loops.view(f.loop, scene_.parts[index].plane), fragment, result_.points,
+                    result_.exact_points);
       }
       result_.fragments.push_back(fragment);
     }
@@ -337,9 +336,9 @@ Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
   for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
     if (needed[i]) parts.push_back(i);
   }
-  const SceneBsp<typename SceneSpace::Vertex> bsp = build_scene_bsp(
-      scene_space, scene, parts, options.seed, result.identity, options.interrupted,
-      options.max_fragments);
+  const SceneBsp<typename SceneSpace::Vertex> bsp =
+      build_scene_bsp(scene_space, scene, parts, options.seed, result.identity, options.interrupted,
+                      options.max_fragments);
   if (bsp.interrupted) return interrupted();
   result.scene_bsp_seconds = cpu_seconds() - start;
   result.bsp_nodes = bsp.nodes.size();
@@ -374,9 +373,12 @@ Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
           if (pipeline) pipeline->filter(piece, side, i, run.tree());
         });
     switch (outcome) {
-      case LightRun<Space>::Outcome::kDone: break;
-      case LightRun<Space>::Outcome::kInterrupted: return interrupted();
-      case LightRun<Space>::Outcome::kTooManyFragments: return too_many();
+      case LightRun<Space>::Outcome::kDone:
+        break;
+      case LightRun<Space>::Outcome::kInterrupted:
+        return interrupted();
+      case LightRun<Space>::Outcome::kTooManyFragments:
+        return too_many();
     }
     result.stages += run.stage_counts();
     result.lights.push_back(run.finish());
@@ -392,10 +394,9 @@ Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
     const auto key = [&](const CombinedFragment& fragment) {
       return std::pair(scene.parts[fragment.part].polygon, -static_cast<int>(fragment.side));
     };
-    std::stable_sort(result.combined.begin(), result.combined.end(),
-                     [&](const CombinedFragment& a, const CombinedFragment& b) {
-                       return key(a) < key(b);
-                     });
+    std::stable_sort(
+        result.combined.begin(), result.combined.end(),
+        [&](const CombinedFragment& a, const CombinedFragment& b) { return key(a) < key(b); });
   }
   result.stages += scene_space.stage_counts();
   result.shadow_seconds = cpu_seconds() - start - result.scene_bsp_seconds;

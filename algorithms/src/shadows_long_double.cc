@@ -6,7 +6,7 @@
 namespace gnomon {
 
 ShadowOutcome shadows_long_double(const PreparedScene& scene, const ShadowOptions& options,
-                                   const LightList& lights) {
+                                  const LightList& lights) {
   return compute_shadows_with<CoordinateLightSpace<long double>>(scene, options, lights);
 }
 

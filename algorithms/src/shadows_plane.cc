@@ -6,7 +6,7 @@
 namespace gnomon {
 
 ShadowOutcome shadows_plane(const PreparedScene& scene, const ShadowOptions& options,
-                             const LightList& lights) {
+                            const LightList& lights) {
   return options.count_stages
              ? compute_shadows_with<PlaneLightSpace<CountStats>>(scene, options, lights)
              : compute_shadows_with<PlaneLightSpace<NoStats>>(scene, options, lights);

@@ -6,7 +6,7 @@
 namespace gnomon {
 
 ShadowOutcome shadows_rational(const PreparedScene& scene, const ShadowOptions& options,
-                                const LightList& lights) {
+                               const LightList& lights) {
   return compute_shadows_with<CoordinateLightSpace<mpq_class>>(scene, options, lights);
 }
 

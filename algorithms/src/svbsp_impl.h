@@ -64,8 +64,8 @@ void SvbspTree<Space>::filter(const LoopView<Vertex>& loop, FilterActions action
           frame.leaving = true;
           frame.first_output = static_cast<std::uint32_t>(output.fragments.size());
           stack_.push_back(frame);
-          const SplitChildren children = make_children(
-              *space_, plane, parent_.view(copy, support), record_, crossings_, work_);
+          const SplitChildren children = make_children(*space_, plane, parent_.view(copy, support),
+                                                       record_, crossings_, work_);
           // The front child was appended last and is taken first, so that the loops are a stack.
           if (children.back.count >= 3) {
             stack_.push_back({node, false, false, children.back, 0});
@@ -105,8 +105,8 @@ void SvbspTree<Space>::insert(const Frame& frame, const LoopView<Vertex>& fragme
         std::find(original.edges.begin(), original.edges.end(), edge) == original.edges.end()) {
       continue;
     }
-    const PlaneRef plane = space_->shadow_plane(edge, fragment.vertices[i],
-                                                fragment.vertices[fragment.next(i)]);
+    const PlaneRef plane =
+        space_->shadow_plane(edge, fragment.vertices[i], fragment.vertices[fragment.next(i)]);
     const auto node = static_cast<std::int32_t>(nodes_.size());
     nodes_.push_back({plane, kOut, kOut});
     child(at) = node;
@@ -117,8 +117,7 @@ void SvbspTree<Space>::insert(const Frame& frame, const LoopView<Vertex>& fragme
 }
 
 template <LightSpaceModel Space>
-void SvbspTree<Space>::try_merge(const Frame& frame, PlaneId support,
-                                 SvbspOutput<Vertex>& output) {
+void SvbspTree<Space>::try_merge(const Frame& frame, PlaneId support, SvbspOutput<Vertex>& output) {
   if (!merge_siblings_ || output.fragments.size() != frame.first_output + 2) return;
   ClassifiedLoop& first = output.fragments[frame.first_output];
   const ClassifiedLoop& second = output.fragments[frame.first_output + 1];

@@ -14,8 +14,7 @@ inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 template <class T>
 std::array<T, 3> cross(const std::array<T, 3>& a, const std::array<T, 3>& b) {
-  return {T(a[1] * b[2] - a[2] * b[1]), T(a[2] * b[0] - a[0] * b[2]),
-          T(a[0] * b[1] - a[1] * b[0])};
+  return {T(a[1] * b[2] - a[2] * b[1]), T(a[2] * b[0] - a[0] * b[2]), T(a[0] * b[1] - a[1] * b[0])};
 }
 template <class T>
 std::array<T, 3> minus(const std::array<T, 3>& a, const std::array<T, 3>& b) {
@@ -27,14 +26,13 @@ T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
 }
 inline double to_double(const mpq_class& value) { return value.get_d(); }
 template <class T>
-  requires std::is_floating_point_v<T>
-double to_double(T value) {
-  return static_cast<double>(value);
-}
-inline mpq_class length_of(const std::array<mpq_class, 3>&) { return 0; }  // never needed: no thickness
+requires std::is_floating_point_v<T>
+double to_double(T value) { return static_cast<double>(value); }
+inline mpq_class length_of(const std::array<mpq_class, 3>&) {
+  return 0;
+}  // never needed: no thickness
 template <class T>
-  requires std::is_floating_point_v<T>
-T length_of(const std::array<T, 3>& v) {
+requires std::is_floating_point_v<T> T length_of(const std::array<T, 3>& v) {
   return std::hypot(v[0], v[1], v[2]);
 }
 template <class T>
@@ -125,9 +123,9 @@ CoordinateSceneSpace<T>::CoordinateSceneSpace(const Geometry& geometry,
     : geometry_(&geometry), planes_(geometry, options) {
   support_.reserve(geometry.planes.size());
   for (const SupportTriple& triple : geometry.planes) {
-    CoordinatePlane<T> plane = planes_.plane_through(planes_.input_vertex(triple.a),
-                                                     planes_.input_vertex(triple.b),
-                                                     planes_.input_vertex(triple.c));
+    CoordinatePlane<T> plane =
+        planes_.plane_through(planes_.input_vertex(triple.a), planes_.input_vertex(triple.b),
+                              planes_.input_vertex(triple.c));
     support_.push_back(std::move(plane));
   }
 }
@@ -225,8 +223,8 @@ PlaneRef CoordinateLightSpace<T>::shadow_plane(PlaneRef edge, const Vertex& from
 }
 
 // Point light: n . q with q = L - v is n . L - n . v. Directional light: n_u q_u + n_z q_z is
-// d_z (n_u U + n_z) with U = x_u - x_z d_u / d_z in grid units: a plane with normal n_u (d_z e_u - d_u e_z)
-// through the grid point -n_z / n_u on axis u.
+// d_z (n_u U + n_z) with U = x_u - x_z d_u / d_z in grid units: a plane with normal n_u (d_z e_u -
+// d_u e_z) through the grid point -n_z / n_u on axis u.
 template <class T>
 PlaneRef CoordinateLightSpace<T>::add_prefix_plane(const PrefixPlane& prefix) {
   const auto number = [](const auto& exact) {
@@ -310,9 +308,9 @@ std::string CoordinateLightSpace<T>::describe(PlaneRef ref) const {
 
 }  // namespace gnomon
 
-#define GNOMON_INSTANTIATE_COORDINATE_SPACE(T)  \
-  template class CoordinatePlanes<T>;           \
-  template class CoordinateSceneSpace<T>;       \
+#define GNOMON_INSTANTIATE_COORDINATE_SPACE(T) \
+  template class CoordinatePlanes<T>;          \
+  template class CoordinateSceneSpace<T>;      \
   template class CoordinateLightSpace<T>
 
 #endif  // GNOMON_KERNEL_SRC_COORDINATE_SPACE_IMPL_H

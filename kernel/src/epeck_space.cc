@@ -9,7 +9,8 @@ namespace {
 using Number = Epeck::FT;
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// Any integer, exactly: 52 bits at a time, evaluated at once so that it is a leaf of later expressions.
+/// Any integer, exactly: 52 bits at a time, evaluated at once so that it is a leaf of later
+/// expressions.
 Number number_from(const mpz_class& value) {
   if (mpz_sizeinbase(value.get_mpz_t(), 2) <= 53) return Number(value.get_d());
   Number result(0);
@@ -113,8 +114,7 @@ EpeckLightSpace::EpeckLightSpace(SceneSpace& scene, const LightPoint& light, con
 Sign EpeckLightSpace::light_side(PlaneId plane) const {
   const Epeck::Plane_3& support = scene_->support(plane);
   if (!light_.directional) return static_cast<Sign>(static_cast<int>(side_of(support, position_)));
-  return static_cast<Sign>(
-      static_cast<int>(CGAL::sign(support.orthogonal_vector() * direction_)));
+  return static_cast<Sign>(static_cast<int>(CGAL::sign(support.orthogonal_vector() * direction_)));
 }
 
 Epeck::Plane_3 EpeckLightSpace::shadow_plane_of(const Epeck::Point_3& from,

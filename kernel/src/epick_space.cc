@@ -18,7 +18,8 @@ bool is_finite(const Point& p) {
 Epick::Point_3 cgal(const Point& p) { return {p[0], p[1], p[2]}; }
 
 Sign orientation(const Point& a, const Point& b, const Point& c, const Point& v) {
-  // CGAL's predicates are defined for finite points only; a construction that overflowed says nothing.
+  // CGAL's predicates are defined for finite points only; a construction that overflowed says
+  // nothing.
   if (!is_finite(v) || !is_finite(b) || !is_finite(c)) return Sign::kZero;
   return static_cast<Sign>(static_cast<int>(CGAL::orientation(cgal(a), cgal(b), cgal(c), cgal(v))));
 }
@@ -26,12 +27,13 @@ Sign orientation(const Point& a, const Point& b, const Point& c, const Point& v)
 template <class Number>
 Number determinant(const std::array<Number, 3>& a, const std::array<Number, 3>& b,
                    const std::array<Number, 3>& c) {
-  return Number(a[0] * Number(b[1] * c[2] - b[2] * c[1]) - a[1] * Number(b[0] * c[2] - b[2] * c[0]) +
+  return Number(a[0] * Number(b[1] * c[2] - b[2] * c[1]) -
+                a[1] * Number(b[0] * c[2] - b[2] * c[0]) +
                 a[2] * Number(b[0] * c[1] - b[1] * c[0]));
 }
 
-/// Exact sign of (d x (c - a)) . (v - a): CGAL has no such predicate on points (a + d is rounded), so
-/// the same recipe by hand: an enclosure, then rationals.
+/// Exact sign of (d x (c - a)) . (v - a): CGAL has no such predicate on points (a + d is rounded),
+/// so the same recipe by hand: an enclosure, then rationals.
 Sign direction_orientation(const Point& a, const Point& d, const Point& c, const Point& v) {
   if (!is_finite(v) || !is_finite(a) || !is_finite(c)) return Sign::kZero;
   std::array<Ball, 3> bd, bc, bv;
@@ -64,9 +66,9 @@ Epick::Plane_3 coefficients(const EpickPlane& plane) {
   return {a, cgal(plane.b), c};
 }
 
-/// CGAL's own construction. The predicates put the two ends strictly on different sides, exactly; the
-/// construction knows nothing of that, and where an edge lies almost in the plane it may put the point
-/// far outside the edge. That is what the kernel does, so that is what is measured.
+/// CGAL's own construction. The predicates put the two ends strictly on different sides, exactly;
+/// the construction knows nothing of that, and where an edge lies almost in the plane it may put
+/// the point far outside the edge. That is what the kernel does, so that is what is measured.
 EpickVertex meet(const Epick::Plane_3& plane, const Point& from, const Point& to) {
   EpickVertex vertex;
   const auto result = CGAL::intersection(plane, Epick::Line_3(cgal(from), cgal(to)));
@@ -195,10 +197,12 @@ PlaneRef EpickLightSpace::add_prefix_plane(const PrefixPlane& prefix) {
 
 Sign EpickLightSpace::sign(const EpickPlane& plane, const Point& v) const {
   switch (plane.kind) {
-    case EpickPlane::Kind::kPoints: return orientation(plane.a, plane.b, plane.c, v);
+    case EpickPlane::Kind::kPoints:
+      return orientation(plane.a, plane.b, plane.c, v);
     case EpickPlane::Kind::kDirection:
       return direction_orientation(plane.a, plane.b, plane.c, v);
-    case EpickPlane::Kind::kLinear: break;
+    case EpickPlane::Kind::kLinear:
+      break;
   }
   if (!is_finite(v)) return Sign::kZero;
   const LinearPlane& linear = linear_[plane.linear];

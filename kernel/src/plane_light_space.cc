@@ -60,10 +60,10 @@ PlaneLightSpace<Stats>::PlaneLightSpace(SceneSpace& scene, const LightPoint& lig
   plane_of_edge_.assign(geometry_->edges.size(), kExplicit);
 }
 
-// The doubles of a directional light's q are scaled by 2^b in z: q = (x d_z - z d_x, y d_z - z d_y, d_z)
-// has two components of b + e bits and one of e bits, and an error bound in the largest component would
-// say nothing about the smallest. Scaling q by diag(1, 1, 2^b) scales normals by diag(2^b, 2^b, 1), up
-// to a positive factor: no sign changes.
+// The doubles of a directional light's q are scaled by 2^b in z: q = (x d_z - z d_x, y d_z - z d_y,
+// d_z) has two components of b + e bits and one of e bits, and an error bound in the largest
+// component would say nothing about the smallest. Scaling q by diag(1, 1, 2^b) scales normals by
+// diag(2^b, 2^b, 1), up to a positive factor: no sign changes.
 template <class Stats>
 std::array<double, 3> PlaneLightSpace<Stats>::scaled(const Vector3<mpz_class>& v, bool is_normal,
                                                      unsigned magnitude_bits) const {
@@ -145,11 +145,11 @@ PlaneRef PlaneLightSpace<Stats>::add_prefix_plane(const PrefixPlane& plane) {
   return add_explicit(plane.n);
 }
 
-// The plane through the light and the line in which support plane i is cut by plane j, positive on the
-// part of i in front of j. Point light: P_j(v) = P_j(L) - n_j . q, and on plane i n_i . q = P_i(L), so
-// that P_i(L) P_j(v) = (P_j(L) n_i - P_i(L) n_j) . q, with P_i(L) made positive. Directional light with
-// H = n . d > 0 for i: H_i P_j - H_j P_i is constant along d; in q coordinates it is
-// (N_x, N_y, -o) . q / d_z, N = H_i n_j - H_j n_i, o = H_i d_j - H_j d_i.
+// The plane through the light and the line in which support plane i is cut by plane j, positive on
+// the part of i in front of j. Point light: P_j(v) = P_j(L) - n_j . q, and on plane i n_i . q =
+// P_i(L), so that P_i(L) P_j(v) = (P_j(L) n_i - P_i(L) n_j) . q, with P_i(L) made positive.
+// Directional light with H = n . d > 0 for i: H_i P_j - H_j P_i is constant along d; in q
+// coordinates it is (N_x, N_y, -o) . q / d_z, N = H_i n_j - H_j n_i, o = H_i d_j - H_j d_i.
 template <class Stats>
 PlaneRef PlaneLightSpace<Stats>::trace(PlaneId support, const ExactPlane<mpz_class>& j) {
   const ExactPlane<mpz_class> i = ExactGeometry<mpz_class>(*geometry_).plane(support);
@@ -302,7 +302,8 @@ Side PlaneLightSpace<Stats>::side_of_plane(PlaneRef ref, const Corner<Vertex>& c
   }
   const double value =
       plane.n[0] * vertex.ray[0] + plane.n[1] * vertex.ray[1] + plane.n[2] * vertex.ray[2];
-  // Three products, each erring by |n| e_r + e_n (|r| + e_r), and five roundings of at most 3 |n||r|.
+  // Three products, each erring by |n| e_r + e_n (|r| + e_r), and five roundings of at most 3
+  // |n||r|.
   const double bound =
       3.01 * (plane.magnitude * vertex.error + plane.error * (vertex.magnitude + vertex.error)) +
       10 * kUnit * plane.magnitude * vertex.magnitude;

@@ -105,8 +105,8 @@ Side PlaneSceneSpace<Stats>::side_of_plane(PlaneRef ref, const Corner<Vertex>& c
   // All intermediates of the exact stage, by kind of vertex (docs/exactness.md).
   const bool made = vertex.source == kMadeVertex;
   const SceneEdges names = edges();
-  const bool on_edge = made && (names.is_input_edge(corner.before) ||
-                                names.is_input_edge(corner.after));
+  const bool on_edge =
+      made && (names.is_input_edge(corner.before) || names.is_input_edge(corner.after));
   const unsigned bits = !made ? 3 * bits_ + 5 : on_edge ? 6 * bits_ + 10 : 9 * bits_ + 16;
   const IntegerWidth width =
       geometry_->grid.is_narrow() ? width_for(bits) : IntegerWidth::kUnbounded;
@@ -197,8 +197,8 @@ typename PlaneSceneSpace<Stats>::Vertex PlaneSceneSpace<Stats>::crossing(
     vertex.x[k] = from.vertex.x[k] + t * step;
     span = std::max(span, std::fabs(step));
   }
-  // t = f / (f - g): each of f, g errs by value_error, so t errs by at most 2 value_error / (gap - 2
-  // value_error) <= 2.7 value_error / gap, plus two roundings.
+  // t = f / (f - g): each of f, g errs by value_error, so t errs by at most 2 value_error / (gap -
+  // 2 value_error) <= 2.7 value_error / gap, plus two roundings.
   const double t_error = 2.7 * value_error / gap + 4 * Ball::kUnit;
   vertex.error = known ? (input_error + (span + 2 * input_error) * t_error) * 1.01 + 8 * Ball::kUnit
                        : kInfinity;

@@ -133,8 +133,8 @@ int compare(const ChartPoint& a, const ChartPoint& b) {
 }
 
 int orientation(const ChartPoint& a, const ChartPoint& b, const ChartPoint& c) {
-  const mpz_class value = (a.y * b.w - a.w * b.y) * c.x + (a.w * b.x - a.x * b.w) * c.y +
-                          (a.x * b.y - a.y * b.x) * c.w;
+  const mpz_class value =
+      (a.y * b.w - a.w * b.y) * c.x + (a.w * b.x - a.x * b.w) * c.y + (a.x * b.y - a.y * b.x) * c.w;
   return sgn(value);
 }
 

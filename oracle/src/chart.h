@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The oracle's own exact geometry, on the integers of the scene's grid: support planes, and charts that
-// draw a plane in two dimensions by dropping the axis of its largest normal component.
+// The oracle's own exact geometry, on the integers of the scene's grid: support planes, and charts
+// that draw a plane in two dimensions by dropping the axis of its largest normal component.
 //
 // Exactness: everything is exact. Points of a chart are homogeneous and canonical (w > 0, no common
-// factor), so that equal points are equal as data. Dropping an axis is an affine map of the plane: ratios
-// of areas are kept, and the area in the plane is the chart's times |n| / |n_axis|. Orientation may be
-// mirrored; every loop is therefore oriented in the chart, never by its order in space.
+// factor), so that equal points are equal as data. Dropping an axis is an affine map of the plane:
+// ratios of areas are kept, and the area in the plane is the chart's times |n| / |n_axis|.
+// Orientation may be mirrored; every loop is therefore oriented in the chart, never by its order in
+// space.
 #ifndef GNOMON_ORACLE_SRC_CHART_H
 #define GNOMON_ORACLE_SRC_CHART_H
 
@@ -57,8 +58,9 @@ ExactPlane opposite(ExactPlane plane);
 /// Divides by the common factor of all coefficients; the plane stays the same.
 void reduce(ExactPlane& plane);
 
-/// Plane of a planar loop by its area vector, counter-clockwise seen from the front. Exact for planar
-/// loops; the normal is zero if the loop has no area. The area vector is twice the area, in grid units.
+/// Plane of a planar loop by its area vector, counter-clockwise seen from the front. Exact for
+/// planar loops; the normal is zero if the loop has no area. The area vector is twice the area, in
+/// grid units.
 Integers3 area_vector(std::span<const Integers3> loop);
 ExactPlane plane_of(std::span<const Integers3> loop);
 

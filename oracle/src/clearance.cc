@@ -83,12 +83,12 @@ class Decider {
  public:
   Decider(const PreparedScene& scene, const PreparedLight& light, std::uint32_t receiver,
           const ExactPoint& point)
-      : scene_(scene), receiver_(receiver), point_(point),
-        directional_(light.point.directional) {
+      : scene_(scene), receiver_(receiver), point_(point), directional_(light.point.directional) {
     for (int k = 0; k < 3; ++k) {
-      light_[k] = directional_ ? mpq_class(light.point.grid[k])
-                               : mpq_class(scene.geometry.origin[k] +
-                                           scene.geometry.step * light.point.grid[k]);
+      light_[k] =
+          directional_
+              ? mpq_class(light.point.grid[k])
+              : mpq_class(scene.geometry.origin[k] + scene.geometry.step * light.point.grid[k]);
     }
     own_loop_ = exact_loop(receiver);
     for (int k = 0; k < 3; ++k) {
@@ -97,8 +97,8 @@ class Decider {
     }
     if (directional_) {
       // A primitive integer vector may be beyond doubles.
-      const double longest = std::max({std::fabs(near_light_[0]), std::fabs(near_light_[1]),
-                                       std::fabs(near_light_[2])});
+      const double longest = std::max(
+          {std::fabs(near_light_[0]), std::fabs(near_light_[1]), std::fabs(near_light_[2])});
       if (!std::isfinite(longest)) near_light_ = light.point.nearest;
     }
   }
@@ -132,7 +132,8 @@ class Decider {
     const std::vector<ExactPoint> loop = exact_loop(part);
     return casts(part, loop) && stand(loop, directional_, light_, point).inside;
   }
-  /// (b) for one caster: 3 s, if moving R's point across the caster's plane changes whether it covers.
+  /// (b) for one caster: 3 s, if moving R's point across the caster's plane changes whether it
+  /// covers.
   double move_receiver(std::uint32_t part, const std::vector<ExactPoint>& loop, bool covered) const;
 
   const PreparedScene& scene_;
@@ -187,12 +188,11 @@ Decision Decider::decide() {
     const bool near_plane = !(height > slack);
     if (!standing.between && !near_plane) continue;
     const double distance = near_plane ? std::min(standing.border, height) : standing.border;
-    estimates.push_back({part, distance, standing.inside || near_plane ||
-                                             !(standing.border > slack)});
+    estimates.push_back(
+        {part, distance, standing.inside || near_plane || !(standing.border > slack)});
   }
-  std::sort(estimates.begin(), estimates.end(), [](const Estimate& a, const Estimate& b) {
-    return a.distance < b.distance;
-  });
+  std::sort(estimates.begin(), estimates.end(),
+            [](const Estimate& a, const Estimate& b) { return a.distance < b.distance; });
   for (const Estimate& estimate : estimates) {
     if (estimate.maybe_covers) near_casters_.push_back(estimate.part);
   }

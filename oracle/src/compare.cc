@@ -15,7 +15,7 @@ namespace {
 
 /// What one cell of the overlay says.
 struct Cell {
-  bool inside = false;                 // of the receiver
+  bool inside = false;  // of the receiver
   ShadeClass truth = ShadeClass::kLit;
   bool claims_lit = false, claims_shadow = false;
   bool misclassified = false, uncovered = false, overlapping = false, outside = false;
@@ -83,10 +83,9 @@ void count_leaks(const Overlay& overlay, const std::vector<Cell>& cells, ShadeCl
   const auto claims_wrongly = [&](std::uint32_t f) {
     return cells[f].inside && claims(f) && !is_true(f);
   };
-  const std::vector<std::uint32_t> wrong =
-      connect(overlay, [&](std::uint32_t a, std::uint32_t b) {
-        return claims_wrongly(a) && claims_wrongly(b);
-      });
+  const std::vector<std::uint32_t> wrong = connect(overlay, [&](std::uint32_t a, std::uint32_t b) {
+    return claims_wrongly(a) && claims_wrongly(b);
+  });
   const std::vector<std::uint32_t> right =
       connect(overlay, [&](std::uint32_t a, std::uint32_t b) { return is_true(a) && is_true(b); });
   std::vector<bool> touches(cells.size(), false), found(cells.size(), false);
@@ -121,8 +120,14 @@ class GroupComparison {
   GroupComparison(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
                   const ReceiverGroup& group, std::optional<ShadeClass> background,
                   const ComparisonOptions& options, PolygonComparison& result)
-      : answer_(answer), light_(light), entry_(entry), group_(group), background_(background),
-        options_(options), result_(result), overlay_(answer, light, group) {}
+      : answer_(answer),
+        light_(light),
+        entry_(entry),
+        group_(group),
+        background_(background),
+        options_(options),
+        result_(result),
+        overlay_(answer, light, group) {}
 
   void add(const CandidateFragment& fragment);
   void compare();
@@ -166,8 +171,7 @@ void GroupComparison::add(const CandidateFragment& fragment) {
   if (!most.is_zero()) {
     const Integers3& normal = chart.support().normal;
     const Enclosure length = enclose_square_root(mpq_class(dot(normal, normal)));
-    result_.off_plane =
-        greater_of(result_.off_plane, most / length * enclose(geometry.step));
+    result_.off_plane = greater_of(result_.off_plane, most / length * enclose(geometry.step));
   }
   ProjectedFragment projected{&fragment, normalise(std::move(loop))};
   if (projected.loop.crosses_itself) ++result_.self_crossing;
@@ -217,8 +221,8 @@ void GroupComparison::compare() {
     all = share([&](const Cell& cell, std::size_t) { return cell.*member; });
     judged = all;
     if (!some_ill) return;
-    judged = share(
-        [&](const Cell& cell, std::size_t f) { return cell.*member && !ill_conditioned[f]; });
+    judged =
+        share([&](const Cell& cell, std::size_t f) { return cell.*member && !ill_conditioned[f]; });
   };
   both(&Cell::misclassified, shares_.misclassified, shares_.judged_misclassified);
   both(&Cell::uncovered, shares_.uncovered, shares_.judged_uncovered);
@@ -232,9 +236,8 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells,
                                       std::vector<bool>& ill_conditioned) {
   const Overlay& overlay = overlay_.overlay();
   const std::vector<std::uint32_t> region_of =
-      connect(overlay, [&](std::uint32_t a, std::uint32_t b) {
-        return cells[a].errs() && cells[b].errs();
-      });
+      connect(overlay,
+              [&](std::uint32_t a, std::uint32_t b) { return cells[a].errs() && cells[b].errs(); });
   std::vector<std::vector<std::uint32_t>> faces(cells.size()), boundaries(cells.size());
   for (std::uint32_t f = 1; f < cells.size(); ++f) {
     if (cells[f].errs()) faces[region_of[f]].push_back(f);
@@ -355,7 +358,7 @@ void GroupComparison::describe(Witness& witness, const Cell& cell, const ChartPo
         decide(prepared, prepared.lights[light_], group_.parts.front(), witness.point);
     if (!witness.clearance) witness.clearance = decision.clearance;
     if (witness.caster.empty()) {
-      witness.caster = !claimed.empty() ? claimed
+      witness.caster = !claimed.empty()  ? claimed
                        : decision.caster ? id_of(*decision.caster)
                                          : std::string();
     }
@@ -385,10 +388,14 @@ void GroupComparison::describe(Witness& witness, const Cell& cell, const ChartPo
 
 const char* name_of(ShadeClass shade) {
   switch (shade) {
-    case ShadeClass::kLit: return "lit";
-    case ShadeClass::kShadow: return "shadow";
-    case ShadeClass::kPenumbra: return "penumbra";
-    case ShadeClass::kUmbra: return "umbra";
+    case ShadeClass::kLit:
+      return "lit";
+    case ShadeClass::kShadow:
+      return "shadow";
+    case ShadeClass::kPenumbra:
+      return "penumbra";
+    case ShadeClass::kUmbra:
+      return "umbra";
   }
   return "";
 }
@@ -397,11 +404,16 @@ const char* name_of(PolygonSide side) { return side == PolygonSide::kFront ? "fr
 
 const char* name_of(ErrorKind kind) {
   switch (kind) {
-    case ErrorKind::kNone: return "none";
-    case ErrorKind::kOverlapping: return "overlapping";
-    case ErrorKind::kOutside: return "outside";
-    case ErrorKind::kUncovered: return "uncovered";
-    case ErrorKind::kMisclassified: return "misclassified";
+    case ErrorKind::kNone:
+      return "none";
+    case ErrorKind::kOverlapping:
+      return "overlapping";
+    case ErrorKind::kOutside:
+      return "outside";
+    case ErrorKind::kUncovered:
+      return "uncovered";
+    case ErrorKind::kMisclassified:
+      return "misclassified";
   }
   return "";
 }
@@ -428,8 +440,8 @@ std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
     const double length = enclose_square_root(mpq_class(dot(normal, normal))).middle();
     double most = 0;
     for (const HomogeneousPoint& point : points) {
-      most = std::max(most,
-                      enclose_ratio(value_at(chart.support(), point), point.w).upper / length);
+      most =
+          std::max(most, enclose_ratio(value_at(chart.support(), point), point.w).upper / length);
     }
     distances.push_back(most);
   }
@@ -441,7 +453,8 @@ std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
     const ChartPoint point = charts[g].project(middle);
     for (std::uint32_t part : entry.groups[g].parts) {
       std::vector<ChartPoint> loop;
-      for (const Integers3& vertex : grid_loop(prepared, part)) loop.push_back(charts[g].at(vertex));
+      for (const Integers3& vertex : grid_loop(prepared, part))
+        loop.push_back(charts[g].at(vertex));
       if (orientation(loop[0], loop[1], loop[2]) < 0) std::reverse(loop.begin(), loop.end());
       if (contains(loop, point) &&
           (best == entry.groups.size() || distances[g] < distances[best])) {
@@ -450,8 +463,8 @@ std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
     }
   }
   if (best < entry.groups.size()) return best;
-  return static_cast<std::size_t>(
-      std::min_element(distances.begin(), distances.end()) - distances.begin());
+  return static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) -
+                                  distances.begin());
 }
 
 }  // namespace
@@ -482,16 +495,30 @@ PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
     for (const CandidateFragment* fragment : fragments[g]) comparison.add(*fragment);
     comparison.compare();
     const GroupComparison::Shares& own = comparison.shares();
-    const AreaShare* shares[] = {&own.lit, &own.shadow, &own.misclassified, &own.uncovered,
-                                 &own.overlapping, &own.outside, &own.ill_conditioned,
-                                 &own.judged_misclassified, &own.judged_uncovered,
-                                 &own.judged_overlapping, &own.judged_outside};
+    const AreaShare* shares[] = {&own.lit,
+                                 &own.shadow,
+                                 &own.misclassified,
+                                 &own.uncovered,
+                                 &own.overlapping,
+                                 &own.outside,
+                                 &own.ill_conditioned,
+                                 &own.judged_misclassified,
+                                 &own.judged_uncovered,
+                                 &own.judged_overlapping,
+                                 &own.judged_outside};
     for (int i = 0; i < 11; ++i) sums[i].add(*shares[i], comparison.whole_area());
   }
-  AreaShare* totals[] = {&result.lit, &result.shadow, &result.misclassified, &result.uncovered,
-                         &result.overlapping, &result.outside, &result.ill_conditioned,
-                         &result.judged_misclassified, &result.judged_uncovered,
-                         &result.judged_overlapping, &result.judged_outside};
+  AreaShare* totals[] = {&result.lit,
+                         &result.shadow,
+                         &result.misclassified,
+                         &result.uncovered,
+                         &result.overlapping,
+                         &result.outside,
+                         &result.ill_conditioned,
+                         &result.judged_misclassified,
+                         &result.judged_uncovered,
+                         &result.judged_overlapping,
+                         &result.judged_outside};
   for (int i = 0; i < 11; ++i) *totals[i] = sums[i].result();
   return result;
 }

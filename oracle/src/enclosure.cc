@@ -68,8 +68,7 @@ Enclosure operator/(Enclosure a, Enclosure b) {
 Enclosure square_root(Enclosure a) {
   if (a.is_zero()) return {};
   const double low = std::max(a.lower, 0.0);
-  return {low == 0 ? 0.0 : std::max(0.0, round_down(std::sqrt(low))),
-          round_up(std::sqrt(a.upper))};
+  return {low == 0 ? 0.0 : std::max(0.0, round_down(std::sqrt(low))), round_up(std::sqrt(a.upper))};
 }
 
 Enclosure greater_of(Enclosure a, Enclosure b) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One planar receiver (the coplanar parts of one polygon), its true shadows and a candidate's fragments in
-// one overlay, and areas of sets of its cells.
+// One planar receiver (the coplanar parts of one polygon), its true shadows and a candidate's
+// fragments in one overlay, and areas of sets of its cells.
 #ifndef GNOMON_ORACLE_SRC_GROUP_OVERLAY_H
 #define GNOMON_ORACLE_SRC_GROUP_OVERLAY_H
 

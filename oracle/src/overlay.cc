@@ -34,9 +34,8 @@ void scaled_quotient(mpz_class& result, const mpz_class& numerator, const mpz_cl
 }
 
 double to_double(const mpz_class& value) {
-  return size_in_bits(value) > 1000
-             ? std::numeric_limits<double>::infinity() * sgn(value)
-             : value.get_d();
+  return size_in_bits(value) > 1000 ? std::numeric_limits<double>::infinity() * sgn(value)
+                                    : value.get_d();
 }
 
 mpq_class unreduced_tree_sum(std::vector<mpq_class> terms) {
@@ -165,8 +164,8 @@ int Overlay::orient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
   const Approximation &p = approximations_[a], &q = approximations_[b], &r = approximations_[c];
   const double qx = q.x - p.x, qy = q.y - p.y, rx = r.x - p.x, ry = r.y - p.y;
   const double value = qx * ry - qy * rx;
-  // Each difference is off by 2 error_ (+ rounding, which 4 error_ covers); each product by the sum of
-  // factors times that, and by rounding.
+  // Each difference is off by 2 error_ (+ rounding, which 4 error_ covers); each product by the sum
+  // of factors times that, and by rounding.
   const double sum = std::fabs(qx) + std::fabs(qy) + std::fabs(rx) + std::fabs(ry);
   const double bound = 4 * error_ * sum + 32 * error_ * error_ +
                        4 * kUnitRoundoff * (std::fabs(qx * ry) + std::fabs(qy * rx));
@@ -378,8 +377,8 @@ void Overlay::trace_faces() {
     cycles.push_back(h);
   }
 
-  // At a component's first vertex everything left of it is outside: the cycle of the outgoing edge of
-  // greatest angle is the component's outer one. Every other cycle bounds a face of its own.
+  // At a component's first vertex everything left of it is outside: the cycle of the outgoing edge
+  // of greatest angle is the component's outer one. Every other cycle bounds a face of its own.
   std::vector<bool> is_outer(cycles.size(), false);
   std::vector<std::uint32_t> face_of(cycles.size(), kNone);
   for (std::uint32_t component : components) {
@@ -391,9 +390,8 @@ void Overlay::trace_faces() {
     face_of[c] = static_cast<std::uint32_t>(faces_.size());
     faces_.push_back(Face{{}, {cycles[c]}});
   }
-  std::sort(components.begin(), components.end(), [&](std::uint32_t p, std::uint32_t q) {
-    return order(first[p], first[q]) < 0;
-  });
+  std::sort(components.begin(), components.end(),
+            [&](std::uint32_t p, std::uint32_t q) { return order(first[p], first[q]) < 0; });
   for (std::uint32_t component : components) {
     const std::uint32_t lowest = first[component];
     const std::uint32_t below = halfedge_below(lowest, component, component_of);
@@ -450,8 +448,8 @@ void Overlay::build() {
   is_t_vertex_.assign(points_.size(), false);
   std::vector<std::vector<std::uint32_t>> splits(segments_.size());
   find_intersections(splits);
-  t_vertices_ = static_cast<std::uint64_t>(
-      std::count(is_t_vertex_.begin(), is_t_vertex_.end(), true));
+  t_vertices_ =
+      static_cast<std::uint64_t>(std::count(is_t_vertex_.begin(), is_t_vertex_.end(), true));
   split_segments(splits);
   link();
   trace_faces();
@@ -549,8 +547,7 @@ NormalisedLoop normalise(std::vector<ChartPoint> loop) {
   result.crosses_itself = twice || (positive && negative);
   for (std::uint32_t h = 0; h < own.halfedges().size(); ++h) {
     const bool inside = own.faces()[own.halfedges()[h].face].winding[kReceiver] != 0;
-    const bool beyond =
-        own.faces()[own.halfedges()[Overlay::twin(h)].face].winding[kReceiver] != 0;
+    const bool beyond = own.faces()[own.halfedges()[Overlay::twin(h)].face].winding[kReceiver] != 0;
     if (inside && !beyond) {
       result.edges.emplace_back(own.point(own.halfedges()[h].origin), own.point(own.target(h)));
     }

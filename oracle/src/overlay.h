@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The overlay: closed loops of several layers put into one planar subdivision, with every cell's winding
-// number in each layer.
+// The overlay: closed loops of several layers put into one planar subdivision, with every cell's
+// winding number in each layer.
 //
-// Exactness: exact throughout. Doubles only decide what they can prove; everything else falls through to
-// integers. Edges whose windings cancel (two fragments of one class side by side) vanish, so that a cell
-// is a maximal region of one combination of windings, in general with holes, and a face that exists has
-// a positive area. Crash-freedom: no construction can fail, and the windings are checked across every
-// edge; consistent() is false if they contradict each other, which the caller reports as a finding.
+// Exactness: exact throughout. Doubles only decide what they can prove; everything else falls
+// through to integers. Edges whose windings cancel (two fragments of one class side by side)
+// vanish, so that a cell is a maximal region of one combination of windings, in general with holes,
+// and a face that exists has a positive area. Crash-freedom: no construction can fail, and the
+// windings are checked across every edge; consistent() is false if they contradict each other,
+// which the caller reports as a finding.
 #ifndef GNOMON_ORACLE_SRC_OVERLAY_H
 #define GNOMON_ORACLE_SRC_OVERLAY_H
 
@@ -49,8 +50,7 @@ class Overlay {
   const ChartPoint& point(std::uint32_t vertex) const { return points_[vertex]; }
   std::size_t vertex_count() const { return points_.size(); }
   /// Calls for every halfedge of a face's boundary.
-  void for_each_halfedge(std::uint32_t face,
-                         const std::function<void(std::uint32_t)>& visit) const;
+  void for_each_halfedge(std::uint32_t face, const std::function<void(std::uint32_t)>& visit) const;
   /// Vertices of the layers kLit and kShadow that lie inside an edge of these layers.
   std::uint64_t t_vertices() const { return t_vertices_; }
 
@@ -64,7 +64,8 @@ class Overlay {
     mpz_class value, error;
   };
   FixedArea area(const std::vector<bool>& face_in_set) const;
-  /// The same exactly, in grid units squared of the chart. Costs grow with the size of the boundary.
+  /// The same exactly, in grid units squared of the chart. Costs grow with the size of the
+  /// boundary.
   mpq_class exact_area(const std::vector<bool>& face_in_set) const;
   /// Edges between a face in the set and one outside.
   std::size_t boundary_size(const std::vector<bool>& face_in_set) const;
@@ -82,9 +83,7 @@ class Overlay {
   };
   struct PointEqual {
     const std::vector<ChartPoint>* points;
-    bool operator()(std::uint32_t a, std::uint32_t b) const {
-      return (*points)[a] == (*points)[b];
-    }
+    bool operator()(std::uint32_t a, std::uint32_t b) const { return (*points)[a] == (*points)[b]; }
   };
   struct Approximation {
     double x = 0, y = 0;
@@ -121,7 +120,8 @@ class Overlay {
   std::vector<Halfedge> halfedges_;
   std::vector<std::vector<std::uint32_t>> outgoing_;
   std::vector<Face> faces_;
-  // approximation = floor(coordinate 2^scale_) - corner, in units that make the box about 2^52 wide.
+  // approximation = floor(coordinate 2^scale_) - corner, in units that make the box about 2^52
+  // wide.
   long scale_ = 0;
   ChartPoint corner_;
   double error_ = 0;  // bound of one approximate coordinate's error
@@ -134,13 +134,13 @@ class Overlay {
   Overlay& operator=(const Overlay&) = delete;
 };
 
-/// A loop as edges whose interior is to the left: any loop becomes the boundary of what it winds around
-/// (the non-zero rule).
+/// A loop as edges whose interior is to the left: any loop becomes the boundary of what it winds
+/// around (the non-zero rule).
 struct NormalisedLoop {
   bool convex = false;
   bool crosses_itself = false;
-  std::vector<ChartPoint> loop;                                  // if convex
-  std::vector<std::pair<ChartPoint, ChartPoint>> edges;          // otherwise
+  std::vector<ChartPoint> loop;                          // if convex
+  std::vector<std::pair<ChartPoint, ChartPoint>> edges;  // otherwise
 };
 NormalisedLoop normalise(std::vector<ChartPoint> loop);
 

@@ -55,8 +55,7 @@ ChartPoint inside_of(const std::vector<ChartPoint>& loop, std::uint64_t& state) 
 
 PointCheck check_points(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
                         const CandidatePolygon* candidate, std::optional<ShadeClass> background,
-                        const VisibilityTest& visibility, std::uint32_t count,
-                        std::uint64_t seed) {
+                        const VisibilityTest& visibility, std::uint32_t count, std::uint64_t seed) {
   PointCheck result;
   const PreparedScene& prepared = answer.prepared();
   std::uint64_t state = seed ^ (std::uint64_t{entry.polygon} << 32) ^ light;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Exact points instead of exact regions: for scenes above the pair limit. Points inside a candidate's
-// fragments and points at random places of the polygon, each decided by visibility.h.
+// Exact points instead of exact regions: for scenes above the pair limit. Points inside a
+// candidate's fragments and points at random places of the polygon, each decided by visibility.h.
 #ifndef GNOMON_ORACLE_SRC_POINT_CHECK_H
 #define GNOMON_ORACLE_SRC_POINT_CHECK_H
 
@@ -20,8 +20,7 @@ struct PointCheck {
 
 PointCheck check_points(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
                         const CandidatePolygon* candidate, std::optional<ShadeClass> background,
-                        const VisibilityTest& visibility, std::uint32_t count,
-                        std::uint64_t seed);
+                        const VisibilityTest& visibility, std::uint32_t count, std::uint64_t seed);
 
 }  // namespace gnomon::oracle
 

@@ -18,8 +18,9 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// All rays below are off by at most a few units of 2^-53 in each component of size at most 1: a cross
-// product by less than 16, its dot product with a third ray by less than 3 * 16 + 3 * 8 + 4 of them.
+// All rays below are off by at most a few units of 2^-53 in each component of size at most 1: a
+// cross product by less than 16, its dot product with a third ray by less than 3 * 16 + 3 * 8 + 4
+// of them.
 constexpr double kRayBound = 0x1p-45;
 
 /// A convex polygon of the chart: edge i lies on line i and starts in vertex i.
@@ -33,8 +34,7 @@ ConvexLoop loop_in_chart(const Chart& chart, std::span<const Integers3> points) 
   for (const Integers3& point : points) result.vertices.push_back(chart.at(point));
   const std::size_t size = points.size();
   // Strictly convex without collinear vertices: any three consecutive ones tell the orientation.
-  if (size >= 3 &&
-      orientation(result.vertices[0], result.vertices[1], result.vertices[2]) < 0) {
+  if (size >= 3 && orientation(result.vertices[0], result.vertices[1], result.vertices[2]) < 0) {
     std::reverse(result.vertices.begin(), result.vertices.end());
   }
   for (std::size_t i = 0; i < size; ++i) {
@@ -83,9 +83,9 @@ bool clip(ConvexLoop& loop, const ChartLine& line, ConvexLoop& scratch) {
 struct PointRegions::Data {
   struct PartData {
     std::vector<Integers3> loop;
-    ExactPlane plane;             // oriented to the light
+    ExactPlane plane;               // oriented to the light
     std::vector<ExactPlane> edges;  // through the light and each edge, inside positive
-    Side facing = Side::kOn;      // of the loop's own orientation
+    Side facing = Side::kOn;        // of the loop's own orientation
     bool receives = false, casts = false;
     // Doubles, for the cull alone.
     std::vector<Vector> positions, rays, edge_normals;
@@ -114,8 +114,8 @@ void PointRegions::Data::read_part(std::size_t index) {
   }
   data.plane = plane_of(data.loop);
   const Integers3& at = light.point.grid;
-  const mpz_class height = light.point.directional ? oracle::dot(data.plane.normal, at)
-                                                   : value_at(data.plane, at);
+  const mpz_class height =
+      light.point.directional ? oracle::dot(data.plane.normal, at) : value_at(data.plane, at);
   data.facing = side_of(sign_of(height));
   if (data.facing == Side::kOn) return;
   const bool shows_side = data.facing == Side::kFront || part.two_sided;
@@ -140,8 +140,8 @@ void PointRegions::Data::read_part(std::size_t index) {
   }
 }
 
-// Positions relative to the light's place (point) or to the middle of the scene (directional), exactly
-// subtracted on the grid, then scaled by one power of two and rounded once.
+// Positions relative to the light's place (point) or to the middle of the scene (directional),
+// exactly subtracted on the grid, then scaled by one power of two and rounded once.
 void PointRegions::Data::approximate() {
   const bool directional = light.point.directional;
   Integers3 centre;
@@ -236,8 +236,7 @@ bool PointRegions::Data::certainly_apart(const PartData& receiver, const PartDat
   const auto beyond = [](const Vector& normal, const Vector& base,
                          const std::vector<Vector>& positions, double sign) {
     for (const Vector& position : positions) {
-      const Vector difference{position[0] - base[0], position[1] - base[1],
-                              position[2] - base[2]};
+      const Vector difference{position[0] - base[0], position[1] - base[1], position[2] - base[2]};
       if (sign * dot(normal, difference) <= kRayBound) return false;
     }
     return true;

@@ -81,8 +81,8 @@ void PreparedChecker::check_part(std::uint32_t index) {
   for (const Integers3& vertex : loop) {
     if (value_at(plane, vertex) != 0) return report(id, "a part is not planar");
   }
-  // Strictly convex and once around: every corner turns left seen from the front, and the direction in the
-  // chart goes from rising to falling once.
+  // Strictly convex and once around: every corner turns left seen from the front, and the direction
+  // in the chart goes from rising to falling once.
   const Chart chart(plane);
   int flips = 0, turn = 0;
   const std::size_t size = loop.size();
@@ -172,8 +172,8 @@ void PreparedChecker::check_tiling(std::uint32_t index) {
     return;
   }
   if (begin == end) return report(polygon.id, "a polygon with an area has no parts");
-  // A loop that is not planar is cut in its projection along its area vector's largest component: the
-  // chart of any plane with this normal.
+  // A loop that is not planar is cut in its projection along its area vector's largest component:
+  // the chart of any plane with this normal.
   const Chart chart(along);
   Overlay overlay;
   const auto add = [&](const std::vector<Integers3>& points, Layer layer, int weight) {

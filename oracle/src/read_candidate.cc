@@ -232,8 +232,8 @@ Expected<CandidateFragment> Reader::fragment(const Json& value, const std::strin
     }
     result.loop.push_back(std::move(point));
   }
-  for (const auto& [name, text] : {std::pair{"caster", &result.caster},
-                                   std::pair{"reason", &result.reason}}) {
+  for (const auto& [name, text] :
+       {std::pair{"caster", &result.caster}, std::pair{"reason", &result.reason}}) {
     const Expected<const Json*> found = member(value, name, false, pointer);
     if (!found) return tl::unexpected(found.error());
     if (!*found || (*found)->IsNull()) continue;

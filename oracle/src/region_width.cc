@@ -115,8 +115,9 @@ ChartMetric::ChartMetric(const Chart& chart) {
 
 namespace {
 
-/// Slabs are cut along a direction (p, q) that is as far from parallel to all long edges as possible:
-/// then the two edges that bound a trapezoid are near everywhere in it, however the region winds.
+/// Slabs are cut along a direction (p, q) that is as far from parallel to all long edges as
+/// possible: then the two edges that bound a trapezoid are near everywhere in it, however the
+/// region winds.
 struct SlabDirection {
   int p = 0, q = 1;
   ChartPoint turn(const ChartPoint& point) const {
@@ -131,7 +132,7 @@ struct SlabDirection {
 };
 
 SlabDirection best_direction(const std::vector<Planar>& edges) {
-  constexpr int kReach = 7;  // some 70 directions, none special to axes or diagonals alone
+  constexpr int kReach = 7;       // some 70 directions, none special to axes or diagonals alone
   constexpr double kLong = 1e-6;  // of the longest edge
   double longest = 0;
   for (const Planar& edge : edges) longest = std::max(longest, std::hypot(edge.x, edge.y));
@@ -199,14 +200,12 @@ RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
     return compare_x(p, q) < 0;
   };
   std::sort(stops.begin(), stops.end(), before_x);
-  stops.erase(std::unique(stops.begin(), stops.end(),
-                          [](const ChartPoint& p, const ChartPoint& q) {
-                            return compare_x(p, q) == 0;
-                          }),
-              stops.end());
-  std::sort(edges.begin(), edges.end(), [&](const BoundaryEdge& p, const BoundaryEdge& q) {
-    return before_x(p.left, q.left);
-  });
+  stops.erase(
+      std::unique(stops.begin(), stops.end(),
+                  [](const ChartPoint& p, const ChartPoint& q) { return compare_x(p, q) == 0; }),
+      stops.end());
+  std::sort(edges.begin(), edges.end(),
+            [&](const BoundaryEdge& p, const BoundaryEdge& q) { return before_x(p.left, q.left); });
 
   std::priority_queue<Piece> queue;
   std::vector<std::size_t> active;
@@ -215,8 +214,7 @@ RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
   bool complete = true;
   for (std::size_t s = 0; s + 1 < stops.size() && complete; ++s) {
     const ChartPoint &from = stops[s], &to = stops[s + 1];
-    std::erase_if(active,
-                  [&](std::size_t e) { return compare_x(edges[e].right, from) <= 0; });
+    std::erase_if(active, [&](std::size_t e) { return compare_x(edges[e].right, from) <= 0; });
     while (next < edges.size() && compare_x(edges[next].left, from) <= 0) {
       if (compare_x(edges[next].right, from) > 0) active.push_back(next);
       ++next;
@@ -243,8 +241,8 @@ RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
         return std::hypot(piece.corners[i].x - piece.corners[j].x,
                           piece.corners[i].y - piece.corners[j].y);
       };
-      piece.upper = std::min({farthest(piece, below), farthest(piece, above),
-                              std::max(apart(0, 3), apart(1, 2)) / 2});
+      piece.upper = std::min(
+          {farthest(piece, below), farthest(piece, above), std::max(apart(0, 3), apart(1, 2)) / 2});
       const double area_like =
           std::min(piece.upper, std::hypot(piece.corners[1].x - piece.corners[0].x,
                                            piece.corners[1].y - piece.corners[0].y));
@@ -253,8 +251,7 @@ RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
         mpq_class x = middle_x, y = (across[i].first + across[i + 1].first) / 2;
         direction.turn_back(x, y);
         const mpz_class w = lcm(x.get_den(), y.get_den());
-        result.interior = {x.get_num() * (w / x.get_den()),
-                           y.get_num() * (w / y.get_den()), w};
+        result.interior = {x.get_num() * (w / x.get_den()), y.get_num() * (w / y.get_den()), w};
         reduce(result.interior);
       }
       queue.push(piece);

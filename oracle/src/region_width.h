@@ -2,10 +2,10 @@
 // The diameter of the largest disc inside a region of the overlay, enclosed by bounds, and a point
 // inside the region.
 //
-// Method: the region is cut exactly into trapezoids between its boundary edges. For a convex piece T and
-// a boundary edge e no disc centred in T has a radius above max dist(corner of T, e), since the distance
-// to a convex set is convex; the least of these over all e bounds T from above, a disc around a point of T
-// from below. Pieces are halved, worst first, until both bounds are close.
+// Method: the region is cut exactly into trapezoids between its boundary edges. For a convex piece
+// T and a boundary edge e no disc centred in T has a radius above max dist(corner of T, e), since
+// the distance to a convex set is convex; the least of these over all e bounds T from above, a disc
+// around a point of T from below. Pieces are halved, worst first, until both bounds are close.
 // Guarantee: the bounds hold up to the rounding of the coordinates, which is added to them.
 #ifndef GNOMON_ORACLE_SRC_REGION_WIDTH_H
 #define GNOMON_ORACLE_SRC_REGION_WIDTH_H

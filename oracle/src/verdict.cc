@@ -105,9 +105,10 @@ void Certifier::match_light(std::uint32_t light, const CandidateLight* found) {
     for (const CandidateFragment& fragment : polygon.fragments) {
       if (is_point_class(fragment.shade) || !known_classes) continue;
       known_classes = false;
-      problem(fmt::format("light '{}': polygon '{}' has a fragment of class '{}'; lit or shadow "
-                          "was expected",
-                          light_id, polygon.id, name_of(fragment.shade)));
+      problem(
+          fmt::format("light '{}': polygon '{}' has a fragment of class '{}'; lit or shadow "
+                      "was expected",
+                      light_id, polygon.id, name_of(fragment.shade)));
     }
     if (used[&polygon]) continue;
     const auto place = known.find(polygon.id);
@@ -182,9 +183,10 @@ void Certifier::compare_all() {
   comparison_options.exact_limit = options_.exact_limit;
   comparison_options.most_regions = options_.most_regions;
   // Fragments' points and as many random ones, each against every part.
-  const std::uint64_t point_pairs = 2 * std::uint64_t{options_.points_a_polygon} * tasks_.size() *
-                                    prepared.parts.size();
-  const std::uint64_t stride = 1 + point_pairs / std::max<std::uint64_t>(1, options_.most_point_pairs);
+  const std::uint64_t point_pairs =
+      2 * std::uint64_t{options_.points_a_polygon} * tasks_.size() * prepared.parts.size();
+  const std::uint64_t stride =
+      1 + point_pairs / std::max<std::uint64_t>(1, options_.most_point_pairs);
   std::mutex mutex;
   std::size_t finished = 0;
   const auto compare_one = [&](std::size_t i) {
@@ -220,9 +222,8 @@ void Certifier::compare_all() {
 }
 
 bool Certifier::fails(const PolygonComparison& comparison) const {
-  for (const AreaShare* share :
-       {&comparison.judged_misclassified, &comparison.judged_uncovered,
-        &comparison.judged_overlapping, &comparison.judged_outside}) {
+  for (const AreaShare* share : {&comparison.judged_misclassified, &comparison.judged_uncovered,
+                                 &comparison.judged_overlapping, &comparison.judged_outside}) {
     if (!share->zero && !(share->fraction.upper <= report_.tolerance)) return true;
   }
   return !(comparison.judged_width.upper <= report_.width) ||
@@ -238,8 +239,7 @@ void Certifier::sum_up() {
     if (light != tasks_[i].light) {
       light = tasks_[i].light;
       report_.lights.emplace_back();
-      report_.lights.back().id =
-          answer_.scene().lights[answer_.prepared().lights[*light].light].id;
+      report_.lights.back().id = answer_.scene().lights[answer_.prepared().lights[*light].light].id;
     }
     if (!done_[i]) continue;
     const PolygonComparison& own = comparisons_[i];
@@ -279,8 +279,7 @@ void Certifier::sum_up() {
     const bool own_fails = fails(own);
     if (!own.worst.empty()) {
       const Witness& witness = own.worst.front().witness;
-      const bool wider = !report_.worst ||
-                         witness.width.middle() > report_.worst->width.middle();
+      const bool wider = !report_.worst || witness.width.middle() > report_.worst->width.middle();
       if ((own_fails && !worst_fails) || (own_fails == worst_fails && wider)) {
         report_.worst = witness;
         worst_fails = own_fails;
@@ -312,9 +311,8 @@ void Certifier::judge() {
     failed("the oracle's overlay contradicts itself; this is a fault of the oracle");
   } else if (!report_.problems.empty()) {
     failed(report_.problems.front() +
-           (report_.problems.size() > 1
-                ? fmt::format(" (and {} more)", report_.problems.size() - 1)
-                : std::string()));
+           (report_.problems.size() > 1 ? fmt::format(" (and {} more)", report_.problems.size() - 1)
+                                        : std::string()));
   } else if (report_.interrupted) {
     failed("interrupted before everything was compared");
   } else if (report_.points_wrong > 0) {
@@ -360,9 +358,12 @@ Report Certifier::run() {
 
 const char* name_of(Verdict verdict) {
   switch (verdict) {
-    case Verdict::kIdentical: return "identical";
-    case Verdict::kWithinTolerance: return "within tolerance";
-    case Verdict::kFailed: return "failed";
+    case Verdict::kIdentical:
+      return "identical";
+    case Verdict::kWithinTolerance:
+      return "within tolerance";
+    case Verdict::kFailed:
+      return "failed";
   }
   return "";
 }

@@ -14,9 +14,7 @@ Vector minus(const Vector& a, const Vector& b) {
   return {mpq_class(a[0] - b[0]), mpq_class(a[1] - b[1]), mpq_class(a[2] - b[2])};
 }
 
-mpq_class dot(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+mpq_class dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 Vector cross(const Vector& a, const Vector& b) {
   return {mpq_class(a[1] * b[2] - a[2] * b[1]), mpq_class(a[2] * b[0] - a[0] * b[2]),
@@ -29,8 +27,8 @@ enum class Place { kOutside, kBoundary, kInside };
 
 struct VisibilityTest::Data {
   struct Caster {
-    std::vector<Vector> loop;  // scene units
-    Vector normal;             // of the first corner, from the loop's front
+    std::vector<Vector> loop;    // scene units
+    Vector normal;               // of the first corner, from the loop's front
     std::vector<Vector> inward;  // per edge: in the plane, towards the inside
     bool casts = false;
     bool receives = false;
@@ -68,19 +66,19 @@ VisibilityTest::VisibilityTest(const PreparedScene& scene, const PreparedLight& 
   for (const Part& part : scene.parts) {
     Data::Caster caster;
     for (VertexId vertex : scene.loop(part)) {
-      caster.loop.push_back(in_scene({geometry.grid.at(vertex, 0), geometry.grid.at(vertex, 1),
-                                      geometry.grid.at(vertex, 2)}));
+      caster.loop.push_back(in_scene(
+          {geometry.grid.at(vertex, 0), geometry.grid.at(vertex, 1), geometry.grid.at(vertex, 2)}));
     }
     const std::size_t size = caster.loop.size();
-    caster.normal = cross(minus(caster.loop[1], caster.loop[0]),
-                          minus(caster.loop[2], caster.loop[0]));
+    caster.normal =
+        cross(minus(caster.loop[1], caster.loop[0]), minus(caster.loop[2], caster.loop[0]));
     for (std::size_t i = 0; i < size; ++i) {
       caster.inward.push_back(
           cross(caster.normal, minus(caster.loop[(i + 1) % size], caster.loop[i])));
     }
-    const mpq_class height =
-        data_->directional ? dot(caster.normal, data_->light)
-                           : dot(caster.normal, minus(data_->light, caster.loop[0]));
+    const mpq_class height = data_->directional
+                                 ? dot(caster.normal, data_->light)
+                                 : dot(caster.normal, minus(data_->light, caster.loop[0]));
     caster.receives = height > 0 || (height < 0 && part.two_sided);
     caster.casts = caster.receives && part.casts;
     data_->parts.push_back(std::move(caster));
@@ -105,8 +103,8 @@ PointVisibility VisibilityTest::at(std::uint32_t receiver, const ExactPoint& poi
     const mpq_class height = dot(caster.normal, minus(point, caster.loop[0]));
     const mpq_class rise = dot(caster.normal, to_light);  // not 0 unless the point is in the plane
     if (height == 0) {
-      // The segment starts in the caster's plane and leaves it at once, so it does not meet the caster;
-      // but next to this point it may. Not so if the two are coplanar.
+      // The segment starts in the caster's plane and leaves it at once, so it does not meet the
+      // caster; but next to this point it may. Not so if the two are coplanar.
       bool coplanar = true;
       for (const Vector& vertex : own.loop) {
         coplanar = coplanar && dot(caster.normal, minus(vertex, caster.loop[0])) == 0;

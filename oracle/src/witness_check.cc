@@ -85,12 +85,12 @@ mpq_class area_along(const ExactPoint& normal, const Loop& loop) {
   return dot(normal, sum) / 2;
 }
 
-struct Solid {                      // a part as receiver and caster
+struct Solid {  // a part as receiver and caster
   Loop loop;
   ExactPoint normal;
-  std::vector<HalfSpace> walls;     // in its plane: inside of the part
-  std::vector<HalfSpace> shadow;    // behind it and inside its edges, seen from the light
-  int facing = 0;                   // 1 front, -1 back, 0 the light is in its plane
+  std::vector<HalfSpace> walls;   // in its plane: inside of the part
+  std::vector<HalfSpace> shadow;  // behind it and inside its edges, seen from the light
+  int facing = 0;                 // 1 front, -1 back, 0 the light is in its plane
   bool receives = false, casts = false;
 };
 
@@ -98,7 +98,10 @@ class WitnessChecker {
  public:
   WitnessChecker(const Scene& scene, const PreparedScene& prepared, const Candidate& candidate,
                  const WitnessOptions& options)
-      : scene_(scene), prepared_(prepared), candidate_(candidate), options_(options),
+      : scene_(scene),
+        prepared_(prepared),
+        candidate_(candidate),
+        options_(options),
         tolerance_(options.tolerance) {
     diagonal_ = scene_diagonal(prepared);
     width_ = mpq_class(options.width.value_or(1e-9 * diagonal_));
@@ -165,13 +168,13 @@ void WitnessChecker::read_parts(const PreparedLight& light) {
   for (const Part& part : prepared_.parts) {
     Solid solid;
     for (VertexId vertex : prepared_.loop(part)) {
-      solid.loop.push_back(in_scene({geometry.grid.at(vertex, 0), geometry.grid.at(vertex, 1),
-                                     geometry.grid.at(vertex, 2)}));
+      solid.loop.push_back(in_scene(
+          {geometry.grid.at(vertex, 0), geometry.grid.at(vertex, 1), geometry.grid.at(vertex, 2)}));
     }
     const std::size_t size = solid.loop.size();
     solid.normal = cross(minus(solid.loop[1], solid.loop[0]), minus(solid.loop[2], solid.loop[0]));
-    const mpq_class height = directional ? dot(solid.normal, source)
-                                         : dot(solid.normal, minus(source, solid.loop[0]));
+    const mpq_class height =
+        directional ? dot(solid.normal, source) : dot(solid.normal, minus(source, solid.loop[0]));
     solid.facing = sgn(height);
     solid.receives = solid.facing > 0 || (solid.facing < 0 && part.two_sided);
     solid.casts = solid.receives && part.casts;
@@ -187,8 +190,8 @@ void WitnessChecker::read_parts(const PreparedLight& light) {
       solid.shadow.emplace_back(behind, solid.loop[0]);
       for (std::size_t i = 0; i < size; ++i) {
         const ExactPoint &a = solid.loop[i], &b = solid.loop[(i + 1) % size];
-        ExactPoint inward = directional ? cross(source, minus(b, a))
-                                        : cross(minus(a, source), minus(b, source));
+        ExactPoint inward =
+            directional ? cross(source, minus(b, a)) : cross(minus(a, source), minus(b, source));
         // Inside is where the loop's other vertices are.
         if (dot(inward, minus(solid.loop[(i + 2) % size], a)) < 0) {
           for (mpq_class& component : inward) component = -component;
@@ -262,8 +265,8 @@ void WitnessChecker::check_shade(const CandidatePolygon& polygon, const Piece& p
     return violation(polygon.id, fmt::format("no caster '{}' in the scene", fragment.caster),
                      piece.index);
   }
-  // The parts of one caster: their shadows may overlap where it is not planar, so the piece is cut down
-  // to what no part so far has taken.
+  // The parts of one caster: their shadows may overlap where it is not planar, so the piece is cut
+  // down to what no part so far has taken.
   std::vector<Loop> rest{piece.loop};
   for (std::uint32_t part = prepared_.first_part[caster->second];
        part < prepared_.first_part[caster->second + 1]; ++part) {
@@ -324,8 +327,8 @@ void WitnessChecker::check_family(const CandidatePolygon& polygon,
     for (std::size_t j = i + 1; j < pieces.size() && pieces[j].low[0] <= pieces[i].high[0]; ++j) {
       bool apart = false;
       for (int k = 1; k < 3; ++k) {
-        apart = apart || pieces[i].high[k] < pieces[j].low[k] ||
-                pieces[j].high[k] < pieces[i].low[k];
+        apart =
+            apart || pieces[i].high[k] < pieces[j].low[k] || pieces[j].high[k] < pieces[i].low[k];
       }
       if (apart) continue;
       const Loop& other = pieces[j].loop;
@@ -370,9 +373,9 @@ void WitnessChecker::check_fractions(const CandidatePolygon& polygon,
   const auto claim = [&](const std::optional<mpq_class>& claimed, const mpq_class& area,
                          const char* name) {
     if (claimed && abs(mpq_class(*claimed - area / whole)) > slack) {
-      violation(polygon.id, fmt::format("the {} fraction is claimed as {}, but the fragments say {}",
-                                        name, claimed->get_str(),
-                                        mpq_class(area / whole).get_str()));
+      violation(polygon.id,
+                fmt::format("the {} fraction is claimed as {}, but the fragments say {}", name,
+                            claimed->get_str(), mpq_class(area / whole).get_str()));
     }
   };
   claim(polygon.lit_fraction, lit, "lit");
@@ -407,8 +410,8 @@ void WitnessChecker::check_polygon(const CandidatePolygon& polygon) {
       violation(polygon.id, "a fragment has fewer than three vertices", i);
       continue;
     }
-    // The family whose plane is nearest, by squared distances; among planes as near as each other the
-    // one with a part around the fragment's first vertex.
+    // The family whose plane is nearest, by squared distances; among planes as near as each other
+    // the one with a part around the fragment's first vertex.
     const std::vector<std::uint32_t>* best = nullptr;
     PlaneId best_plane = 0;
     mpq_class best_distance;

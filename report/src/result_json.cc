@@ -57,7 +57,8 @@ class ResultWriter {
     json_.end_array();
   }
 
-  /// Fragments of each polygon's side with the lights that reach all of them: the pipeline of lights.
+  /// Fragments of each polygon's side with the lights that reach all of them: the pipeline of
+  /// lights.
   void write_combined() {
     json_.key("combined");
     json_.begin_array();

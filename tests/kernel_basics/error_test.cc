@@ -11,8 +11,9 @@ TEST(ErrorText, HasEveryPartThatIsKnown) {
                     {"a.json", 3, 14, "/polygons/0/loop/2"},
                     "index 9 is outside the vertices",
                     "0 to 7"};
-  EXPECT_EQ(to_string(error),
-            "a.json:3:14: index 9 is outside the vertices; expected 0 to 7 (at /polygons/0/loop/2)");
+  EXPECT_EQ(
+      to_string(error),
+      "a.json:3:14: index 9 is outside the vertices; expected 0 to 7 (at /polygons/0/loop/2)");
 }
 
 TEST(ErrorText, LeavesOutWhatIsNotKnown) {

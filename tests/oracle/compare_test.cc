@@ -59,8 +59,8 @@ TEST_F(Compare, RightInManyPieces) {
 
 TEST_F(Compare, MissingSliver) {
   const double thin = 0x1p-40;
-  const PolygonComparison found = compare(
-      {rectangle(kIsShadow, 0, 0, 2, 4), rectangle(kIsLit, 2 + thin, 0, 4, 4)});
+  const PolygonComparison found =
+      compare({rectangle(kIsShadow, 0, 0, 2, 4), rectangle(kIsLit, 2 + thin, 0, 4, 4)});
   EXPECT_EQ(found.uncovered.exact, mpq_class(4 * thin) / 16);
   EXPECT_EQ(found.misclassified.exact, found.uncovered.exact);
   EXPECT_EQ(found.regions, 1u);

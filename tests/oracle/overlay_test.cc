@@ -72,8 +72,9 @@ TEST(Overlay, ManyLinesThroughOnePoint) {
   for (int i = 0; i < 8; ++i) {
     // Triangles that all have the corner (0, 0), given twice each.
     for (int twice = 0; twice < 2; ++twice) {
-      overlay.add_loop({p(0, 0), p(ends[i][0], ends[i][1]), p(ends[(i + 1) % 8][0], ends[(i + 1) % 8][1])},
-                       i % 2 == 0 ? kLit : kShadow);
+      overlay.add_loop(
+          {p(0, 0), p(ends[i][0], ends[i][1]), p(ends[(i + 1) % 8][0], ends[(i + 1) % 8][1])},
+          i % 2 == 0 ? kLit : kShadow);
     }
   }
   overlay.build();
@@ -128,8 +129,7 @@ TEST(NormalisedLoop, OrientationIsFree) {
 }
 
 TEST(NormalisedLoop, NonConvexIsNoCrossing) {
-  const NormalisedLoop found =
-      normalise({p(0, 0), p(4, 0), p(4, 4), p(2, 1), p(0, 4)});
+  const NormalisedLoop found = normalise({p(0, 0), p(4, 0), p(4, 4), p(2, 1), p(0, 4)});
   EXPECT_FALSE(found.convex);
   EXPECT_FALSE(found.crosses_itself);
   EXPECT_EQ(found.edges.size(), 5u);

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "group_overlay.h"
 #include "gnomon/oracle/visibility.h"
+#include "group_overlay.h"
 #include "scene_builder.h"
 
 namespace gnomon::oracle {
@@ -75,26 +75,24 @@ TEST(PointRegions, LightInThePlaneOfAPolygon) {
 }
 
 TEST(PointRegions, SlantedPolygonThroughAnothersPlane) {
-  // B floats above the plane of A's middle: A rises through B's plane, and B shadows only the part of
-  // A below it.
-  const BuiltScene built =
-      SceneBuilder()
-          .polygon("A", {{0, 0, 0}, {4, 0, 4}, {4, 4, 4}, {0, 4, 0}}, true)
-          .polygon("B", {{0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}}, true)
-          .sun("sun", {0, 0, 1})
-          .build();
+  // B floats above the plane of A's middle: A rises through B's plane, and B shadows only the part
+  // of A below it.
+  const BuiltScene built = SceneBuilder()
+                               .polygon("A", {{0, 0, 0}, {4, 0, 4}, {4, 4, 4}, {0, 4, 0}}, true)
+                               .polygon("B", {{0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}}, true)
+                               .sun("sun", {0, 0, 1})
+                               .build();
   EXPECT_EQ(lit_fraction(built, 0, "A"), mpq_class(3, 4));
   EXPECT_EQ(lit_fraction(built, 0, "B"), 1);
 }
 
 TEST(PointRegions, CrossingPolygons) {
   // B stands on its edge through the floor; the sun is low from +x.
-  const BuiltScene built =
-      SceneBuilder()
-          .polygon("floor", {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}})
-          .polygon("B", {{4, 2, -2}, {4, 6, -2}, {4, 6, 2}, {4, 2, 2}}, true)
-          .sun("sun", {1, 0, 1})
-          .build();
+  const BuiltScene built = SceneBuilder()
+                               .polygon("floor", {{0, 0, 0}, {8, 0, 0}, {8, 8, 0}, {0, 8, 0}})
+                               .polygon("B", {{4, 2, -2}, {4, 6, -2}, {4, 6, 2}, {4, 2, 2}}, true)
+                               .sun("sun", {1, 0, 1})
+                               .build();
   EXPECT_EQ(lit_fraction(built, 0, "floor"), ratio(64 - 8, 64));
   EXPECT_EQ(lit_fraction(built, 0, "B"), mpq_class(1, 2));  // below the floor it is shadowed
 }
@@ -135,8 +133,9 @@ TEST(PointRegions, LightInsideOfHundredsOfBits) {
     const BuiltScene built =
         SceneBuilder()
             .polygon("floor", {{0, 0, 0}, {s(8), 0, 0}, {s(8), s(8), 0}, {0, s(8), 0}})
-            .polygon("quad", {{s(3), s(3), s(1)}, {s(4), s(3), s(1)}, {s(4), s(4), s(1)},
-                              {s(3), s(4), s(1)}})
+            .polygon(
+                "quad",
+                {{s(3), s(3), s(1)}, {s(4), s(3), s(1)}, {s(4), s(4), s(1)}, {s(3), s(4), s(1)}})
             .point("bulb", {s(3), s(3), s(2)})
             .build();
     EXPECT_EQ(lit_fraction(built, 0, "floor"), ratio(60, 64));
@@ -170,8 +169,8 @@ void agree(const BuiltScene& built, std::uint64_t seed, std::uint64_t& compared,
             for (int k = 0; k < 3; ++k) {
               mpq_class coordinate(sum[k], weights);
               coordinate.canonicalize();
-              point[k] = built.prepared.geometry.origin[k] +
-                         built.prepared.geometry.step * coordinate;
+              point[k] =
+                  built.prepared.geometry.origin[k] + built.prepared.geometry.step * coordinate;
             }
             const PointVisibility seen = visibility.at(part, point);
             const ChartPoint place = chart.project(to_grid(built.prepared.geometry, point));
@@ -179,9 +178,9 @@ void agree(const BuiltScene& built, std::uint64_t seed, std::uint64_t& compared,
             for (const ShadowPiece& piece : answer.shadows(light, part)) {
               int least = 1;
               for (std::size_t e = 0; e < piece.loop.size(); ++e) {
-                least = std::min(least, orientation(piece.loop[e],
-                                                    piece.loop[(e + 1) % piece.loop.size()],
-                                                    place));
+                least = std::min(
+                    least,
+                    orientation(piece.loop[e], piece.loop[(e + 1) % piece.loop.size()], place));
               }
               inside = inside || least > 0;
               on_border = on_border || least == 0;

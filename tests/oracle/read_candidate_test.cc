@@ -69,12 +69,12 @@ TEST(ReadCandidate, EveryErrorHasAPlace) {
   EXPECT_NE(message(with_fragment(R"({"class": "lit"})")).find(at), std::string::npos);
   EXPECT_NE(message(with_fragment(R"({"class": "lit", "loop": [[0, 1]]})")).find(at + "/loop/0"),
             std::string::npos);
-  EXPECT_NE(message(with_fragment(R"({"class": "lit", "loop": [[0, 1, "2"]]})"))
-                .find(at + "/loop/0/2"),
-            std::string::npos);
-  EXPECT_NE(message(with_fragment(R"({"class": "lit", "loop": [[0, 1, 1e999]]})"))
-                .find("r.json:1:"),
-            std::string::npos);
+  EXPECT_NE(
+      message(with_fragment(R"({"class": "lit", "loop": [[0, 1, "2"]]})")).find(at + "/loop/0/2"),
+      std::string::npos);
+  EXPECT_NE(
+      message(with_fragment(R"({"class": "lit", "loop": [[0, 1, 1e999]]})")).find("r.json:1:"),
+      std::string::npos);
   EXPECT_NE(message(with_fragment(R"({"class": "lit", "exact_loop": [[0, 1, "1/0"]]})"))
                 .find(at + "/exact_loop/0/2"),
             std::string::npos);

@@ -23,12 +23,18 @@ SceneBuilder& SceneBuilder::polygon(const std::string& id, const std::vector<Tri
 }
 
 SceneBuilder& SceneBuilder::box(const std::string& id, Triple a, Triple b) {
-  polygon(id + ".0", {{a[0], a[1], a[2]}, {a[0], b[1], a[2]}, {b[0], b[1], a[2]}, {b[0], a[1], a[2]}});
-  polygon(id + ".1", {{a[0], a[1], b[2]}, {b[0], a[1], b[2]}, {b[0], b[1], b[2]}, {a[0], b[1], b[2]}});
-  polygon(id + ".2", {{a[0], a[1], a[2]}, {b[0], a[1], a[2]}, {b[0], a[1], b[2]}, {a[0], a[1], b[2]}});
-  polygon(id + ".3", {{b[0], b[1], a[2]}, {a[0], b[1], a[2]}, {a[0], b[1], b[2]}, {b[0], b[1], b[2]}});
-  polygon(id + ".4", {{a[0], b[1], a[2]}, {a[0], a[1], a[2]}, {a[0], a[1], b[2]}, {a[0], b[1], b[2]}});
-  polygon(id + ".5", {{b[0], a[1], a[2]}, {b[0], b[1], a[2]}, {b[0], b[1], b[2]}, {b[0], a[1], b[2]}});
+  polygon(id + ".0",
+          {{a[0], a[1], a[2]}, {a[0], b[1], a[2]}, {b[0], b[1], a[2]}, {b[0], a[1], a[2]}});
+  polygon(id + ".1",
+          {{a[0], a[1], b[2]}, {b[0], a[1], b[2]}, {b[0], b[1], b[2]}, {a[0], b[1], b[2]}});
+  polygon(id + ".2",
+          {{a[0], a[1], a[2]}, {b[0], a[1], a[2]}, {b[0], a[1], b[2]}, {a[0], a[1], b[2]}});
+  polygon(id + ".3",
+          {{b[0], b[1], a[2]}, {a[0], b[1], a[2]}, {a[0], b[1], b[2]}, {b[0], b[1], b[2]}});
+  polygon(id + ".4",
+          {{a[0], b[1], a[2]}, {a[0], a[1], a[2]}, {a[0], a[1], b[2]}, {a[0], b[1], b[2]}});
+  polygon(id + ".5",
+          {{b[0], a[1], a[2]}, {b[0], b[1], a[2]}, {b[0], b[1], b[2]}, {b[0], a[1], b[2]}});
   return *this;
 }
 
@@ -77,8 +83,7 @@ BuiltScene lattice_soup(std::uint64_t seed, int polygons, int size) {
     if (random.integer(0, 1) == 1) {  // a parallelogram
       loop.push_back({a[0] + c[0] - b[0], a[1] + c[1] - b[1], a[2] + c[2] - b[2]});
     }
-    builder.polygon(std::to_string(i), loop, random.integer(0, 2) == 0,
-                    random.integer(0, 5) != 0);
+    builder.polygon(std::to_string(i), loop, random.integer(0, 2) == 0, random.integer(0, 5) != 0);
   }
   builder.point("lamp", vertex());
   builder.sun("sun", {double(random.integer(-3, 3)), double(random.integer(-3, 3)),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scenes by hand and by chance for the oracle's tests, and candidates made from the oracle's own regions:
-// each lit piece is cut by the lines of every shadow, one after the other.
+// Scenes by hand and by chance for the oracle's tests, and candidates made from the oracle's own
+// regions: each lit piece is cut by the lines of every shadow, one after the other.
 #ifndef GNOMON_TESTS_ORACLE_SCENE_BUILDER_H
 #define GNOMON_TESTS_ORACLE_SCENE_BUILDER_H
 

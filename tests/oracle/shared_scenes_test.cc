@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real scenes, where they are at hand: the prepared scene holds, regions agree with the visibility of exact
-// points and with the checker of claims, and the overlay calls them identical.
+// Real scenes, where they are at hand: the prepared scene holds, regions agree with the visibility
+// of exact points and with the checker of claims, and the overlay calls them identical.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -25,9 +25,7 @@ std::optional<BuiltScene> load(const std::filesystem::path& path) {
   return BuiltScene{std::move(read->scene), std::move(*prepared)};
 }
 
-std::filesystem::path json_folder() {
-  return std::filesystem::path(GNOMON_SHARED_SCENES) / "json";
-}
+std::filesystem::path json_folder() { return std::filesystem::path(GNOMON_SHARED_SCENES) / "json"; }
 
 TEST(SharedScenes, EastWallAtTheFirstSun) {
   const std::optional<BuiltScene> built = load(json_folder() / "ashrae140-case630.json");
@@ -55,7 +53,8 @@ TEST(SharedScenes, AllWaysAgree) {
     EXPECT_TRUE(findings.empty()) << findings[0].polygon << ": " << findings[0].text;
     const ExactAnswer answer(built->scene, built->prepared);
     Candidate candidate = exact_candidate(answer);
-    std::erase_if(candidate.lights, [](const CandidateLight& light) { return light.polygons.empty(); });
+    std::erase_if(candidate.lights,
+                  [](const CandidateLight& light) { return light.polygons.empty(); });
     const Report report = *certify(answer, candidate, {});
     EXPECT_EQ(report.verdict, Verdict::kIdentical) << report.reason;
     CertifyOptions by_points;
@@ -64,7 +63,8 @@ TEST(SharedScenes, AllWaysAgree) {
     EXPECT_EQ(points.points_wrong, 0u) << points.reason;
     EXPECT_GT(points.points_checked, 0u);
     const WitnessReport claims = check_witnesses(built->scene, built->prepared, candidate);
-    EXPECT_EQ(claims.violations, 0u) << claims.findings[0].polygon << " " << claims.findings[0].text;
+    EXPECT_EQ(claims.violations, 0u)
+        << claims.findings[0].polygon << " " << claims.findings[0].text;
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whole scenes certified: exact candidates are identical, and what is missing or unknown fails by name.
+// Whole scenes certified: exact candidates are identical, and what is missing or unknown fails by
+// name.
 #include "gnomon/oracle/verdict.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +18,7 @@ BuiltScene table() {
       .build();
 }
 
-Report certified(const BuiltScene& built, const Candidate& candidate,
-                 CertifyOptions options = {}) {
+Report certified(const BuiltScene& built, const Candidate& candidate, CertifyOptions options = {}) {
   Expected<Report> report = certify(built.scene, built.prepared, candidate, options);
   EXPECT_TRUE(report.has_value());
   return *report;
@@ -94,8 +94,7 @@ TEST(Verdict, MissingAndUnknown) {
 
   Candidate twice = good;
   twice.lights[0].polygons.push_back(twice.lights[0].polygons[0]);
-  EXPECT_EQ(certified(built, twice).reason,
-            "light 'sun': polygon 'floor' (front) is listed twice");
+  EXPECT_EQ(certified(built, twice).reason, "light 'sun': polygon 'floor' (front) is listed twice");
 
   Candidate penumbra = good;
   penumbra.lights[0].polygons[0].fragments[0].shade = ShadeClass::kPenumbra;

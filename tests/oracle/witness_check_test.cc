@@ -24,7 +24,8 @@ class WitnessCheck : public testing::Test {
                    .polygon("upright", {{3, 0, 2}, {3, 1, 2}, {3, 1, 3}, {3, 0, 3}})
                    .sun("sun", {0, 0, 1})
                    .build()),
-        answer_(built_.scene, built_.prepared), good_(exact_candidate(answer_)) {}
+        answer_(built_.scene, built_.prepared),
+        good_(exact_candidate(answer_)) {}
 
   std::string first_finding(const Candidate& candidate) const {
     const WitnessReport report = check_witnesses(built_.scene, built_.prepared, candidate);
@@ -85,11 +86,13 @@ TEST_F(WitnessCheck, EveryLieIsNamed) {
   EXPECT_EQ(first_finding(wrong), "");
 
   wrong = good_;
-  for (ExactPoint& point : fragment(wrong, ShadeClass::kLit).loop) point[2] += mpq_class(1, 1000000);
+  for (ExactPoint& point : fragment(wrong, ShadeClass::kLit).loop)
+    point[2] += mpq_class(1, 1000000);
   EXPECT_THAT(first_finding(wrong), HasSubstr("plane"));
 
   wrong = good_;
-  for (ExactPoint& point : fragment(wrong, ShadeClass::kLit).loop) point[0] += mpq_class(1, 1000000);
+  for (ExactPoint& point : fragment(wrong, ShadeClass::kLit).loop)
+    point[0] += mpq_class(1, 1000000);
   EXPECT_THAT(first_finding(wrong), HasSubstr("leaves the polygon"));
 
   wrong = good_;
@@ -133,11 +136,9 @@ TEST_F(WitnessCheck, AgreesWithTheVerdictOnSoups) {
       Candidate wrong = exact_candidate(answer);
       CandidateLight& light = wrong.lights[random.next() % wrong.lights.size()];
       CandidatePolygon& polygon = light.polygons[random.next() % light.polygons.size()];
-      CandidateFragment& fragment =
-          polygon.fragments[random.next() % polygon.fragments.size()];
+      CandidateFragment& fragment = polygon.fragments[random.next() % polygon.fragments.size()];
       fragment.reason.clear();
-      fragment.shade =
-          fragment.shade == ShadeClass::kLit ? ShadeClass::kShadow : ShadeClass::kLit;
+      fragment.shade = fragment.shade == ShadeClass::kLit ? ShadeClass::kShadow : ShadeClass::kLit;
       EXPECT_GT(check_witnesses(built.scene, built.prepared, wrong).violations, 0u) << seed;
       EXPECT_EQ(certify(answer, wrong, {})->verdict, Verdict::kFailed) << seed;
     }
@@ -145,13 +146,14 @@ TEST_F(WitnessCheck, AgreesWithTheVerdictOnSoups) {
 }
 
 TEST(PreparedCheck, FindsWhatIsWrong) {
-  Scene scene = SceneBuilder()
-                    .polygon("L", {{0, 0, 0}, {4, 0, 0}, {4, 2, 0}, {2, 2, 0}, {2, 4, 0}, {0, 4, 0}})
-                    .polygon("bent", {{0, 0, 1}, {4, 0, 1}, {4, 4, 2}, {0, 4, 1}})
-                    .polygon("tri", {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}})
-                    .sun("sun", {0, 0, 1})
-                    .build()
-                    .scene;
+  Scene scene =
+      SceneBuilder()
+          .polygon("L", {{0, 0, 0}, {4, 0, 0}, {4, 2, 0}, {2, 2, 0}, {2, 4, 0}, {0, 4, 0}})
+          .polygon("bent", {{0, 0, 1}, {4, 0, 1}, {4, 4, 2}, {0, 4, 1}})
+          .polygon("tri", {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}})
+          .sun("sun", {0, 0, 1})
+          .build()
+          .scene;
   const PreparedScene good = *prepare(scene);
   EXPECT_TRUE(check_prepared(scene, good).empty());
 
@@ -160,7 +162,8 @@ TEST(PreparedCheck, FindsWhatIsWrong) {
   EXPECT_FALSE(check_prepared(scene, wrong).empty());
 
   wrong = good;
-  std::swap(wrong.loop_vertices[wrong.parts[0].first], wrong.loop_vertices[wrong.parts[0].first + 1]);
+  std::swap(wrong.loop_vertices[wrong.parts[0].first],
+            wrong.loop_vertices[wrong.parts[0].first + 1]);
   EXPECT_FALSE(check_prepared(scene, wrong).empty());
 
   wrong = good;  // a part is lost

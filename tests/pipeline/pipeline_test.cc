@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Several lights in a pipeline: for each light, the fragments whose set holds it have exactly the lit
-// area that the light has alone, on every exact kernel; and the fragments tile every side.
+// Several lights in a pipeline: for each light, the fragments whose set holds it have exactly the
+// lit area that the light has alone, on every exact kernel; and the fragments tile every side.
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
@@ -41,11 +41,13 @@ struct SceneCase {
 class Pipeline : public testing::TestWithParam<KernelId> {};
 
 TEST_P(Pipeline, SetsOfLightsAgreeWithEachLightAlone) {
-  const std::vector<SceneCase> cases = {
-      {"solids", {}, 1},          {"room", {}, 1},
-      {"table-chair", {}, 1},     {"lattice", {{"light", 2}}, 3},
-      {"lattice", {{"light", 2}}, 4}, {"slanted-through", {}, 1},
-      {"touching-boxes", {{"light", 2}}, 2}};
+  const std::vector<SceneCase> cases = {{"solids", {}, 1},
+                                        {"room", {}, 1},
+                                        {"table-chair", {}, 1},
+                                        {"lattice", {{"light", 2}}, 3},
+                                        {"lattice", {{"light", 2}}, 4},
+                                        {"slanted-through", {}, 1},
+                                        {"touching-boxes", {{"light", 2}}, 2}};
   for (const SceneCase& item : cases) {
     SCOPED_TRACE(std::string(item.generator) + " " + std::to_string(item.seed));
     const auto scene = generate(item.generator, item.parameters, item.seed);
@@ -75,8 +77,7 @@ TEST_P(Pipeline, SetsOfLightsAgreeWithEachLightAlone) {
         loop.push_back(p);
       }
       const Point part_area = vector_area(loop, 0, part.count);
-      const Point area =
-          vector_area(result->combined_exact_points, fragment.first, fragment.count);
+      const Point area = vector_area(result->combined_exact_points, fragment.first, fragment.count);
       const int axis = part_area[0] != 0 ? 0 : part_area[1] != 0 ? 1 : 2;
       // Counter-clockwise seen from the side that it belongs to.
       const int turn = fragment.side == Side::kBack ? -1 : 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Where did a rounded kernel first go wrong? Runs the whole algorithm on the kernel under test and on
-// `plane` in lock-step and stops at the first decision on which they differ (kernel_pair.h).
+// Where did a rounded kernel first go wrong? Runs the whole algorithm on the kernel under test and
+// on `plane` in lock-step and stops at the first decision on which they differ (kernel_pair.h).
 #ifndef GNOMON_ALGORITHMS_EXPLAIN_H
 #define GNOMON_ALGORITHMS_EXPLAIN_H
 
@@ -17,8 +17,9 @@ struct FirstDifference {
   std::optional<std::uint32_t> light;  // index into PreparedScene::lights; none: the scene BSP
 };
 
-/// Nothing if every decision of the run agrees. Errors: those of compute_shadows; kUsage for an exact
-/// kernel. Uses `kernel`, `identity`, `thickness`, `prefix`, `seed` and `lights` of the options.
+/// Nothing if every decision of the run agrees. Errors: those of compute_shadows; kUsage for an
+/// exact kernel. Uses `kernel`, `identity`, `thickness`, `prefix`, `seed` and `lights` of the
+/// options.
 Expected<std::optional<FirstDifference>> explain(const PreparedScene& scene,
                                                  const ShadowOptions& options);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Back-to-front order of a scene from an eye point by the scene BSP (Fuchs, Kedem & Naylor 1980), for
-// pictures: later pieces may be painted over earlier ones. The order is exact (kernel `plane`), the
-// coordinates of cut vertices are rounded.
+// Back-to-front order of a scene from an eye point by the scene BSP (Fuchs, Kedem & Naylor 1980),
+// for pictures: later pieces may be painted over earlier ones. The order is exact (kernel `plane`),
+// the coordinates of cut vertices are rounded.
 #ifndef GNOMON_ALGORITHMS_PAINTERS_ORDER_H
 #define GNOMON_ALGORITHMS_PAINTERS_ORDER_H
 

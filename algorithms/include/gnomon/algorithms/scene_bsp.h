@@ -2,11 +2,11 @@
 // The scene BSP (Fuchs, Kedem & Naylor 1980): a tree of support planes that gives an exact
 // front-to-back order of all polygons from any light in O(n), and back-to-front from any eye.
 //
-// Each inner node holds one support plane and every piece that lies in it, so that coplanar polygons
-// are always together. Pieces of one part are convex and at most one a node.
-// Reference: Chin & Feiner 1989, sec. 3. The root of each subtree is chosen among a few sampled
-// candidates by splits and balance, on bounding boxes in doubles: a heuristic that cannot affect
-// correctness. Explicit stack; memory is the pieces (append only), about 40 bytes a vertex and piece.
+// Each inner node holds one support plane and every piece that lies in it, so that coplanar
+// polygons are always together. Pieces of one part are convex and at most one a node. Reference:
+// Chin & Feiner 1989, sec. 3. The root of each subtree is chosen among a few sampled candidates by
+// splits and balance, on bounding boxes in doubles: a heuristic that cannot affect correctness.
+// Explicit stack; memory is the pieces (append only), about 40 bytes a vertex and piece.
 #ifndef GNOMON_ALGORITHMS_SCENE_BSP_H
 #define GNOMON_ALGORITHMS_SCENE_BSP_H
 
@@ -41,7 +41,7 @@ struct SceneBsp {
   std::uint64_t splits = 0;
   std::uint64_t vanished = 0;  // children with fewer than three vertices (rounded kernels)
   bool interrupted = false;
-  bool too_many = false;     // more than max_pieces: given up
+  bool too_many = false;  // more than max_pieces: given up
 };
 
 /// Axis-aligned box in scene units, for heuristics.
@@ -63,8 +63,8 @@ class RootChooser {
   std::uint64_t state_;
 };
 
-/// Builds the tree of the given parts. `identity` tells whether pieces of the same support plane go to
-/// the node unasked; without it (what most programs do) only the root's own piece does.
+/// Builds the tree of the given parts. `identity` tells whether pieces of the same support plane go
+/// to the node unasked; without it (what most programs do) only the root's own piece does.
 template <SceneSpaceModel Space>
 SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedScene& scene,
                                                  std::span<const std::uint32_t> parts,

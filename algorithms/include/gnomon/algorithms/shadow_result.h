@@ -31,7 +31,7 @@ struct Interval {
 struct Fragment {
   static constexpr std::uint32_t kNoCaster = 0xffffffffu;
   LightState state = LightState::kLit;
-  std::uint32_t caster = kNoCaster;  // part index of the witness
+  std::uint32_t caster = kNoCaster;    // part index of the witness
   std::uint32_t first = 0, count = 0;  // into points / exact_points of the LightResult, if kept
 };
 
@@ -41,18 +41,18 @@ struct PartResult {
   Side side = Side::kFront;  // the part's side that faces the light; kFront if none does
   ShadowReason reason = ShadowReason::kNone;  // set: the whole part is in shadow, no fragments
   std::uint32_t first_fragment = 0, fragment_count = 0;
-  Interval lit;              // fraction of the part's area; for rounded kernels lower == upper
+  Interval lit;  // fraction of the part's area; for rounded kernels lower == upper
   Interval shadow;
-  mpq_class exact_lit;       // exact kernels on request (ShadowOptions::exact_fractions), else 0
+  mpq_class exact_lit;  // exact kernels on request (ShadowOptions::exact_fractions), else 0
   mpq_class exact_shadow;
 };
 
 struct LightResult {
-  std::uint32_t light = 0;   // index into PreparedScene::lights
+  std::uint32_t light = 0;        // index into PreparedScene::lights
   std::vector<PartResult> parts;  // one a part, in order
   std::vector<Fragment> fragments;
-  std::vector<std::array<double, 3>> points;            // nearest doubles, scene units
-  std::vector<std::array<mpq_class, 3>> exact_points;   // scene units
+  std::vector<std::array<double, 3>> points;           // nearest doubles, scene units
+  std::vector<std::array<mpq_class, 3>> exact_points;  // scene units
   // Counts of the papers' tables.
   std::uint64_t facing_parts = 0, facing_edges = 0, tree_nodes = 0, fragment_total = 0;
   // What a rounded kernel could not do: loops that vanished, and so on. Zero on exact kernels.
@@ -63,7 +63,7 @@ struct LightResult {
 struct CombinedFragment {
   std::uint32_t part = 0;
   Side side = Side::kFront;
-  std::uint64_t lit_by = 0;  // bit i: ShadowResult::lights[i]
+  std::uint64_t lit_by = 0;            // bit i: ShadowResult::lights[i]
   std::uint32_t first = 0, count = 0;  // into combined_points / combined_exact_points
 };
 
@@ -72,7 +72,7 @@ struct ShadowResult {
   std::string algorithm;  // "svbsp"
   bool exact = false;
   bool identity = false;
-  double thickness = 0;   // relative plane thickness (float kernels)
+  double thickness = 0;  // relative plane thickness (float kernels)
   std::vector<LightResult> lights;
   // Several lights together (ShadowOptions::combined): fragments of every side that faces a light,
   // grouped by polygon and side; sides that face none have none.
@@ -80,7 +80,7 @@ struct ShadowResult {
   std::vector<std::array<double, 3>> combined_points;
   std::vector<std::array<mpq_class, 3>> combined_exact_points;
   double scene_bsp_seconds = 0, shadow_seconds = 0;  // CPU time
-  StageCounts stages;     // which stage answered; all zero unless ShadowOptions::count_stages
+  StageCounts stages;  // which stage answered; all zero unless ShadowOptions::count_stages
   std::uint64_t bsp_nodes = 0, bsp_fragments = 0, bsp_depth = 0;
 };
 

@@ -18,19 +18,21 @@ namespace gnomon {
 
 struct ShadowOptions {
   KernelId kernel = KernelId::kPlane;
-  bool identity = false;          // for rounded kernels; `plane` always knows
+  bool identity = false;                 // for rounded kernels; `plane` always knows
   double thickness = kDefaultThickness;  // relative to the scene's diagonal; rounded kernels only
-  std::vector<std::uint32_t> lights;  // indices into PreparedScene::lights; empty: all that are not area
-  bool keep_points = false;        // fragments with nearest doubles
+  std::vector<std::uint32_t>
+      lights;                // indices into PreparedScene::lights; empty: all that are not area
+  bool keep_points = false;  // fragments with nearest doubles
   bool keep_exact_points = false;  // fragments with exact rationals
   bool exact_fractions = false;    // sum exact rational fractions per part (exact kernels)
   bool merge = true;               // merge sibling fragments, collapse parts that agree
   bool prefix = true;              // balanced prefix of light space
-  bool combined = false;           // also the set of lights that reach each fragment; at most 64 lights
-  std::uint64_t max_fragments = 20'000'000;  // pieces of the scene BSP, and fragments a light: kLimit
-  bool count_stages = false;       // fill ShadowResult::stages (kernel plane)
-  std::uint64_t seed = 1;          // of the root choice of the scene BSP
-  std::function<void(double)> progress;         // fraction of the work done, 0..1; may be empty
+  bool combined = false;  // also the set of lights that reach each fragment; at most 64 lights
+  std::uint64_t max_fragments =
+      20'000'000;                        // pieces of the scene BSP, and fragments a light: kLimit
+  bool count_stages = false;             // fill ShadowResult::stages (kernel plane)
+  std::uint64_t seed = 1;                // of the root choice of the scene BSP
+  std::function<void(double)> progress;  // fraction of the work done, 0..1; may be empty
   const std::atomic<bool>* interrupted = nullptr;  // checked between polygons
 };
 

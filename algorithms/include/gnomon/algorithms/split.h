@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Splitting a convex loop by a plane, in two steps: first a record of which vertex lies on which side
-// (decisions only), then the children made from it (constructions only).
+// Splitting a convex loop by a plane, in two steps: first a record of which vertex lies on which
+// side (decisions only), then the children made from it (constructions only).
 //
-// On exact kernels the sides of a convex loop form at most one run in front and one behind, and both
-// children are convex with at least three vertices. On rounded kernels anything can happen; the
-// children are made by the same rule (keep what is in front or on, insert a crossing wherever the side
-// changes), and one with fewer than three vertices is reported, not repaired.
-// Reference: Sutherland & Hodgman, Reentrant polygon clipping (1974), for a single plane.
+// On exact kernels the sides of a convex loop form at most one run in front and one behind, and
+// both children are convex with at least three vertices. On rounded kernels anything can happen;
+// the children are made by the same rule (keep what is in front or on, insert a crossing wherever
+// the side changes), and one with fewer than three vertices is reported, not repaired. Reference:
+// Sutherland & Hodgman, Reentrant polygon clipping (1974), for a single plane.
 #ifndef GNOMON_ALGORITHMS_SPLIT_H
 #define GNOMON_ALGORITHMS_SPLIT_H
 
@@ -48,13 +48,12 @@ struct SplitChildren {
   LoopRange front, back;  // count < 3: vanished (rounded kernels only)
 };
 
-/// Appends both children of `loop` to `store`, back first. `loop` must not live in `store` (appending
-/// may move it). The cut edge of the front child lies in `plane`, that of the back child in its
-/// opposite, so that the interior stays in front of every edge.
+/// Appends both children of `loop` to `store`, back first. `loop` must not live in `store`
+/// (appending may move it). The cut edge of the front child lies in `plane`, that of the back child
+/// in its opposite, so that the interior stays in front of every edge.
 template <DecisionSpace Space>
 SplitChildren make_children(const Space& space, PlaneRef plane,
-                            const LoopView<typename Space::Vertex>& loop,
-                            const SplitRecord& record,
+                            const LoopView<typename Space::Vertex>& loop, const SplitRecord& record,
                             std::vector<typename Space::Vertex>& crossings,
                             LoopStore<typename Space::Vertex>& store) {
   using Vertex = typename Space::Vertex;
@@ -64,8 +63,8 @@ SplitChildren make_children(const Space& space, PlaneRef plane,
   for (std::uint32_t i = 0; i < n; ++i) {
     const Side here = record.side(i), there = record.side(loop.next(i));
     if (here != Side::kOn && there == opposite(here)) {
-      crossings.push_back(space.crossing(plane, loop.edges[i], here == Side::kFront,
-                                         loop.corner(i), loop.corner(loop.next(i))));
+      crossings.push_back(space.crossing(plane, loop.edges[i], here == Side::kFront, loop.corner(i),
+                                         loop.corner(loop.next(i))));
     }
   }
   const auto make = [&](Side kept) {

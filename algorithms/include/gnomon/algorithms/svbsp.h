@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The shadow volume BSP tree (Chin & Feiner 1989, sec. 4): filter each polygon, front to back as seen
-// from the light, down the tree of shadow planes; what reaches an IN cell is in shadow, what reaches an
-// OUT cell is lit, and its shadow volume is added there.
+// The shadow volume BSP tree (Chin & Feiner 1989, sec. 4): filter each polygon, front to back as
+// seen from the light, down the tree of shadow planes; what reaches an IN cell is in shadow, what
+// reaches an OUT cell is lit, and its shadow volume is added there.
 //
-// A front child is inside the node's plane. The tree starts as the balanced prefix. An IN cell knows the
-// part whose fragment made it: that part shadows everything in the cell, the witness of the fragment.
-// A fragment is bounded by the planes of its ancestors already, so only edges that the fragment brought
-// with it become nodes: the planes that cut it stand above it in the tree. (A rounded kernel without
-// identity does not know that, and makes a plane of every edge.)
+// A front child is inside the node's plane. The tree starts as the balanced prefix. An IN cell
+// knows the part whose fragment made it: that part shadows everything in the cell, the witness of
+// the fragment. A fragment is bounded by the planes of its ancestors already, so only edges that
+// the fragment brought with it become nodes: the planes that cut it stand above it in the tree. (A
+// rounded kernel without identity does not know that, and makes a plane of every edge.)
 //
-// Guarantee on exact kernels: polygons given front to back, coplanar ones filtered before any of them is
-// inserted, every fragment has the class of the definition (docs: semantics). Explicit stacks.
+// Guarantee on exact kernels: polygons given front to back, coplanar ones filtered before any of
+// them is inserted, every fragment has the class of the definition (docs: semantics). Explicit
+// stacks.
 #ifndef GNOMON_ALGORITHMS_SVBSP_H
 #define GNOMON_ALGORITHMS_SVBSP_H
 
@@ -78,8 +79,8 @@ class SvbspTree {
   struct Frame {
     std::uint32_t node = 0;  // the cell or subtree is this node's front or back child
     bool front = true;
-    bool leaving = false;    // children done: merge, drop the loop
-    LoopRange loop;          // in work_
+    bool leaving = false;            // children done: merge, drop the loop
+    LoopRange loop;                  // in work_
     std::uint32_t first_output = 0;  // when leaving: outputs before the children's
   };
 

@@ -2,11 +2,11 @@
 // Midpoint-radius arithmetic: a Ball encloses a real number, |true - middle| <= radius, without any
 // change of the rounding mode. Used for areas and positions that must come with a certificate.
 //
-// Exactness: every operation encloses the exact result for all values in its operands. Each rounding
-// of round-to-nearest errs by at most u |result| with u = 2^-53, or by 2^-1075 where it underflows;
-// radii themselves are rounded, so each is inflated by 1 + 8u, which covers up to six roundings of
-// non-negative terms, plus kTiny for underflow.
-// Reference: S. M. Rump, Fast and parallel interval arithmetic, BIT 39 (1999), sec. 2-3.
+// Exactness: every operation encloses the exact result for all values in its operands. Each
+// rounding of round-to-nearest errs by at most u |result| with u = 2^-53, or by 2^-1075 where it
+// underflows; radii themselves are rounded, so each is inflated by 1 + 8u, which covers up to six
+// roundings of non-negative terms, plus kTiny for underflow. Reference: S. M. Rump, Fast and
+// parallel interval arithmetic, BIT 39 (1999), sec. 2-3.
 #ifndef GNOMON_KERNEL_BALL_H
 #define GNOMON_KERNEL_BALL_H
 
@@ -41,8 +41,7 @@ struct Ball {
   friend Ball operator*(const Ball& a, const Ball& b) {
     const double middle = a.middle * b.middle;
     const double radius = std::fabs(a.middle) * b.radius +
-                          a.radius * (std::fabs(b.middle) + b.radius) +
-                          kUnit * std::fabs(middle);
+                          a.radius * (std::fabs(b.middle) + b.radius) + kUnit * std::fabs(middle);
     return {middle, radius * kInflate + kTiny};
   }
   /// Infinite radius if b may be zero.

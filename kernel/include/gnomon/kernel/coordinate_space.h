@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The kernels whose vertices are coordinates: float, double, long double (rounded), and GMP rationals
-// (exact). The same formulas, plainly written, as the papers and most programs have them: a plane is
-// n . x - d, its value is compared with a thickness, a crossing is a + t (b - a).
+// The kernels whose vertices are coordinates: float, double, long double (rounded), and GMP
+// rationals (exact). The same formulas, plainly written, as the papers and most programs have them:
+// a plane is n . x - d, its value is compared with a thickness, a crossing is a + t (b - a).
 //
-// Guarantee: with T = mpq_class every decision and construction is exact. With a float type nothing is
-// guaranteed: `identity` and `thickness` (kernel_options.h) are the two policies that practice knows,
-// and what remains wrong is what the oracle measures.
-// Reference: Chin & Feiner 1989, sec. 7 (planes of input polygons are copied to their fragments).
+// Guarantee: with T = mpq_class every decision and construction is exact. With a float type nothing
+// is guaranteed: `identity` and `thickness` (kernel_options.h) are the two policies that practice
+// knows, and what remains wrong is what the oracle measures. Reference: Chin & Feiner 1989, sec. 7
+// (planes of input polygons are copied to their fragments).
 #ifndef GNOMON_KERNEL_COORDINATE_SPACE_H
 #define GNOMON_KERNEL_COORDINATE_SPACE_H
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A vertex of a loop in its context: the two edges that meet in it, each by the signed plane that the
-// edge lies in, and the support plane of the loop.
+// A vertex of a loop in its context: the two edges that meet in it, each by the signed plane that
+// the edge lies in, and the support plane of the loop.
 //
-// The context is what lets a kernel *know*: a vertex made by cutting with plane T has T as one of its
-// edges' planes, and is on T whatever rounded coordinates say (identity). For the kernel `plane` the
-// context *is* the vertex: the point where the three planes meet.
+// The context is what lets a kernel *know*: a vertex made by cutting with plane T has T as one of
+// its edges' planes, and is on T whatever rounded coordinates say (identity). For the kernel
+// `plane` the context *is* the vertex: the point where the three planes meet.
 #ifndef GNOMON_KERNEL_CORNER_H
 #define GNOMON_KERNEL_CORNER_H
 
@@ -27,8 +27,8 @@ struct Corner {
   PlaneId support;
 };
 
-/// A convex loop: vertex i, and the signed plane of the edge from vertex i to i + 1, interior in front.
-/// In scene space the plane of an uncut edge is a name only: see SceneEdges.
+/// A convex loop: vertex i, and the signed plane of the edge from vertex i to i + 1, interior in
+/// front. In scene space the plane of an uncut edge is a name only: see SceneEdges.
 template <class Vertex>
 struct LoopView {
   std::span<const Vertex> vertices;
@@ -45,7 +45,8 @@ struct LoopView {
 };
 
 /// How edges are named in scene space: index < planes is a support plane that cut the loop (signed,
-/// interior in front); index - planes is an input edge, flipped if the loop runs from its b to its a.
+/// interior in front); index - planes is an input edge, flipped if the loop runs from its b to its
+/// a.
 struct SceneEdges {
   std::uint32_t planes = 0;
   bool is_input_edge(PlaneRef ref) const { return ref.index() >= planes; }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The kernel `epeck`: CGAL's lazy exact constructions, as one would use them today. Points, planes and
-// crossings are CGAL objects on the scene's grid; every decision is exact.
+// The kernel `epeck`: CGAL's lazy exact constructions, as one would use them today. Points, planes
+// and crossings are CGAL objects on the scene's grid; every decision is exact.
 //
-// Guarantee: exact. Price: each construction is a node of a lazy expression, and a decision that the
-// interval cannot make evaluates the whole expression in rationals.
-// Reference: CGAL 5.5, Exact_predicates_exact_constructions_kernel.
+// Guarantee: exact. Price: each construction is a node of a lazy expression, and a decision that
+// the interval cannot make evaluates the whole expression in rationals. Reference: CGAL 5.5,
+// Exact_predicates_exact_constructions_kernel.
 #ifndef GNOMON_KERNEL_EPECK_SPACE_H
 #define GNOMON_KERNEL_EPECK_SPACE_H
 

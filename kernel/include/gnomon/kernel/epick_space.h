@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The kernel `epick`: CGAL's exact predicates on rounded points. A shadow plane is three points (two of
-// an edge and the light, or two and a direction), never coefficients; a crossing is rounded to doubles.
+// The kernel `epick`: CGAL's exact predicates on rounded points. A shadow plane is three points
+// (two of an edge and the light, or two and a direction), never coefficients; a crossing is rounded
+// to doubles.
 //
 // Guarantee: each decision is exact *for the rounded points*; since crossings are rounded before
 // anything is asked about them, answers on degenerate scenes are wrong all the same. This is what a
@@ -35,7 +36,8 @@ struct EpickVertex {
 struct EpickPlane {
   enum class Kind : std::uint8_t { kPoints, kDirection, kLinear };
   Kind kind = Kind::kPoints;
-  // kPoints: front where ((b - a) x (c - a)) . (v - a) > 0; kDirection: where (b x (c - a)) . (v - a) > 0.
+  // kPoints: front where ((b - a) x (c - a)) . (v - a) > 0; kDirection: where (b x (c - a)) . (v -
+  // a) > 0.
   std::array<double, 3> a{}, b{}, c{};
   std::uint32_t linear = 0;  // kLinear: index of exact coefficients (prefix planes)
   VertexId from = kMadeVertex, to = kMadeVertex;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Bad input is a value. Every reader and every check returns Expected<T>; the command line prints the
-// Error and turns its code into an exit status (docs: formats). Broken invariants are assertions.
+// Bad input is a value. Every reader and every check returns Expected<T>; the command line prints
+// the Error and turns its code into an exit status (docs: formats). Broken invariants are
+// assertions.
 #ifndef GNOMON_KERNEL_ERROR_H
 #define GNOMON_KERNEL_ERROR_H
 
@@ -12,16 +13,16 @@ namespace gnomon {
 
 /// One code a cause. The cause decides the exit status: usage and input 2, limits 3.
 enum class ErrorCode : std::uint8_t {
-  kUsage,           // wrong option or argument
-  kFile,            // cannot be opened, read or written
-  kSyntax,          // not JSON / OBJ / OFF / PLY, wrong encoding, truncated
-  kFormat,          // well-formed, but not this format: unknown key, wrong type, missing key, version
-  kNumber,          // NaN, infinity, overflow, unreadable number
-  kIndex,           // an index outside the vertices
-  kId,              // empty, malformed or colliding id
-  kGeometry,        // self-intersecting loop, hole that leaves its loop, degenerate light
-  kLimit,           // a stated limit: digits, memory, time, fragments
-  kInterrupted,     // the user asked to stop
+  kUsage,        // wrong option or argument
+  kFile,         // cannot be opened, read or written
+  kSyntax,       // not JSON / OBJ / OFF / PLY, wrong encoding, truncated
+  kFormat,       // well-formed, but not this format: unknown key, wrong type, missing key, version
+  kNumber,       // NaN, infinity, overflow, unreadable number
+  kIndex,        // an index outside the vertices
+  kId,           // empty, malformed or colliding id
+  kGeometry,     // self-intersecting loop, hole that leaves its loop, degenerate light
+  kLimit,        // a stated limit: digits, memory, time, fragments
+  kInterrupted,  // the user asked to stop
 };
 
 /// Where in which file; line and column count from 1, 0 means "not known".
@@ -44,8 +45,7 @@ using Expected = tl::expected<T, Error>;
 
 inline tl::unexpected<Error> fail(ErrorCode code, std::string what, std::string expected = {},
                                   ErrorPlace where = {}) {
-  return tl::unexpected<Error>(
-      Error{code, std::move(where), std::move(what), std::move(expected)});
+  return tl::unexpected<Error>(Error{code, std::move(where), std::move(what), std::move(expected)});
 }
 
 /// "FILE:LINE:COLUMN: what is wrong; expected that (at /json/pointer)", without program name.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The integers of the exact stage, from narrow to unbounded, and the two determinants that decide.
 //
-// The same source is compiled for each; the precision plan (precision_plan.h) says which is wide enough
-// for a scene and a predicate. Exactness: exact as long as no intermediate exceeds the type, which the
-// plan's bounds guarantee (docs/exactness.md; tests drive each width to its last bit).
+// The same source is compiled for each; the precision plan (precision_plan.h) says which is wide
+// enough for a scene and a predicate. Exactness: exact as long as no intermediate exceeds the type,
+// which the plan's bounds guarantee (docs/exactness.md; tests drive each width to its last bit).
 #ifndef GNOMON_KERNEL_EXACT_INTEGER_H
 #define GNOMON_KERNEL_EXACT_INTEGER_H
 
@@ -21,8 +21,8 @@ namespace gnomon {
 
 __extension__ typedef __int128 Int128;
 namespace mp = boost::multiprecision;
-using Int512 = mp::number<
-    mp::cpp_int_backend<512, 512, mp::signed_magnitude, mp::unchecked, void>, mp::et_off>;
+using Int512 = mp::number<mp::cpp_int_backend<512, 512, mp::signed_magnitude, mp::unchecked, void>,
+                          mp::et_off>;
 
 template <class Int>
 using Vector3 = std::array<Int, 3>;
@@ -68,8 +68,8 @@ inline Sign sign_of(const mpz_class& value) {
   return static_cast<Sign>(sgn(value));
 }
 
-/// The double nearest to value * 2^-shift, up to one unit in the last place (GMP truncates): relative
-/// error at most 2u, where nothing underflows.
+/// The double nearest to value * 2^-shift, up to one unit in the last place (GMP truncates):
+/// relative error at most 2u, where nothing underflows.
 inline double to_double_scaled(const mpz_class& value, long shift) {
   long exponent = 0;
   const double mantissa = mpz_get_d_2exp(&exponent, value.get_mpz_t());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The geometry that a kernel works on, as plain arrays: positions (nearest doubles, and exactly as
-// integers on one grid), undirected edges, support planes by three of their vertices, and a light as
-// one homogeneous point. Made once per scene by scene/prepare.h, never changed afterwards.
+// integers on one grid), undirected edges, support planes by three of their vertices, and a light
+// as one homogeneous point. Made once per scene by scene/prepare.h, never changed afterwards.
 //
 // Exactness: position v is exactly origin + step * grid.at(v). Every predicate of the toolkit is a
 // homogeneous polynomial in position differences and light directions, so that its sign is the same
@@ -46,9 +46,13 @@ class GridPositions {
   unsigned bits() const { return bits_; }
   bool is_narrow() const { return bits_ <= kNarrowBits; }
   /// Requires: is_narrow().
-  std::int64_t narrow(VertexId vertex, int axis) const { return narrow_[3 * std::size_t{vertex} + axis]; }
+  std::int64_t narrow(VertexId vertex, int axis) const {
+    return narrow_[3 * std::size_t{vertex} + axis];
+  }
   /// Requires: !is_narrow().
-  const mpz_class& wide(VertexId vertex, int axis) const { return wide_[3 * std::size_t{vertex} + axis]; }
+  const mpz_class& wide(VertexId vertex, int axis) const {
+    return wide_[3 * std::size_t{vertex} + axis];
+  }
   mpz_class at(VertexId vertex, int axis) const {
     return is_narrow() ? mpz_class(static_cast<long>(narrow(vertex, axis))) : wide(vertex, axis);
   }
@@ -69,12 +73,13 @@ struct SupportTriple {
   VertexId a = 0, b = 0, c = 0;
 };
 
-/// Positions are distinct; edges and planes are distinct as sets of points (planes: up to orientation).
+/// Positions are distinct; edges and planes are distinct as sets of points (planes: up to
+/// orientation).
 struct Geometry {
   std::vector<std::array<double, 3>> positions;  // nearest doubles, scene units
   GridPositions grid;
-  mpq_class step;                    // scene units per grid unit, positive
-  std::array<mpq_class, 3> origin;   // scene position of the grid's (0, 0, 0)
+  mpq_class step;                   // scene units per grid unit, positive
+  std::array<mpq_class, 3> origin;  // scene position of the grid's (0, 0, 0)
   std::vector<EdgeEnds> edges;
   std::vector<SupportTriple> planes;
 };
@@ -82,9 +87,9 @@ struct Geometry {
 /// A point light (position, 1) or a directional one (to_light, 0).
 struct LightPoint {
   bool directional = false;
-  std::array<double, 3> nearest{};     // position in scene units, or to_light
-  std::array<mpz_class, 3> grid;       // position on the scene's grid, or to_light as a primitive
-                                       // integer vector (its own grid), same direction
+  std::array<double, 3> nearest{};  // position in scene units, or to_light
+  std::array<mpz_class, 3> grid;    // position on the scene's grid, or to_light as a primitive
+                                    // integer vector (its own grid), same direction
 };
 
 }  // namespace gnomon

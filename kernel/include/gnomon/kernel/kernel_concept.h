@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What an algorithm may ask of a kernel. The same BSP and SVBSP source runs on every type that models
-// these concepts; it asks for decisions and constructions and does no arithmetic on coordinates itself.
+// What an algorithm may ask of a kernel. The same BSP and SVBSP source runs on every type that
+// models these concepts; it asks for decisions and constructions and does no arithmetic on
+// coordinates itself.
 #ifndef GNOMON_KERNEL_KERNEL_CONCEPT_H
 #define GNOMON_KERNEL_KERNEL_CONCEPT_H
 
@@ -23,39 +24,37 @@ concept DecisionSpace = requires(S& space, const S& constant, PlaneRef plane, bo
   typename S::Vertex;
   { S::kExact } -> std::convertible_to<bool>;
   { space.side_of_plane(plane, corner) } -> std::same_as<Side>;
-  { constant.crossing(plane, plane, leaving, corner, corner) } ->
-      std::same_as<typename S::Vertex>;
+  { constant.crossing(plane, plane, leaving, corner, corner) } -> std::same_as<typename S::Vertex>;
   { constant.stage_counts() } -> std::same_as<StageCounts>;
 };
 
 /// Three dimensions: decisions of the scene BSP about support planes.
 template <class S>
-concept SceneSpaceModel =
-    DecisionSpace<S> && std::constructible_from<S, const Geometry&, const KernelOptions&> &&
+concept SceneSpaceModel = DecisionSpace<S> &&
+    std::constructible_from<S, const Geometry&, const KernelOptions&> &&
     requires(const S& space, VertexId id, const typename S::Vertex& vertex) {
-      { space.input_vertex(id) } -> std::same_as<typename S::Vertex>;
-      { space.approximate(vertex) } -> std::same_as<std::array<double, 3>>;
-      { space.edges() } -> std::same_as<SceneEdges>;
-    };
+  { space.input_vertex(id) } -> std::same_as<typename S::Vertex>;
+  { space.approximate(vertex) } -> std::same_as<std::array<double, 3>>;
+  { space.edges() } -> std::same_as<SceneEdges>;
+};
 
 /// Planes through one light: decisions of the SVBSP tree.
 template <class S>
-concept LightSpaceModel =
-    DecisionSpace<S> && SceneSpaceModel<typename S::SceneSpace> &&
+concept LightSpaceModel = DecisionSpace<S> && SceneSpaceModel<typename S::SceneSpace> &&
     std::constructible_from<S, typename S::SceneSpace&, const LightPoint&, const KernelOptions&> &&
     requires(S& space, const S& constant, PlaneRef ref, PlaneId plane, bool reversed,
              typename S::Vertex& vertex, const typename S::SceneSpace::Vertex& scene_vertex,
              const Corner<typename S::Vertex>& corner, const PrefixPlane& prefix) {
-      { constant.knows_identity() } -> std::same_as<bool>;
-      { constant.light_side(plane) } -> std::same_as<Sign>;
-      { space.import_edge(ref, plane, reversed, vertex, vertex) } -> std::same_as<PlaneRef>;
-      { constant.import_vertex(scene_vertex) } -> std::same_as<typename S::Vertex>;
-      constant.finish_vertex(vertex, ref, ref);
-      { space.shadow_plane(ref, vertex, vertex) } -> std::same_as<PlaneRef>;
-      { space.add_prefix_plane(prefix) } -> std::same_as<PlaneRef>;
-      { constant.position(corner) } -> std::same_as<std::array<Ball, 3>>;
-      { constant.exact_position(corner) } -> std::same_as<std::array<mpq_class, 3>>;
-    };
+  { constant.knows_identity() } -> std::same_as<bool>;
+  { constant.light_side(plane) } -> std::same_as<Sign>;
+  { space.import_edge(ref, plane, reversed, vertex, vertex) } -> std::same_as<PlaneRef>;
+  { constant.import_vertex(scene_vertex) } -> std::same_as<typename S::Vertex>;
+  constant.finish_vertex(vertex, ref, ref);
+  { space.shadow_plane(ref, vertex, vertex) } -> std::same_as<PlaneRef>;
+  { space.add_prefix_plane(prefix) } -> std::same_as<PlaneRef>;
+  { constant.position(corner) } -> std::same_as<std::array<Ball, 3>>;
+  { constant.exact_position(corner) } -> std::same_as<std::array<mpq_class, 3>>;
+};
 
 }  // namespace gnomon
 

@@ -11,15 +11,21 @@
 namespace gnomon {
 
 enum class KernelId : std::uint8_t {
-  kFloat, kDouble, kLongDouble, kEpick, kEpeck, kRational, kPlane
+  kFloat,
+  kDouble,
+  kLongDouble,
+  kEpick,
+  kEpeck,
+  kRational,
+  kPlane
 };
 
 struct KernelInfo {
   KernelId id;
-  std::string_view name;        // as on the command line
-  bool exact;                   // every answer equals the definition
-  std::string_view points;      // the vertices that algorithms make
-  std::string_view decisions;   // how a side of a plane is found
+  std::string_view name;       // as on the command line
+  bool exact;                  // every answer equals the definition
+  std::string_view points;     // the vertices that algorithms make
+  std::string_view decisions;  // how a side of a plane is found
 };
 
 /// In the order of docs; `exact` on the command line is an alias of kDefaultExactKernel.
@@ -28,7 +34,8 @@ const KernelInfo& kernel_info(KernelId id);
 std::optional<KernelId> kernel_by_name(std::string_view name);
 inline constexpr KernelId kDefaultExactKernel = KernelId::kPlane;
 
-/// Relative plane thickness of the rounded kernels unless told otherwise (docs/exactness.md says why).
+/// Relative plane thickness of the rounded kernels unless told otherwise (docs/exactness.md says
+/// why).
 inline constexpr double kDefaultThickness = 1e-12;
 
 }  // namespace gnomon

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Two kernels in lock-step: a space that asks a kernel under test and a reference kernel every question,
-// goes on with the reference's answer, and keeps the first decision on which they differ, in words.
-// Any algorithm runs on a pair unchanged, so that it shows *where* a rounded kernel first went wrong.
+// Two kernels in lock-step: a space that asks a kernel under test and a reference kernel every
+// question, goes on with the reference's answer, and keeps the first decision on which they differ,
+// in words. Any algorithm runs on a pair unchanged, so that it shows *where* a rounded kernel first
+// went wrong.
 //
-// Planes of the two kernels are numbered independently; the pair has numbers of its own and a table.
-// Reference: CGAL's Filtered_kernel checker (Kernel_checker) for the idea.
+// Planes of the two kernels are numbered independently; the pair has numbers of its own and a
+// table. Reference: CGAL's Filtered_kernel checker (Kernel_checker) for the idea.
 #ifndef GNOMON_KERNEL_KERNEL_PAIR_H
 #define GNOMON_KERNEL_KERNEL_PAIR_H
 
@@ -22,14 +23,14 @@ namespace gnomon {
 
 /// The first decision on which the two kernels differ.
 struct DifferingDecision {
-  std::string plane;                   // in words
-  std::string vertex;                  // in words
-  std::array<double, 3> position{};    // nearest doubles of the exact vertex, scene units
+  std::string plane;                        // in words
+  std::string vertex;                       // in words
+  std::array<double, 3> position{};         // nearest doubles of the exact vertex, scene units
   std::array<double, 3> tested_position{};  // as the kernel under test has it
-  PlaneId support = 0;                 // of the fragment
+  PlaneId support = 0;                      // of the fragment
   Side tested = Side::kOn;
   Side exact = Side::kOn;
-  std::uint64_t decisions = 0;         // asked before this one
+  std::uint64_t decisions = 0;  // asked before this one
 };
 
 /// What both spaces of a pair share: the record, and the wish to stop.

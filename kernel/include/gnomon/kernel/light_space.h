@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What every kernel's light space has in common: the balanced prefix's planes, and what an algorithm
-// gets back when it asks where a corner is.
+// What every kernel's light space has in common: the balanced prefix's planes, and what an
+// algorithm gets back when it asks where a corner is.
 //
-// All shadow planes of one point or directional light pass through the light, so that SVBSP decisions
-// are oriented projective geometry in two dimensions (see orientation.h for the map q).
+// All shadow planes of one point or directional light pass through the light, so that SVBSP
+// decisions are oriented projective geometry in two dimensions (see orientation.h for the map q).
 #ifndef GNOMON_KERNEL_LIGHT_SPACE_H
 #define GNOMON_KERNEL_LIGHT_SPACE_H
 
@@ -17,13 +17,14 @@
 namespace gnomon {
 
 /// A plane through the light with integer coefficients in q coordinates (of grid positions): n . q.
-/// Rounding the value at which the prefix splits is free, the plane itself is exact. For a directional
-/// light one of n[0] and n[1] is zero.
+/// Rounding the value at which the prefix splits is free, the plane itself is exact. For a
+/// directional light one of n[0] and n[1] is zero.
 struct PrefixPlane {
   std::array<mpz_class, 3> n;
 };
 
-/// The axis permutation of the map q: component k of the formulas is component axis(k) of the scene.
+/// The axis permutation of the map q: component k of the formulas is component axis(k) of the
+/// scene.
 struct LightAxes {
   int x = 0, y = 1, z = 2;
   /// For a directional light: z is the largest component of the direction, cyclically.

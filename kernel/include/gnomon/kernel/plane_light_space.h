@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The kernel `plane` in the light space of one point or directional light, where SVBSP decides: on which
-// side of a plane through the light is a vertex of a fragment?
+// The kernel `plane` in the light space of one point or directional light, where SVBSP decides: on
+// which side of a plane through the light is a vertex of a fragment?
 //
-// A plane is its provenance: an input edge (q_a x q_b), or explicit integers (a trace of a scene BSP
-// split, a prefix plane, a plane of another light). A vertex is an input vertex, or the ray in which the
-// planes of its two edges meet, n_before x n_after, in that order. Both carry doubles with proven error
-// bounds for the filter; what the filter leaves open is computed again from the provenance in integers.
+// A plane is its provenance: an input edge (q_a x q_b), or explicit integers (a trace of a scene
+// BSP split, a prefix plane, a plane of another light). A vertex is an input vertex, or the ray in
+// which the planes of its two edges meet, n_before x n_after, in that order. Both carry doubles
+// with proven error bounds for the filter; what the filter leaves open is computed again from the
+// provenance in integers.
 //
-// Guarantee: every decision is exact on every input, whatever the magnitudes: a filter answers only if
-// its value and bound are finite and the bound is at least 2^-900, so that nothing that underflowed can
-// matter. Degree: 3 for input vertices, 6 for crossings, 9 / 12 / 15 with one, two, three traces.
-// Reference: Chin & Feiner 1989, sec. 4; docs/exactness.md.
+// Guarantee: every decision is exact on every input, whatever the magnitudes: a filter answers only
+// if its value and bound are finite and the bound is at least 2^-900, so that nothing that
+// underflowed can matter. Degree: 3 for input vertices, 6 for crossings, 9 / 12 / 15 with one, two,
+// three traces. Reference: Chin & Feiner 1989, sec. 4; docs/exactness.md.
 #ifndef GNOMON_KERNEL_PLANE_LIGHT_SPACE_H
 #define GNOMON_KERNEL_PLANE_LIGHT_SPACE_H
 
@@ -46,14 +47,14 @@ class PlaneLightSpace {
   /// Sign of the support plane at the light: whether its front faces the light.
   Sign light_side(PlaneId plane) const;
 
-  /// The plane of a scene-space edge in this light space, interior in front. `reversed` tells that the
-  /// loop was reversed to be counter-clockwise from the light (a back side faces it). `from` and `to`
-  /// are the edge's vertices in the order of the reversed loop.
+  /// The plane of a scene-space edge in this light space, interior in front. `reversed` tells that
+  /// the loop was reversed to be counter-clockwise from the light (a back side faces it). `from`
+  /// and `to` are the edge's vertices in the order of the reversed loop.
   PlaneRef import_edge(PlaneRef scene_edge, PlaneId support, bool reversed, const Vertex& from,
                        const Vertex& to);
   Vertex import_vertex(const typename SceneSpace::Vertex& vertex) const;
-  /// The plane through this light and the line in which a plane of another light cuts `support`, same
-  /// sides: how an edge made by one light's tree goes on to the next (1989, sec. 5).
+  /// The plane through this light and the line in which a plane of another light cuts `support`,
+  /// same sides: how an edge made by one light's tree goes on to the next (1989, sec. 5).
   PlaneRef import_cut(const PlaneLightSpace& other, PlaneRef plane, PlaneId support);
   /// Completes a made vertex once the planes of its edges are known.
   void finish_vertex(Vertex& vertex, PlaneRef before, PlaneRef after) const;
@@ -61,8 +62,8 @@ class PlaneLightSpace {
   PlaneRef shadow_plane(PlaneRef edge, const Vertex&, const Vertex&) { return edge; }
   PlaneRef add_prefix_plane(const PrefixPlane& plane);
 
-  /// Identities: (1) the planes of the corner's edges contain it; (2) the plane of edge (a, b) contains
-  /// the input vertices a and b. Exactness: always.
+  /// Identities: (1) the planes of the corner's edges contain it; (2) the plane of edge (a, b)
+  /// contains the input vertices a and b. Exactness: always.
   Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
   /// Where the edge `edge`, leaving the front of `plane` (kFront first) or entering it, meets it.
   Vertex crossing(PlaneRef plane, PlaneRef edge, bool leaving, const Corner<Vertex>& from,
@@ -124,8 +125,8 @@ class PlaneLightSpace {
   std::vector<std::uint32_t> plane_of_edge_;  // edge -> plane, kExplicit if not made yet
   std::vector<Vector3<mpz_class>> explicit_;
   std::vector<unsigned> explicit_bits_;
-  std::unordered_map<std::uint64_t, PlaneRef> traces_;         // (support plane, cutting plane)
-  std::map<std::array<std::uint64_t, 3>, PlaneRef> cuts_;      // (other light, its plane, support)
+  std::unordered_map<std::uint64_t, PlaneRef> traces_;     // (support plane, cutting plane)
+  std::map<std::array<std::uint64_t, 3>, PlaneRef> cuts_;  // (other light, its plane, support)
   Stats stats_;
 };
 

@@ -2,10 +2,10 @@
 // The kernel `plane` in three dimensions, where the scene BSP decides: on which side of the support
 // plane P_j does a vertex of a fragment lie?
 //
-// A vertex is never constructed. It is an input vertex, or where an input edge meets a support plane,
-// or where two support planes cut the support plane of the loop; its doubles are a hint with a proven
-// error bound. Decisions: identity, then the filter, then exact integers of the width that the
-// precision plan allows.
+// A vertex is never constructed. It is an input vertex, or where an input edge meets a support
+// plane, or where two support planes cut the support plane of the loop; its doubles are a hint with
+// a proven error bound. Decisions: identity, then the filter, then exact integers of the width that
+// the precision plan allows.
 //
 // Guarantee: every side is exact, on every input.
 // Degree: 3 (input vertex), 6 (edge and plane), 9 (three planes). Reference: docs/exactness.md.
@@ -84,11 +84,13 @@ class PlaneSceneSpace {
   PlaneSceneSpace(const Geometry& geometry, const KernelOptions& options);
 
   Vertex input_vertex(VertexId v) const;
-  /// Side of the corner's vertex; kOn is exact. Identities: (1) the support plane itself and the planes
-  /// of the corner's two edges contain it; (2) a plane contains the input vertices that define it.
+  /// Side of the corner's vertex; kOn is exact. Identities: (1) the support plane itself and the
+  /// planes of the corner's two edges contain it; (2) a plane contains the input vertices that
+  /// define it.
   Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
-  /// Where the edge from `from` to `to`, which has the two ends strictly on different sides of `plane`,
-  /// meets it. Only the doubles are computed; the vertex is the corner that the caller puts it in.
+  /// Where the edge from `from` to `to`, which has the two ends strictly on different sides of
+  /// `plane`, meets it. Only the doubles are computed; the vertex is the corner that the caller
+  /// puts it in.
   Vertex crossing(PlaneRef plane, PlaneRef edge, bool leaving, const Corner<Vertex>& from,
                   const Corner<Vertex>& to) const;
 
@@ -104,8 +106,8 @@ class PlaneSceneSpace {
     for (int k = 0; k < 3; ++k) point[k] = origin_[k] + scale_ * vertex.x[k];
     return point;
   }
-  /// Enclosures of n and d of a support plane for positions in grid units times 2^-b, up to a common
-  /// positive factor; of infinite radius where doubles cannot hold it.
+  /// Enclosures of n and d of a support plane for positions in grid units times 2^-b, up to a
+  /// common positive factor; of infinite radius where doubles cannot hold it.
   std::array<Ball, 4> plane_enclosure(PlaneId plane) const;
   StageCounts stage_counts() const { return stats_.counts(); }
 
@@ -115,8 +117,9 @@ class PlaneSceneSpace {
     double d = 0;               // |d| < 3
     bool usable = false;
   };
-  /// |computed n . x - d - true value| for plane and vertex below: 3 (error of x) + (error of n and d:
-  /// 3 * 2u + 6u) + rounding of 3 products and 3 sums of values below 3 (18u), doubled for slack.
+  /// |computed n . x - d - true value| for plane and vertex below: 3 (error of x) + (error of n and
+  /// d: 3 * 2u + 6u) + rounding of 3 products and 3 sums of values below 3 (18u), doubled for
+  /// slack.
   static double error_bound(double vertex_error) { return 3.01 * vertex_error + 64 * Ball::kUnit; }
 
   template <class Int>

@@ -2,10 +2,10 @@
 // The precision plan: how many bits each exact predicate needs on a given scene, and the narrowest
 // integers that hold it. *Model only what the scene requires.*
 //
-// Input: b, the bits of the scene's grid positions (in [0, 2^b - 1]), and e, the bits of the components
-// of directions to lights on their own grid. The bounds are derived in docs/exactness.md, predicate by
-// predicate; they hold for every intermediate of the evaluation order that the kernels use, so they are
-// slightly larger than what the value alone would need.
+// Input: b, the bits of the scene's grid positions (in [0, 2^b - 1]), and e, the bits of the
+// components of directions to lights on their own grid. The bounds are derived in
+// docs/exactness.md, predicate by predicate; they hold for every intermediate of the evaluation
+// order that the kernels use, so they are slightly larger than what the value alone would need.
 #ifndef GNOMON_KERNEL_PRECISION_PLAN_H
 #define GNOMON_KERNEL_PRECISION_PLAN_H
 
@@ -26,8 +26,8 @@ constexpr IntegerWidth width_for(unsigned signed_bits) {
 }
 std::string_view width_name(IntegerWidth width);
 
-/// Bits of the magnitude of a component of q(v): b for a point light (a difference of two positions),
-/// b + e + 1 for a directional one (x d_z - z d_x).
+/// Bits of the magnitude of a component of q(v): b for a point light (a difference of two
+/// positions), b + e + 1 for a directional one (x d_z - z d_x).
 constexpr unsigned light_space_bits(bool directional, unsigned b, unsigned e) {
   return directional ? b + e + 1 : b;
 }

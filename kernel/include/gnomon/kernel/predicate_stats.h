@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Which stage answered each decision of the kernel `plane`: identity, floating-point filter, or exact
-// integers. Off by default (NoStats is empty and its calls vanish); a template parameter of the kernel.
+// Which stage answered each decision of the kernel `plane`: identity, floating-point filter, or
+// exact integers. Off by default (NoStats is empty and its calls vanish); a template parameter of
+// the kernel.
 #ifndef GNOMON_KERNEL_PREDICATE_STATS_H
 #define GNOMON_KERNEL_PREDICATE_STATS_H
 
@@ -36,11 +37,21 @@ class CountStats {
  public:
   void count(Stage stage) {
     switch (stage) {
-      case Stage::kIdentity: ++counts_.identity; break;
-      case Stage::kFilter: ++counts_.filter; break;
-      case Stage::kExact128: ++counts_.exact128; break;
-      case Stage::kExact512: ++counts_.exact512; break;
-      case Stage::kExactUnbounded: ++counts_.unbounded; break;
+      case Stage::kIdentity:
+        ++counts_.identity;
+        break;
+      case Stage::kFilter:
+        ++counts_.filter;
+        break;
+      case Stage::kExact128:
+        ++counts_.exact128;
+        break;
+      case Stage::kExact512:
+        ++counts_.exact512;
+        break;
+      case Stage::kExactUnbounded:
+        ++counts_.unbounded;
+        break;
     }
   }
   void count_zero() { ++counts_.exactly_zero; }

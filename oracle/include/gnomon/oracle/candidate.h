@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the oracle judges: a partition of polygons into classified loops, whoever made it. Points are
-// exact rationals in scene units: of a float kernel or of a foreign file they are the numbers it wrote.
+// What the oracle judges: a partition of polygons into classified loops, whoever made it. Points
+// are exact rationals in scene units: of a float kernel or of a foreign file they are the numbers
+// it wrote.
 #ifndef GNOMON_ORACLE_CANDIDATE_H
 #define GNOMON_ORACLE_CANDIDATE_H
 
@@ -21,16 +22,16 @@ enum class PolygonSide : std::uint8_t { kFront, kBack };
 
 struct CandidateFragment {
   ShadeClass shade = ShadeClass::kLit;
-  bool exact = false;                   // the loop claims to be exact, not rounded to doubles
-  std::vector<ExactPoint> loop;         // any orientation, not closed (first point not repeated)
-  std::string caster;                   // polygon id of the witness, empty if none is named
-  std::string reason;                   // "faces-away", "light-in-plane", "behind-light", or empty
+  bool exact = false;            // the loop claims to be exact, not rounded to doubles
+  std::vector<ExactPoint> loop;  // any orientation, not closed (first point not repeated)
+  std::string caster;            // polygon id of the witness, empty if none is named
+  std::string reason;            // "faces-away", "light-in-plane", "behind-light", or empty
 };
 
 struct CandidatePolygon {
   std::string id;
   PolygonSide side = PolygonSide::kFront;
-  bool side_given = true;               // false: a foreign file that names no side means the only one
+  bool side_given = true;  // false: a foreign file that names no side means the only one
   std::optional<mpq_class> lit_fraction, shadow_fraction;  // as claimed, if claimed exactly
   std::vector<CandidateFragment> fragments;
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a comparison is, by the definitions (docs: semantics): a candidate's fragments of one polygon side
-// against the exact regions, in one exact overlay. Every cell of it has a true class and the classes the
-// candidate claims, so every number below is a sum over cells, and "identical" means that no cell errs.
+// What a comparison is, by the definitions (docs: semantics): a candidate's fragments of one
+// polygon side against the exact regions, in one exact overlay. Every cell of it has a true class
+// and the classes the candidate claims, so every number below is a sum over cells, and "identical"
+// means that no cell errs.
 //
 // Exactness: all decisions are exact; areas are certified enclosures, and exact fractions where the
 // boundary of the error is short. Widths are bounds from both sides.
@@ -27,14 +28,14 @@ struct Witness {
   std::string light, polygon;
   PolygonSide side = PolygonSide::kFront;
   ErrorKind kind = ErrorKind::kNone;
-  ExactPoint point;                   // strictly inside the region of error, on the support plane
+  ExactPoint point;  // strictly inside the region of error, on the support plane
   std::array<double, 3> nearest{};
-  std::optional<ShadeClass> found;    // none: uncovered
-  std::optional<ShadeClass> truth;    // none: outside the polygon
-  std::string caster;                 // polygon that decides, empty if none does
-  Enclosure width;                    // of the region around it, scene units
-  std::optional<double> clearance;    // scene units; none: no single vertex is known to change it
-  std::string text;                   // one sentence
+  std::optional<ShadeClass> found;  // none: uncovered
+  std::optional<ShadeClass> truth;  // none: outside the polygon
+  std::string caster;               // polygon that decides, empty if none does
+  Enclosure width;                  // of the region around it, scene units
+  std::optional<double> clearance;  // scene units; none: no single vertex is known to change it
+  std::string text;                 // one sentence
 };
 
 /// A maximal connected region in which the candidate is wrong in any way.
@@ -45,25 +46,25 @@ struct ErrorRegion {
 };
 
 struct ComparisonOptions {
-  double clearance = 0;            // scene units; 0: nothing is ill-conditioned
-  double width_resolution = 0;     // scene units; widths need not be told more closely
-  std::size_t exact_limit = 200;   // boundary edges up to which an area is also given exactly
-  std::size_t most_regions = 16;   // kept with their witness, widest first
+  double clearance = 0;           // scene units; 0: nothing is ill-conditioned
+  double width_resolution = 0;    // scene units; widths need not be told more closely
+  std::size_t exact_limit = 200;  // boundary edges up to which an area is also given exactly
+  std::size_t most_regions = 16;  // kept with their witness, widest first
 };
 
 /// One polygon side under one light.
 struct PolygonComparison {
   std::string polygon;
   PolygonSide side = PolygonSide::kFront;
-  AreaShare lit, shadow;               // the truth
+  AreaShare lit, shadow;  // the truth
   AreaShare misclassified, uncovered, overlapping, outside;
-  AreaShare ill_conditioned;           // share of the error that is, counted apart
-  Enclosure width;                     // of the widest region of error, scene units
-  Enclosure off_plane;                 // scene units
+  AreaShare ill_conditioned;  // share of the error that is, counted apart
+  Enclosure width;            // of the widest region of error, scene units
+  Enclosure off_plane;        // scene units
   std::uint64_t fragments = 0, regions = 0, ill_conditioned_regions = 0;
   std::uint64_t invented = 0, lost = 0, t_vertices = 0, self_crossing = 0;
-  std::vector<ErrorRegion> worst;      // widest first
-  bool inconsistent = false;           // the oracle contradicts itself: a finding about us
+  std::vector<ErrorRegion> worst;  // widest first
+  bool inconsistent = false;       // the oracle contradicts itself: a finding about us
   /// The same without ill-conditioned regions: what the verdict looks at.
   AreaShare judged_misclassified, judged_uncovered, judged_overlapping, judged_outside;
   Enclosure judged_width;

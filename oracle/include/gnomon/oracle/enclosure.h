@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Certified enclosures: a pair of doubles with the true value between them, for sums and roots whose
-// exact value would grow without bound. Every operation rounds outward by nextafter, which is sound
-// because each of its correctly rounded steps is off by at most half a unit in the last place.
+// Certified enclosures: a pair of doubles with the true value between them, for sums and roots
+// whose exact value would grow without bound. Every operation rounds outward by nextafter, which is
+// sound because each of its correctly rounded steps is off by at most half a unit in the last
+// place.
 #ifndef GNOMON_ORACLE_ENCLOSURE_H
 #define GNOMON_ORACLE_ENCLOSURE_H
 

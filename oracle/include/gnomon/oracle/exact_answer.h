@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The exact answer of a scene, computed once and compared with as many candidates as there are: for every
-// point or directional light, the sides that a result must list, and every shadow on every part.
+// The exact answer of a scene, computed once and compared with as many candidates as there are: for
+// every point or directional light, the sides that a result must list, and every shadow on every
+// part.
 //
-// Exactness: regions are those of point_regions.h. Everything is computed when it is first asked for;
-// all member functions may be called from several threads at once.
+// Exactness: regions are those of point_regions.h. Everything is computed when it is first asked
+// for; all member functions may be called from several threads at once.
 #ifndef GNOMON_ORACLE_EXACT_ANSWER_H
 #define GNOMON_ORACLE_EXACT_ANSWER_H
 
@@ -26,9 +27,9 @@ namespace gnomon::oracle {
 /// Coplanar parts of one polygon: one plane, one chart, one comparison.
 struct ReceiverGroup {
   std::vector<std::uint32_t> parts;
-  bool faces = false;           // some light can arrive; otherwise all of it is in shadow
+  bool faces = false;  // some light can arrive; otherwise all of it is in shadow
   bool light_in_plane = false;
-  bool optional = false;        // of another side than the entry's: may be listed here, as shadow
+  bool optional = false;  // of another side than the entry's: may be listed here, as shadow
 };
 
 /// One polygon side that a result lists.
@@ -67,8 +68,8 @@ class ExactAnswer {
   /// Drops what was kept of one light, for scenes with many.
   void forget(std::uint32_t light) const;
 
-  /// Lit and shadow fractions of an entry, from the true regions alone; `exact` is set for an entry whose
-  /// parts are coplanar.
+  /// Lit and shadow fractions of an entry, from the true regions alone; `exact` is set for an entry
+  /// whose parts are coplanar.
   TrueFractions fractions(std::uint32_t light, const AnswerEntry& entry, bool exact = true) const;
   /// The same of one group.
   TrueFractions group_fractions(std::uint32_t light, const ReceiverGroup& group,

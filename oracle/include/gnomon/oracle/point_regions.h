@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The oracle's first way: the exact shadow of every caster on every receiver, as convex polygons in the
-// receiver's plane. No tree, no order, no splitting of one polygon by another.
+// The oracle's first way: the exact shadow of every caster on every receiver, as convex polygons in
+// the receiver's plane. No tree, no order, no splitting of one polygon by another.
 //
-// Derivation. Let the caster O be oriented so that the light is strictly in front of its plane P_O. The
-// open segment from a point p to the light meets P_O iff p is strictly behind it (P_O is positive at
-// the light, so it changes sign once), and the meeting point lies in O iff the line from the light
-// through p does: iff p is on the inner side of the plane through the light and each edge of O. These
-// planes bound one convex cone (a prism for a directional light) on O's side of the light, and a p in
-// it and behind P_O has its meeting point before the light. So the shadow of O on R is
+// Derivation. Let the caster O be oriented so that the light is strictly in front of its plane P_O.
+// The open segment from a point p to the light meets P_O iff p is strictly behind it (P_O is
+// positive at the light, so it changes sign once), and the meeting point lies in O iff the line
+// from the light through p does: iff p is on the inner side of the plane through the light and each
+// edge of O. These planes bound one convex cone (a prism for a directional light) on O's side of
+// the light, and a p in it and behind P_O has its meeting point before the light. So the shadow of
+// O on R is
 //     R  n  { P_O < 0 }  n  { edge planes of O > 0 },
-// an intersection of half-spaces: nothing is projected, nothing is at infinity, and O is not cut. If O
-// crosses R's plane, the part of O behind that plane takes itself out through P_O < 0. If O is coplanar
-// with R, P_O is 0 on all of R and the intersection is empty, as the definition asks.
+// an intersection of half-spaces: nothing is projected, nothing is at infinity, and O is not cut.
+// If O crosses R's plane, the part of O behind that plane takes itself out through P_O < 0. If O is
+// coplanar with R, P_O is 0 on all of R and the intersection is empty, as the definition asks.
 //
-// Exactness: on the grid's integers; vertices are meets of two lines of input planes. Doubles only cull
-// pairs that an error bound proves disjoint.
+// Exactness: on the grid's integers; vertices are meets of two lines of input planes. Doubles only
+// cull pairs that an error bound proves disjoint.
 #ifndef GNOMON_ORACLE_POINT_REGIONS_H
 #define GNOMON_ORACLE_POINT_REGIONS_H
 
@@ -30,7 +31,8 @@ namespace gnomon::oracle {
 
 struct ChartPoint;
 
-/// One caster's shadow on one receiver: a convex polygon, counter-clockwise in the receiver's chart.
+/// One caster's shadow on one receiver: a convex polygon, counter-clockwise in the receiver's
+/// chart.
 struct ShadowPiece {
   std::uint32_t caster = 0;  // part
   std::vector<ChartPoint> loop;
@@ -43,8 +45,8 @@ class PointRegions {
   ~PointRegions();
   PointRegions(PointRegions&&) noexcept;
 
-  /// The part's side that faces the light, if it receives with that side: kFront or kBack; kOn if the
-  /// light is in its plane or it only shows its back.
+  /// The part's side that faces the light, if it receives with that side: kFront or kBack; kOn if
+  /// the light is in its plane or it only shows its back.
   Side lit_side(std::uint32_t part) const;
   bool light_in_plane(std::uint32_t part) const;
   /// True if the part casts: it has a side that faces the light and is a caster.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks what preparation made of a scene, for a wrong part would fool everything after it: positions are
-// the scene's, parts are planar, strictly convex and oriented, families really coplanar and distinct, and
-// the parts of a polygon tile its loop without its holes. Own exact geometry throughout.
+// Checks what preparation made of a scene, for a wrong part would fool everything after it:
+// positions are the scene's, parts are planar, strictly convex and oriented, families really
+// coplanar and distinct, and the parts of a polygon tile its loop without its holes. Own exact
+// geometry throughout.
 #ifndef GNOMON_ORACLE_PREPARED_CHECK_H
 #define GNOMON_ORACLE_PREPARED_CHECK_H
 

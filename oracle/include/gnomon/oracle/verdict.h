@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The verdict: a candidate against the exact answer of a scene, polygon side by polygon side, and one word
-// for all of it, with the worst place as a witness.
+// The verdict: a candidate against the exact answer of a scene, polygon side by polygon side, and
+// one word for all of it, with the worst place as a witness.
 //
 //   identical         misclassified, uncovered, overlapping and outside are exactly 0 everywhere;
-//   within tolerance  each is at most `tolerance` of every polygon, and every region of error and every
+//   within tolerance  each is at most `tolerance` of every polygon, and every region of error and
+//   every
 //                     vertex off its plane at most `width`;
 //   failed            otherwise, or if something is missing, unknown or listed twice.
 //
-// Above `most_pairs` pairs of parts (a stated limit: the exact regions grow with the square of the scene)
-// exact points are checked instead, and the verdict says how many.
+// Above `most_pairs` pairs of parts (a stated limit: the exact regions grow with the square of the
+// scene) exact points are checked instead, and the verdict says how many.
 #ifndef GNOMON_ORACLE_VERDICT_H
 #define GNOMON_ORACLE_VERDICT_H
 
@@ -29,22 +30,22 @@ namespace gnomon::oracle {
 enum class Verdict : std::uint8_t { kIdentical, kWithinTolerance, kFailed };
 
 struct CertifyOptions {
-  double tolerance = 1e-9;          // fraction of each polygon
-  std::optional<double> width;      // scene units; default 1e-9 of the scene's diagonal
-  bool strict = false;              // tolerance and width 0
-  double clearance = 0;             // scene units; error below it is ill-conditioned
-  bool subset = false;              // lights and polygons may be missing
-  std::optional<std::uint64_t> leaks;  // fail with more invented and lost regions than this
-  std::vector<std::uint32_t> lights;   // indices into PreparedScene::lights; empty: all
+  double tolerance = 1e-9;                   // fraction of each polygon
+  std::optional<double> width;               // scene units; default 1e-9 of the scene's diagonal
+  bool strict = false;                       // tolerance and width 0
+  double clearance = 0;                      // scene units; error below it is ill-conditioned
+  bool subset = false;                       // lights and polygons may be missing
+  std::optional<std::uint64_t> leaks;        // fail with more invented and lost regions than this
+  std::vector<std::uint32_t> lights;         // indices into PreparedScene::lights; empty: all
   std::uint64_t most_pairs = 1'000'000'000;  // a minute for a city of that size
   std::uint32_t points_a_polygon = 8;  // above the limit: of its fragments, and as many at random
   // Points times parts; where all polygons would take more, every n-th polygon side is checked.
   std::uint64_t most_point_pairs = 50'000'000;
-  std::uint64_t seed = 1;              // of the random points
-  std::size_t exact_limit = 200;       // boundary edges up to which areas are also exact
-  std::size_t most_regions = 16;       // kept a polygon side
-  unsigned threads = 0;                // 0: as many as there are
-  std::function<void(double)> progress;            // 0..1; called from one thread at a time
+  std::uint64_t seed = 1;                // of the random points
+  std::size_t exact_limit = 200;         // boundary edges up to which areas are also exact
+  std::size_t most_regions = 16;         // kept a polygon side
+  unsigned threads = 0;                  // 0: as many as there are
+  std::function<void(double)> progress;  // 0..1; called from one thread at a time
   const std::atomic<bool>* interrupted = nullptr;  // checked between polygons
 };
 
@@ -59,7 +60,7 @@ struct ComparisonTotals {
   Enclosure misclassified, uncovered, overlapping, outside, ill_conditioned;
   double worst_misclassified = 0;  // greatest upper bound of a polygon's fraction
   double worst_uncovered = 0, worst_overlapping = 0, worst_outside = 0;
-  Enclosure width, off_plane;      // greatest
+  Enclosure width, off_plane;  // greatest
   std::uint64_t polygons = 0, fragments = 0, wrong_polygons = 0, regions = 0;
   std::uint64_t ill_conditioned_regions = 0;
   std::uint64_t invented = 0, lost = 0, t_vertices = 0, self_crossing = 0;
@@ -73,16 +74,17 @@ struct Report {
   std::vector<std::string> notes;     // what was not compared, and why
   std::vector<LightComparison> lights;
   ComparisonTotals totals;
-  std::optional<Witness> worst;       // the place that decided, or the worst there is
+  std::optional<Witness> worst;                    // the place that decided, or the worst there is
   double tolerance = 0, width = 0, clearance = 0;  // as applied; scene units
-  double diagonal = 0;                // of the scene
-  bool by_points = false;             // above the limit: only points were compared
+  double diagonal = 0;                             // of the scene
+  bool by_points = false;                          // above the limit: only points were compared
   std::uint64_t points_checked = 0, points_wrong = 0, points_on_boundary = 0;
   std::uint64_t pairs = 0, most_pairs = 0;
-  bool interrupted = false;           // not everything was compared
-  bool oracle_fault = false;          // the oracle contradicted itself: a bug of ours
+  bool interrupted = false;   // not everything was compared
+  bool oracle_fault = false;  // the oracle contradicted itself: a bug of ours
 
-  /// What an exact kernel must reach: identical; where only points were checked, nothing wrong found.
+  /// What an exact kernel must reach: identical; where only points were checked, nothing wrong
+  /// found.
   bool confirms_exact() const {
     return !oracle_fault &&
            verdict == (by_points ? Verdict::kWithinTolerance : Verdict::kIdentical);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The oracle's second way: whether one point of a polygon is lit, by the definition itself: intersect the
-// open segment from the point to the light with every caster, in rational numbers, in space. Shares
-// nothing with the regions (point_regions.h): no chart, no cone, no clipping.
+// The oracle's second way: whether one point of a polygon is lit, by the definition itself:
+// intersect the open segment from the point to the light with every caster, in rational numbers, in
+// space. Shares nothing with the regions (point_regions.h): no chart, no cone, no clipping.
 //
 // Exactness: exact. A point on the border between light and shadow is said to be on it.
 #ifndef GNOMON_ORACLE_VISIBILITY_H
@@ -34,8 +34,8 @@ class VisibilityTest {
   ~VisibilityTest();
   VisibilityTest(VisibilityTest&&) noexcept;
 
-  /// `point` in scene units, on `receiver`'s plane. If the receiver has no side that faces the light and
-  /// receives: kShadow without a caster. Cost: all casters. Thread-safe.
+  /// `point` in scene units, on `receiver`'s plane. If the receiver has no side that faces the
+  /// light and receives: kShadow without a caster. Cost: all casters. Thread-safe.
   PointVisibility at(std::uint32_t receiver, const ExactPoint& point) const;
 
  private:

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The oracle's third way: checks a result's own claims, one by one, in rational numbers in space. Knows
-// no true region and shares nothing with the algorithms or with point_regions.h:
-//   - fragments lie in the polygon's plane and inside the polygon, do not overlap, and their areas add up;
+// The oracle's third way: checks a result's own claims, one by one, in rational numbers in space.
+// Knows no true region and shares nothing with the algorithms or with point_regions.h:
+//   - fragments lie in the polygon's plane and inside the polygon, do not overlap, and their areas
+//   add up;
 //   - a shadow fragment's caster shadows all of it, or its reason holds;
 //   - no caster shadows any area of a lit fragment;
 //   - claimed fractions are those of the fragments.
 // A result that passes is right: its fragments tile every polygon and each has its proof.
 //
-// Exactness: exact on exact loops. Rounded loops are judged within `tolerance` of the polygon's area and
-// `width` off its plane.
+// Exactness: exact on exact loops. Rounded loops are judged within `tolerance` of the polygon's
+// area and `width` off its plane.
 #ifndef GNOMON_ORACLE_WITNESS_CHECK_H
 #define GNOMON_ORACLE_WITNESS_CHECK_H
 

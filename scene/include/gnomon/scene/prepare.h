@@ -2,11 +2,12 @@
 // Second step of the pipeline: from a scene as read to convex, exactly planar parts on one integer
 // grid. All decisions are exact; nothing is moved, nothing is rounded, no vertex is invented.
 //
-// By the definitions (docs: semantics, "Scene"): repeated and collinear vertices dropped, loops of zero
-// area dropped and listed, non-planar loops triangulated by ear clipping in the projection along the
-// largest component of the area vector, non-convex loops and loops with holes triangulated with
-// bridges and merged across diagonals while convex. Equal positions become one vertex, shared edges one
-// edge, polygons in one support plane one plane, whatever their orientation.
+// By the definitions (docs: semantics, "Scene"): repeated and collinear vertices dropped, loops of
+// zero area dropped and listed, non-planar loops triangulated by ear clipping in the projection
+// along the largest component of the area vector, non-convex loops and loops with holes
+// triangulated with bridges and merged across diagonals while convex. Equal positions become one
+// vertex, shared edges one edge, polygons in one support plane one plane, whatever their
+// orientation.
 #ifndef GNOMON_SCENE_PREPARE_H
 #define GNOMON_SCENE_PREPARE_H
 
@@ -27,8 +28,8 @@ struct Part {
   std::uint32_t polygon = 0;  // index into Scene::polygons
   std::uint32_t first = 0;    // into PreparedScene::loop_vertices and loop_edges
   std::uint32_t count = 0;
-  PlaneId plane = 0;          // into geometry.planes: the coplanar family
-  bool flipped = false;       // the part's front is the back of that plane
+  PlaneId plane = 0;     // into geometry.planes: the coplanar family
+  bool flipped = false;  // the part's front is the back of that plane
   bool two_sided = false;
   bool casts = true;
 };
@@ -36,8 +37,8 @@ struct Part {
 struct PreparedLight {
   std::uint32_t light = 0;  // index into Scene::lights
   LightType type = LightType::kPoint;
-  LightPoint point;                                   // point and directional
-  std::vector<std::array<mpz_class, 3>> area_loop;    // area: on the scene's grid
+  LightPoint point;                                 // point and directional
+  std::vector<std::array<mpz_class, 3>> area_loop;  // area: on the scene's grid
 };
 
 /// What was done to an input polygon that was not convex and planar as it stood.
@@ -65,17 +66,18 @@ struct LightNote {
 struct PreparedScene {
   Geometry geometry;
   std::vector<VertexId> loop_vertices;  // of parts; geometry vertex ids
-  std::vector<PlaneRef> loop_edges;     // edge from vertex i to i+1 of the loop: index() is the edge,
-                                        // flipped() if it runs from edge.b to edge.a
-  std::vector<Part> parts;              // in order of polygons
+  std::vector<PlaneRef> loop_edges;  // edge from vertex i to i+1 of the loop: index() is the edge,
+                                     // flipped() if it runs from edge.b to edge.a
+  std::vector<Part> parts;           // in order of polygons
   std::vector<std::uint32_t> first_part;  // per polygon, size polygons + 1: parts of polygon p are
                                           // first_part[p] .. first_part[p+1]-1; none if dropped
-  std::vector<PreparedLight> lights;    // in order of Scene::lights
-  std::vector<PreparationNote> notes;   // sorted by polygon
-  std::vector<LightNote> light_notes;   // sorted by light
-  std::vector<std::uint32_t> vertex_of_input;  // Scene::vertices index -> geometry vertex id (kUnused)
-  unsigned position_bits = 0;           // b: bits of the grid
-  unsigned direction_bits = 0;          // e: bits of the largest directional component
+  std::vector<PreparedLight> lights;      // in order of Scene::lights
+  std::vector<PreparationNote> notes;     // sorted by polygon
+  std::vector<LightNote> light_notes;     // sorted by light
+  std::vector<std::uint32_t>
+      vertex_of_input;          // Scene::vertices index -> geometry vertex id (kUnused)
+  unsigned position_bits = 0;   // b: bits of the grid
+  unsigned direction_bits = 0;  // e: bits of the largest directional component
 
   static constexpr std::uint32_t kUnused = 0xffffffffu;
 
@@ -87,14 +89,15 @@ struct PreparedScene {
   }
 };
 
-/// Loops and holes may touch themselves and each other in vertices and along edges (a keyhole, two lobes
-/// that meet in a vertex, a hole on the border): the region is what counts, and what two rings share
-/// cancels. Crossing is an error. An ear is clipped only if its closed triangle holds no other vertex, so
-/// that touching vertices forbid it (scene/src/polygon_cut.h has the rule). Of repeated vertices the
-/// smallest index of Scene::vertices counts. Vertices that no loop names have no part in the grid.
-/// Errors: kGeometry (a loop that crosses itself or runs round an area twice, a hole that crosses or
-/// leaves its loop or overlaps another, degenerate or non-planar area light, zero to_light), kIndex. Cost: O(n log n) for n vertices, plus the square of a loop's size where it is
-/// not convex.
+/// Loops and holes may touch themselves and each other in vertices and along edges (a keyhole, two
+/// lobes that meet in a vertex, a hole on the border): the region is what counts, and what two
+/// rings share cancels. Crossing is an error. An ear is clipped only if its closed triangle holds
+/// no other vertex, so that touching vertices forbid it (scene/src/polygon_cut.h has the rule). Of
+/// repeated vertices the smallest index of Scene::vertices counts. Vertices that no loop names have
+/// no part in the grid. Errors: kGeometry (a loop that crosses itself or runs round an area twice,
+/// a hole that crosses or leaves its loop or overlaps another, degenerate or non-planar area light,
+/// zero to_light), kIndex. Cost: O(n log n) for n vertices, plus the square of a loop's size where
+/// it is not convex.
 Expected<PreparedScene> prepare(const Scene& scene);
 
 }  // namespace gnomon

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A scene as its file says, before anything is checked or changed beyond syntax: vertices, polygons
-// with holes, lights. Readers fill it, writers print it, generators make it, prepare.h takes it apart.
+// with holes, lights. Readers fill it, writers print it, generators make it, prepare.h takes it
+// apart.
 #ifndef GNOMON_SCENE_SCENE_H
 #define GNOMON_SCENE_SCENE_H
 
@@ -30,8 +31,8 @@ enum class LightType : std::uint8_t { kPoint, kDirectional, kArea };
 struct Light {
   std::string id;
   LightType type = LightType::kPoint;
-  Position position;            // point: position; directional: to_light
-  std::vector<Position> loop;   // area
+  Position position;           // point: position; directional: to_light
+  std::vector<Position> loop;  // area
   Number intensity{1.0};
 };
 
