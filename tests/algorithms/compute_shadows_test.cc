@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "families.h"
+#include "gnomon/scene/generate.h"
+#include "gnomon/scene/prepare.h"
 #include "scene_pen.h"
 #include "solve.h"
 
@@ -147,6 +149,34 @@ TEST(StageCounts, LatticesNeedNarrowIntegersOnly) {
 
 TEST(StageCounts, MixedMagnitudesNeedUnboundedIntegers) {
   EXPECT_GT(stages_of("MixedMagnitudes", true).unbounded, 0u);
+}
+
+// The grid's bits are those of the vertices: the width of the exact stage must follow the lamp.
+TEST(FarLamp, ExactStageIsAsWideAsTheLampNeeds) {
+  for (const int exponent : {20, 40, 50, 52, 56, 60, 70, 200}) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      auto scene = generate("lattice", {{"n", 20}, {"size", 16}}, seed);
+      ASSERT_TRUE(scene) << to_string(scene.error());
+      const double far = std::ldexp(1.0, exponent);
+      Light lamp;
+      lamp.id = "far";
+      lamp.position = {Number(far + 5), Number(2 * far + 5), Number(far + 7)};
+      scene->lights = {lamp};
+      const auto prepared = prepare(*scene);
+      ASSERT_TRUE(prepared) << to_string(prepared.error());
+      ShadowOptions options;
+      options.exact_fractions = true;
+      const auto plane = compute_shadows(*prepared, options);
+      options.kernel = KernelId::kRational;
+      const auto rational = compute_shadows(*prepared, options);
+      ASSERT_TRUE(plane && rational);
+      const auto& ours = plane->lights[0].parts;
+      const auto& theirs = rational->lights[0].parts;
+      for (std::size_t i = 0; i < ours.size(); ++i) {
+        EXPECT_EQ(ours[i].exact_lit, theirs[i].exact_lit) << "2^" << exponent << " part " << i;
+      }
+    }
+  }
 }
 
 }  // namespace
