@@ -9,9 +9,8 @@
 
 namespace gnomon {
 
-template <class Vertex>
-class BspBuilderState {
- public:
+/// What the tree needs only while it is built.
+struct BspBuilderState {
   std::vector<ApproximateBox> boxes;  // per piece
   std::vector<PlaneId> planes;        // per piece: its support plane
   std::vector<std::uint32_t> work;    // pieces of all open tasks, the top task's last
@@ -26,7 +25,7 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
                                                  std::uint64_t max_pieces) {
   using Vertex = typename Space::Vertex;
   SceneBsp<Vertex> tree;
-  BspBuilderState<Vertex> state;
+  BspBuilderState state;
   const SceneEdges names = space.edges();
 
   const auto add_piece = [&](const LoopRange& range, PlaneId plane) {

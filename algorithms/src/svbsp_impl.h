@@ -24,7 +24,6 @@ void SvbspTree<Space>::plant(const PrefixTree& prefix) {
         {space_->add_prefix_plane(planned.plane), link(planned.front), link(planned.back)});
   }
   nodes_[0].front = 1;
-  prefix_nodes_ = prefix.nodes.size();
 }
 
 template <LightSpaceModel Space>

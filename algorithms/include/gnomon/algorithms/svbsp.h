@@ -59,7 +59,6 @@ class SvbspTree {
   void filter(const LoopView<Vertex>& loop, FilterActions actions, SvbspOutput<Vertex>& output);
 
   std::uint64_t node_count() const { return nodes_.size() - 1; }
-  std::uint64_t prefix_nodes() const { return prefix_nodes_; }
   /// Children with fewer than three vertices that were dropped (rounded kernels).
   std::uint64_t vanished() const { return vanished_; }
 
@@ -94,7 +93,7 @@ class SvbspTree {
   Space* space_;
   bool merge_siblings_;
   std::vector<Node> nodes_;  // 0 is a sentinel whose front child is the root
-  std::uint64_t prefix_nodes_ = 0, vanished_ = 0;
+  std::uint64_t vanished_ = 0;
   // Scratch of filter(), kept to save allocations.
   std::vector<Frame> stack_;
   LoopStore<Vertex> work_, parent_;

@@ -85,7 +85,6 @@ class EpeckLightSpace {
   /// Scene units.
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
   std::string describe(PlaneRef plane) const;
-  std::size_t plane_count() const { return planes_.size(); }
   StageCounts stage_counts() const { return {}; }
 
  private:

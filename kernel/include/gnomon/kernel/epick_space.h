@@ -90,7 +90,6 @@ class EpickLightSpace {
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
   std::string describe(PlaneRef plane) const;
-  std::size_t plane_count() const { return planes_.size(); }
   StageCounts stage_counts() const { return {}; }
 
  private:

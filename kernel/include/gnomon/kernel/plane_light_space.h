@@ -75,7 +75,6 @@ class PlaneLightSpace {
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
   /// In words, for explanations: "edge 12 (4-7)", "trace", ...
   std::string describe(PlaneRef plane) const;
-  std::size_t plane_count() const { return planes_.size(); }
   StageCounts stage_counts() const { return stats_.counts(); }
 
  private:
