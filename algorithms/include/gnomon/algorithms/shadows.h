@@ -16,8 +16,17 @@
 
 namespace gnomon {
 
+/// Two ways to the same answer (docs/algorithms.md).
+enum class Algorithm : std::uint8_t {
+  kAutomatic,  // sectors, or svbsp where only that can do it (`combined`)
+  kSvbsp,      // scene BSP, front-to-back order, SVBSP tree
+  kSectors,    // no order: a k-d tree of light space, subtraction of casters in its leaves
+};
+
 struct ShadowOptions {
   KernelId kernel = KernelId::kPlane;
+  Algorithm algorithm = Algorithm::kAutomatic;
+  unsigned jobs = 0;  // threads of the sectors algorithm; 0: all. The answer does not depend on it
   bool identity = false;                 // for rounded kernels; `plane` always knows
   double thickness = kDefaultThickness;  // relative to the scene's diagonal; rounded kernels only
   std::vector<std::uint32_t>

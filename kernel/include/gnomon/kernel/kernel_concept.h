@@ -56,6 +56,33 @@ concept LightSpaceModel = DecisionSpace<S> && SceneSpaceModel<typename S::SceneS
   { constant.exact_position(corner) } -> std::same_as<std::array<mpq_class, 3>>;
 };
 
+/// What the sectors algorithm needs besides: it has no order of the polygons, so it compares their
+/// depths, cuts one polygon where it passes through the plane of another, and runs on many threads.
+template <class S>
+concept SectorSpaceModel = LightSpaceModel<S> &&
+    requires(S& space, const S& constant, EdgeId edge, PlaneId plane, std::uint32_t mark,
+             const LightChart& chart, const Corner<typename S::Vertex>& corner) {
+  /// Whether forks may be used by different threads at the same time.
+  { S::kParallel } -> std::convertible_to<bool>;
+  /// A space with the same planes so far; what either adds later is its own. Cheap: edge planes are
+  /// shared. The original must outlive it and make no more edge planes.
+  { constant.fork() } -> std::same_as<S>;
+  /// Makes the planes of the edges [edge, edge) ahead, so that import_edge of a whole polygon only
+  /// looks them up. Disjoint ranges may be made by different threads if kParallel.
+  space.make_edge_planes(edge, edge);
+  /// Planes other than those of edges are a stack: release_planes(m) forgets those added since
+  /// plane_mark() was m.
+  { constant.plane_mark() } -> std::same_as<std::uint32_t>;
+  space.release_planes(mark);
+  /// On which side of a support plane, in its own orientation, is the corner, a point of the
+  /// support plane of its loop?
+  { space.side_of_support(plane, corner) } -> std::same_as<Side>;
+  /// A plane that cuts support plane `first` where `second` does; its front is the part of `first`
+  /// in front of `second`. Not for planes that do not meet in a line.
+  { space.cut_of_supports(plane, plane) } -> std::same_as<PlaneRef>;
+  { constant.chart_point(chart, corner) } -> std::same_as<ChartPoint>;
+};
+
 }  // namespace gnomon
 
 #endif  // GNOMON_KERNEL_KERNEL_CONCEPT_H

@@ -43,6 +43,26 @@ struct LightAxes {
   }
 };
 
+/// A chart of the directions with `sign` q_w > 0: (q_u / q_w, q_v / q_w). u, v, w are components of
+/// q. A directional light has one chart, {0, 1, 2} and the sign of its d_z.
+struct LightChart {
+  int u = 0, v = 1, w = 2;
+  int sign = 1;
+};
+
+/// Where a point is as seen from the light. For a directional light u and v are x - z d_x / d_z and
+/// y - z d_y / d_z of grid positions, in units of 2^b grid steps, so that they do not depend on the
+/// kernel; for a point light they have no unit.
+struct ChartPoint {
+  double u = 0, v = 0;
+  /// Grows towards the light, and is an affine function of (u, v) on every plane: 1 / |q_w| for a
+  /// point light, sign * z for a directional one. The unit is the kernel's own.
+  double z = 0;
+  /// Bounds of the absolute errors of u and v, and of z; infinite where nothing is known. Rounded
+  /// kernels take their coordinates as they are and count only what is rounded here.
+  double uv_error = 0, z_error = 0;
+};
+
 }  // namespace gnomon
 
 #endif  // GNOMON_KERNEL_LIGHT_SPACE_H
