@@ -5,10 +5,16 @@ namespace gnomon {
 
 std::string_view width_name(IntegerWidth width) {
   switch (width) {
+    case IntegerWidth::k64:
+      return "64";
     case IntegerWidth::k128:
       return "128";
+    case IntegerWidth::k256:
+      return "256";
     case IntegerWidth::k512:
       return "512";
+    case IntegerWidth::k1024:
+      return "1024";
     case IntegerWidth::kUnbounded:
       return "GMP";
   }

@@ -13,33 +13,15 @@
 namespace gnomon::test {
 namespace {
 
-template <class Int>
-Int narrowed(const mpz_class& value) {
-  Int result = 0;
-  const mpz_class magnitude = abs(value);
-  for (std::size_t i = mpz_sizeinbase(magnitude.get_mpz_t(), 2); i-- > 0;) {
-    result = Int(result * 2 + mpz_tstbit(magnitude.get_mpz_t(), i));
-  }
-  return value < 0 ? Int(-result) : result;
-}
-
-template <class Int>
-mpz_class widened(Int value) {
-  const bool negative = value < 0;
-  if (negative) value = Int(-value);
-  mpz_class result = 0;
-  for (int shift = 0; value != 0; shift += 32) {
-    result += mpz_class(static_cast<unsigned long>(
-                  static_cast<std::uint64_t>(Int(value & Int(0xffffffffu)))))
-              << shift;
-    value = Int(value >> 32);
-  }
-  return negative ? mpz_class(-result) : result;
+mpz_class widened(const Int128& value) { return to_mpz(WideInteger<2>(value)); }
+template <std::size_t Limbs>
+mpz_class widened(const WideInteger<Limbs>& value) {
+  return to_mpz(value);
 }
 
 template <class Int>
 Vector3<Int> narrowed(const Integers& v) {
-  return {narrowed<Int>(v[0]), narrowed<Int>(v[1]), narrowed<Int>(v[2])};
+  return {integer_from<Int>(v[0]), integer_from<Int>(v[1]), integer_from<Int>(v[2])};
 }
 
 /// Magnitudes below 2^bits: mostly the very largest, with every pattern of signs.

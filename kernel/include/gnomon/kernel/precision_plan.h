@@ -17,7 +17,7 @@
 namespace gnomon {
 
 /// What the exact stage computes with.
-enum class IntegerWidth : std::uint8_t { k128, k512, kUnbounded };
+enum class IntegerWidth : std::uint8_t { k64, k128, k256, k512, k1024, kUnbounded };
 
 constexpr IntegerWidth width_for(unsigned signed_bits) {
   return signed_bits <= 128   ? IntegerWidth::k128
