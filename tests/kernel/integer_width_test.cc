@@ -41,7 +41,7 @@ void check_side_of_input_vertex(unsigned n_bits, unsigned q_bits) {
   Random random(n_bits);
   for (int round = 0; round < 2000; ++round) {
     const Integers n = extreme(random, n_bits), q = extreme(random, q_bits);
-    ASSERT_EQ(widened(dot(narrowed<Int>(n), narrowed<Int>(q))), dot(n, q));
+    ASSERT_EQ(widened(gnomon::dot(narrowed<Int>(n), narrowed<Int>(q))), test::dot(n, q));
   }
 }
 
