@@ -10,8 +10,6 @@
 namespace gnomon {
 namespace coordinate_detail {
 
-inline constexpr std::uint32_t kNone = 0xffffffffu;
-
 template <class T>
 std::array<T, 3> cross(const std::array<T, 3>& a, const std::array<T, 3>& b) {
   return {T(a[1] * b[2] - a[2] * b[1]), T(a[2] * b[0] - a[0] * b[2]), T(a[0] * b[1] - a[1] * b[0])};
@@ -131,20 +129,13 @@ CoordinateSceneSpace<T>::CoordinateSceneSpace(const Geometry& geometry,
 }
 
 template <class T>
-Side CoordinateSceneSpace<T>::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+Side CoordinateSceneSpace<T>::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) const {
   const PlaneId plane = ref.index();
-  if (planes_.identity()) {
-    if (plane == corner.support || corner.before.index() == plane ||
-        corner.after.index() == plane) {
-      return Side::kOn;
-    }
-    const VertexId source = corner.vertex.source;
-    const SupportTriple& triple = geometry_->planes[plane];
-    if (source != kMadeVertex && (source == triple.a || source == triple.b || source == triple.c)) {
-      return Side::kOn;
-    }
+  if (planes_.identity() && (corner.before.index() == plane || corner.after.index() == plane ||
+                             is_known_on_support(*geometry_, plane, corner))) {
+    return Side::kOn;
   }
-  const Side side = planes_.side(support_[plane], corner.vertex);
+  const Side side = side_of_support(plane, corner.vertex);
   return ref.flipped() ? opposite(side) : side;
 }
 
@@ -154,38 +145,57 @@ std::array<double, 3> CoordinateSceneSpace<T>::approximate(const Vertex& vertex)
   return {to_double(vertex.x[0]), to_double(vertex.x[1]), to_double(vertex.x[2])};
 }
 
+namespace coordinate_detail {
+
+/// Position in scene units, or direction.
+template <class T>
+std::array<T, 3> light_of(const Geometry& geometry, const LightPoint& light) {
+  std::array<T, 3> result;
+  for (int k = 0; k < 3; ++k) {
+    if constexpr (std::is_same_v<T, mpq_class>) {
+      result[k] = light.directional ? mpq_class(light.grid[k])
+                                    : mpq_class(geometry.origin[k] + geometry.step * light.grid[k]);
+    } else {
+      result[k] = static_cast<T>(light.nearest[k]);
+    }
+  }
+  return result;
+}
+
+}  // namespace coordinate_detail
+
 template <class T>
 CoordinateLightSpace<T>::CoordinateLightSpace(SceneSpace& scene, const LightPoint& light,
                                               const KernelOptions&)
-    : scene_(&scene),
-      identity_(scene.arithmetic().identity()),
+    : Base(scene, scene.arithmetic().identity()),
+      planes_(scene.arithmetic()),
       directional_(light.directional),
-      axes_(LightAxes::of(light)) {
-  const Geometry& geometry = scene.geometry();
-  for (int k = 0; k < 3; ++k) {
-    if constexpr (kExact) {
-      light_[k] = light.directional ? mpq_class(light.grid[k])
-                                    : mpq_class(geometry.origin[k] + geometry.step * light.grid[k]);
-    } else {
-      light_[k] = static_cast<T>(light.nearest[k]);
-    }
+      light_(coordinate_detail::light_of<T>(scene.geometry(), light)),
+      axes_(LightAxes::of(light)),
+      chart_(make_chart(scene.geometry(), light, light_)) {}
+
+template <class T>
+typename CoordinateLightSpace<T>::Chart CoordinateLightSpace<T>::make_chart(
+    const Geometry& geometry, const LightPoint& light, const std::array<T, 3>& kept) {
+  if constexpr (kExact) {
+    return Chart(light, grid_extent(geometry));
+  } else {
+    return Chart(geometry, light, {Wide(kept[0]), Wide(kept[1]), Wide(kept[2])});
   }
-  plane_of_edge_.assign(geometry.edges.size(), coordinate_detail::kNone);
 }
 
 template <class T>
 Sign CoordinateLightSpace<T>::light_side(PlaneId id) const {
-  const CoordinatePlane<T>& plane = scene_->support(id);
+  const CoordinatePlane<T>& plane = this->scene().support(id);
   const T value = coordinate_detail::dot(plane.n, light_);
   if (directional_) {
     // The thickness of a plane of the scene's size, as an angle to a direction.
-    const T thickness =
-        scene_->arithmetic().relative_thickness() * coordinate_detail::length_of(light_);
+    const T thickness = planes_.relative_thickness() * coordinate_detail::length_of(light_);
     return coordinate_detail::side_of_zero(value, thickness);
   }
   Vertex light;
   light.x = light_;
-  return static_cast<Sign>(scene_->arithmetic().side(plane, light));
+  return static_cast<Sign>(planes_.side(plane, light));
 }
 
 template <class T>
@@ -193,33 +203,7 @@ CoordinatePlane<T> CoordinateLightSpace<T>::shadow_plane_of(const Vertex& from,
                                                             const Vertex& to) const {
   using namespace coordinate_detail;
   const std::array<T, 3> towards = directional_ ? light_ : minus(light_, from.x);
-  return scene_->arithmetic().plane_from(coordinate_detail::cross(towards, minus(to.x, from.x)),
-                                         from.x);
-}
-
-template <class T>
-PlaneRef CoordinateLightSpace<T>::import_edge(PlaneRef scene_edge, PlaneId, bool reversed,
-                                              const Vertex& from, const Vertex& to) {
-  if (!identity_) return {};  // shadow_plane computes it if and when the fragment is inserted
-  const SceneEdges names = scene_->edges();
-  if (!names.is_input_edge(scene_edge)) return add(shadow_plane_of(from, to));
-  const EdgeId edge = names.edge(scene_edge);
-  const EdgeEnds ends = scene_->geometry().edges[edge];
-  if (plane_of_edge_[edge] == coordinate_detail::kNone) {
-    plane_of_edge_[edge] = static_cast<std::uint32_t>(planes_.size());
-    CoordinatePlane<T> plane =
-        shadow_plane_of(scene_->input_vertex(ends.a), scene_->input_vertex(ends.b));
-    plane.a = ends.a;
-    plane.b = ends.b;
-    add(std::move(plane));
-  }
-  return PlaneRef(plane_of_edge_[edge], scene_edge.flipped() != reversed);
-}
-
-template <class T>
-PlaneRef CoordinateLightSpace<T>::shadow_plane(PlaneRef edge, const Vertex& from,
-                                               const Vertex& to) {
-  return identity_ ? edge : add(shadow_plane_of(from, to));
+  return planes_.plane_from(coordinate_detail::cross(towards, minus(to.x, from.x)), from.x);
 }
 
 // Point light: n . q with q = L - v is n . L - n . v. Directional light: n_u q_u + n_z q_z is
@@ -243,7 +227,7 @@ PlaneRef CoordinateLightSpace<T>::add_prefix_plane(const PrefixPlane& prefix) {
     const int u = first ? axes_.x : axes_.y, z = axes_.z;
     normal[u] = number(along) * light_[z];
     normal[z] = -(number(along) * light_[u]);
-    const Geometry& geometry = scene_->geometry();
+    const Geometry& geometry = this->scene().geometry();
     for (int k = 0; k < 3; ++k) {
       mpq_class coordinate = geometry.origin[k];
       if (k == u) {
@@ -254,27 +238,18 @@ PlaneRef CoordinateLightSpace<T>::add_prefix_plane(const PrefixPlane& prefix) {
       point[k] = number(coordinate);
     }
   }
-  return add(scene_->arithmetic().plane_from(std::move(normal), point));
-}
-
-template <class T>
-Side CoordinateLightSpace<T>::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
-  const CoordinatePlane<T>& plane = planes_[ref.index()];
-  if (identity_) {
-    if (ref.same_plane(corner.before) || ref.same_plane(corner.after)) return Side::kOn;
-    const VertexId source = corner.vertex.source;
-    if (source != kMadeVertex && (source == plane.a || source == plane.b)) return Side::kOn;
-  }
-  const Side side = scene_->arithmetic().side(plane, corner.vertex);
-  return ref.flipped() ? opposite(side) : side;
+  return this->add(planes_.plane_from(std::move(normal), point));
 }
 
 template <class T>
 std::array<Ball, 3> CoordinateLightSpace<T>::position(const Corner<Vertex>& corner) const {
   std::array<Ball, 3> point;
   for (int k = 0; k < 3; ++k) {
-    const double x = coordinate_detail::to_double(corner.vertex.x[k]);
-    point[k] = kExact ? Ball(x, 2 * Ball::kUnit * std::fabs(x)) : Ball(x);
+    if constexpr (kExact) {
+      point[k] = enclose(corner.vertex.x[k]);
+    } else {
+      point[k] = Ball(static_cast<double>(corner.vertex.x[k]));
+    }
   }
   return point;
 }
@@ -299,11 +274,17 @@ std::array<mpq_class, 3> CoordinateLightSpace<T>::exact_position(
   return point;
 }
 
+// The differences are exact: enclosing the coordinates first would lose what is near the light.
 template <class T>
-std::string CoordinateLightSpace<T>::describe(PlaneRef ref) const {
-  const CoordinatePlane<T>& plane = planes_[ref.index()];
-  if (plane.a == kMadeVertex) return "a shadow plane through two computed vertices";
-  return "the shadow plane of edge " + std::to_string(plane.a) + "-" + std::to_string(plane.b);
+ChartPoint CoordinateLightSpace<T>::enclosed_chart_point(
+    const LightChart& chart, const Vertex& vertex) const requires kExact {
+  const Geometry& geometry = this->scene().geometry();
+  std::array<Ball, 3> from;
+  for (int k = 0; k < 3; ++k) {
+    from[k] = directional_ ? enclose(mpq_class(vertex.x[k] - geometry.origin[k]))
+                           : enclose(mpq_class(light_[k] - vertex.x[k]));
+  }
+  return chart_(chart, from);
 }
 
 }  // namespace gnomon

@@ -14,10 +14,12 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
+#include <type_traits>
 #include <vector>
 
 #include "gnomon/kernel/ball.h"
+#include "gnomon/kernel/chart_formulas.h"
+#include "gnomon/kernel/constructed_light_space.h"
 #include "gnomon/kernel/corner.h"
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/kernel/kernel_options.h"
@@ -37,7 +39,6 @@ template <class T>
 struct CoordinatePlane {
   std::array<T, 3> n{};
   T d{};
-  VertexId a = kMadeVertex, b = kMadeVertex;  // input vertices it was made from (shadow planes)
 };
 
 /// The arithmetic that both spaces share.
@@ -81,7 +82,11 @@ class CoordinateSceneSpace {
   CoordinateSceneSpace(const Geometry& geometry, const KernelOptions& options);
 
   Vertex input_vertex(VertexId v) const { return planes_.input_vertex(v); }
-  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
+  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner) const;
+  /// By arithmetic alone, in the plane's own orientation.
+  Side side_of_support(PlaneId plane, const Vertex& vertex) const {
+    return planes_.side(support_[plane], vertex);
+  }
   Vertex crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
                   const Corner<Vertex>& to) const {
     return planes_.crossing(support_[plane.index()], from.vertex, to.vertex);
@@ -100,50 +105,57 @@ class CoordinateSceneSpace {
 };
 
 template <class T>
-class CoordinateLightSpace {
+class CoordinateLightSpace
+    : public ConstructedLightSpace<CoordinateLightSpace<T>, CoordinateSceneSpace<T>,
+                                   CoordinatePlane<T>> {
+  using Base =
+      ConstructedLightSpace<CoordinateLightSpace, CoordinateSceneSpace<T>, CoordinatePlane<T>>;
+
  public:
   using SceneSpace = CoordinateSceneSpace<T>;
   using Vertex = CoordinateVertex<T>;
   static constexpr bool kExact = SceneSpace::kExact;
+  /// GMP numbers are only read by what forks share.
+  static constexpr bool kParallel = true;
 
   CoordinateLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options);
 
-  bool knows_identity() const { return identity_; }
   Sign light_side(PlaneId plane) const;
-  PlaneRef import_edge(PlaneRef scene_edge, PlaneId support, bool reversed, const Vertex& from,
-                       const Vertex& to);
-  Vertex import_vertex(const typename SceneSpace::Vertex& vertex) const { return vertex; }
-  /// Vertices carry coordinates, so that an edge cut for another light needs no plane here.
-  PlaneRef import_cut(const CoordinateLightSpace&, PlaneRef, PlaneId) { return {}; }
-  void finish_vertex(Vertex&, PlaneRef, PlaneRef) const {}
-  /// With identity an edge keeps its plane; without, a new one is computed from the two vertices.
-  PlaneRef shadow_plane(PlaneRef edge, const Vertex& from, const Vertex& to);
   PlaneRef add_prefix_plane(const PrefixPlane& plane);
-  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
-  Vertex crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
-                  const Corner<Vertex>& to) const {
-    return scene_->arithmetic().crossing(planes_[plane.index()], from.vertex, to.vertex);
-  }
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   /// Scene units.
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
-  std::string describe(PlaneRef plane) const;
-  StageCounts stage_counts() const { return {}; }
+  /// Requires: for a directional light, its one chart.
+  ChartPoint chart_point(const LightChart& chart, const Corner<Vertex>& corner) const {
+    if constexpr (kExact) {
+      return enclosed_chart_point(chart, corner.vertex);
+    } else {
+      return chart_(chart, corner.vertex.x);
+    }
+  }
 
  private:
-  PlaneRef add(CoordinatePlane<T> plane) {
-    planes_.push_back(std::move(plane));
-    return PlaneRef(static_cast<std::uint32_t>(planes_.size() - 1));
-  }
-  CoordinatePlane<T> shadow_plane_of(const Vertex& from, const Vertex& to) const;
+  friend Base;
+  using Wide = std::conditional_t<std::is_same_v<T, long double>, long double, double>;
+  using Chart = std::conditional_t<kExact, EnclosedChart, RoundedChart<Wide>>;
 
-  SceneSpace* scene_;
-  bool identity_;
+  static Chart make_chart(const Geometry& geometry, const LightPoint& light,
+                          const std::array<T, 3>& kept);
+  CoordinatePlane<T> shadow_plane_of(const Vertex& from, const Vertex& to) const;
+  Side side(const CoordinatePlane<T>& plane, const Vertex& vertex) const {
+    return planes_.side(plane, vertex);
+  }
+  Vertex meet(const CoordinatePlane<T>& plane, const Vertex& from, const Vertex& to) const {
+    return planes_.crossing(plane, from, to);
+  }
+  ChartPoint enclosed_chart_point(const LightChart& chart,
+                                  const Vertex& vertex) const requires kExact;
+
+  CoordinatePlanes<T> planes_;  // the scene space's
   bool directional_;
   std::array<T, 3> light_;  // position or to_light
   LightAxes axes_;
-  std::vector<CoordinatePlane<T>> planes_;
-  std::vector<std::uint32_t> plane_of_edge_;
+  Chart chart_;
 };
 
 }  // namespace gnomon

@@ -68,7 +68,9 @@ concept SectorSpaceModel = LightSpaceModel<S> &&
   /// shared. The original must outlive it and make no more edge planes.
   { constant.fork() } -> std::same_as<S>;
   /// Makes the planes of the edges [edge, edge) ahead, so that import_edge of a whole polygon only
-  /// looks them up. Disjoint ranges may be made by different threads if kParallel.
+  /// looks them up. Disjoint ranges may be made by different threads if kParallel. An edge's plane
+  /// that was not made ahead is made by the first import_edge that asks for it, so that one thread
+  /// alone need not call this.
   space.make_edge_planes(edge, edge);
   /// Planes other than those of edges are a stack: release_planes(m) forgets those added since
   /// plane_mark() was m.
