@@ -7,7 +7,6 @@ namespace gnomon {
 namespace {
 
 using Number = Epeck::FT;
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// Any integer, exactly: 52 bits at a time, evaluated at once so that it is a leaf of later
 /// expressions.
@@ -49,8 +48,8 @@ Ball enclose(const Number& value) {
   return {middle, std::nextafter(radius, INFINITY)};
 }
 
-EpeckVertex meet(const Epeck::Plane_3& plane, const Epeck::Point_3& from,
-                 const Epeck::Point_3& to) {
+EpeckVertex meeting_point(const Epeck::Plane_3& plane, const Epeck::Point_3& from,
+                          const Epeck::Point_3& to) {
   const auto result = CGAL::intersection(plane, Epeck::Line_3(from, to));
   // The two points lie strictly on different sides, decided exactly: they meet in one point.
   return {boost::get<Epeck::Point_3>(*result), kMadeVertex};
@@ -76,21 +75,23 @@ EpeckSceneSpace::EpeckSceneSpace(const Geometry& geometry, const KernelOptions&)
   }
 }
 
-Side EpeckSceneSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+Side EpeckSceneSpace::side_of_support(PlaneId plane, const Vertex& vertex) const {
+  return side_of(support_[plane], vertex.point);
+}
+
+Side EpeckSceneSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) const {
   const PlaneId id = ref.index();
-  const SupportTriple& triple = geometry_->planes[id];
-  const VertexId source = corner.vertex.source;
-  if (id == corner.support || corner.before.index() == id || corner.after.index() == id ||
-      (source != kMadeVertex && (source == triple.a || source == triple.b || source == triple.c))) {
+  if (corner.before.index() == id || corner.after.index() == id ||
+      is_known_on_support(*geometry_, id, corner)) {
     return Side::kOn;
   }
-  const Side side = side_of(support_[id], corner.vertex.point);
+  const Side side = side_of_support(id, corner.vertex);
   return ref.flipped() ? opposite(side) : side;
 }
 
 EpeckVertex EpeckSceneSpace::crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
                                       const Corner<Vertex>& to) const {
-  return meet(support_[plane.index()], from.vertex.point, to.vertex.point);
+  return meeting_point(support_[plane.index()], from.vertex.point, to.vertex.point);
 }
 
 std::array<double, 3> EpeckSceneSpace::approximate(const Vertex& vertex) const {
@@ -100,7 +101,10 @@ std::array<double, 3> EpeckSceneSpace::approximate(const Vertex& vertex) const {
 }
 
 EpeckLightSpace::EpeckLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions&)
-    : scene_(&scene), light_(light), axes_(LightAxes::of(light)) {
+    : Base(scene, true),
+      light_(light),
+      axes_(LightAxes::of(light)),
+      chart_(light, mpq_class(mpz_class(1) << scene.geometry().grid.bits())) {
   const Number x = number_from(light.grid[0]), y = number_from(light.grid[1]),
                z = number_from(light.grid[2]);
   if (light.directional) {
@@ -108,34 +112,20 @@ EpeckLightSpace::EpeckLightSpace(SceneSpace& scene, const LightPoint& light, con
   } else {
     position_ = Epeck::Point_3(x, y, z);
   }
-  plane_of_edge_.assign(scene.geometry().edges.size(), kNone);
+  for (int k = 0; k < 3; ++k) enclosed_position_[k] = gnomon::enclose(mpq_class(light.grid[k]));
 }
 
 Sign EpeckLightSpace::light_side(PlaneId plane) const {
-  const Epeck::Plane_3& support = scene_->support(plane);
+  const Epeck::Plane_3& support = scene().support(plane);
   if (!light_.directional) return static_cast<Sign>(static_cast<int>(side_of(support, position_)));
   return static_cast<Sign>(static_cast<int>(CGAL::sign(support.orthogonal_vector() * direction_)));
 }
 
-Epeck::Plane_3 EpeckLightSpace::shadow_plane_of(const Epeck::Point_3& from,
-                                                const Epeck::Point_3& to) const {
+Epeck::Plane_3 EpeckLightSpace::shadow_plane_of(const Vertex& from, const Vertex& to) const {
   // Normal (towards the light) x (to - from): see orientation.h.
-  return light_.directional ? Epeck::Plane_3(from, from + direction_, to)
-                            : Epeck::Plane_3(from, position_, to);
-}
-
-PlaneRef EpeckLightSpace::import_edge(PlaneRef scene_edge, PlaneId, bool reversed,
-                                      const Vertex& from, const Vertex& to) {
-  const SceneEdges names = scene_->edges();
-  if (!names.is_input_edge(scene_edge)) return add({shadow_plane_of(from.point, to.point)});
-  const EdgeId edge = names.edge(scene_edge);
-  if (plane_of_edge_[edge] == kNone) {
-    const EdgeEnds ends = scene_->geometry().edges[edge];
-    plane_of_edge_[edge] = static_cast<std::uint32_t>(planes_.size());
-    add({shadow_plane_of(scene_->input_vertex(ends.a).point, scene_->input_vertex(ends.b).point),
-         ends.a, ends.b});
-  }
-  return PlaneRef(plane_of_edge_[edge], scene_edge.flipped() != reversed);
+  const Epeck::Point_3& a = from.point;
+  return light_.directional ? Epeck::Plane_3(a, a + direction_, to.point)
+                            : Epeck::Plane_3(a, position_, to.point);
 }
 
 // In grid coordinates: see coordinate_space_impl.h.
@@ -143,7 +133,7 @@ PlaneRef EpeckLightSpace::add_prefix_plane(const PrefixPlane& prefix) {
   if (!light_.directional) {
     const Epeck::Vector_3 normal(number_from(-prefix.n[0]), number_from(-prefix.n[1]),
                                  number_from(-prefix.n[2]));
-    return add({Epeck::Plane_3(position_, normal)});
+    return add(Epeck::Plane_3(position_, normal));
   }
   const bool first = sgn(prefix.n[0]) != 0;
   const Number along = number_from(first ? prefix.n[0] : prefix.n[1]);
@@ -152,24 +142,17 @@ PlaneRef EpeckLightSpace::add_prefix_plane(const PrefixPlane& prefix) {
   normal[u] = along * direction_[z];
   normal[z] = -along * direction_[u];
   point[u] = -number_from(prefix.n[2]) / along;
-  return add({Epeck::Plane_3(Epeck::Point_3(point[0], point[1], point[2]),
-                             Epeck::Vector_3(normal[0], normal[1], normal[2]))});
+  return add(Epeck::Plane_3(Epeck::Point_3(point[0], point[1], point[2]),
+                            Epeck::Vector_3(normal[0], normal[1], normal[2])));
 }
 
-Side EpeckLightSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
-  const Plane& plane = planes_[ref.index()];
-  const VertexId source = corner.vertex.source;
-  if (ref.same_plane(corner.before) || ref.same_plane(corner.after) ||
-      (source != kMadeVertex && (source == plane.a || source == plane.b))) {
-    return Side::kOn;
-  }
-  const Side side = side_of(plane.plane, corner.vertex.point);
-  return ref.flipped() ? opposite(side) : side;
+Side EpeckLightSpace::side(const Epeck::Plane_3& plane, const Vertex& vertex) const {
+  return side_of(plane, vertex.point);
 }
 
-EpeckVertex EpeckLightSpace::crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
-                                      const Corner<Vertex>& to) const {
-  return meet(planes_[plane.index()].plane, from.vertex.point, to.vertex.point);
+EpeckVertex EpeckLightSpace::meet(const Epeck::Plane_3& plane, const Vertex& from,
+                                  const Vertex& to) const {
+  return meeting_point(plane, from.point, to.point);
 }
 
 std::array<Ball, 3> EpeckLightSpace::position(const Corner<Vertex>& corner) const {
@@ -178,7 +161,7 @@ std::array<Ball, 3> EpeckLightSpace::position(const Corner<Vertex>& corner) cons
 }
 
 std::array<mpq_class, 3> EpeckLightSpace::exact_position(const Corner<Vertex>& corner) const {
-  const Geometry& geometry = scene_->geometry();
+  const Geometry& geometry = scene().geometry();
   std::array<mpq_class, 3> point;
   for (int k = 0; k < 3; ++k) {
     point[k] = geometry.origin[k] + geometry.step * to_mpq(corner.vertex.point[k].exact());
@@ -186,10 +169,13 @@ std::array<mpq_class, 3> EpeckLightSpace::exact_position(const Corner<Vertex>& c
   return point;
 }
 
-std::string EpeckLightSpace::describe(PlaneRef ref) const {
-  const Plane& plane = planes_[ref.index()];
-  if (plane.a == kMadeVertex) return "a plane through the light";
-  return "the shadow plane of edge " + std::to_string(plane.a) + "-" + std::to_string(plane.b);
+ChartPoint EpeckLightSpace::chart_point(const LightChart& chart,
+                                        const Corner<Vertex>& corner) const {
+  std::array<Ball, 3> from = position(corner);
+  if (!light_.directional) {
+    for (int k = 0; k < 3; ++k) from[k] = enclosed_position_[k] - from[k];
+  }
+  return chart_(chart, from);
 }
 
 }  // namespace gnomon

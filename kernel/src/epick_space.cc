@@ -10,7 +10,6 @@ namespace {
 
 using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = std::array<double, 3>;
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 bool is_finite(const Point& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
@@ -69,7 +68,7 @@ Epick::Plane_3 coefficients(const EpickPlane& plane) {
 /// CGAL's own construction. The predicates put the two ends strictly on different sides, exactly;
 /// the construction knows nothing of that, and where an edge lies almost in the plane it may put
 /// the point far outside the edge. That is what the kernel does, so that is what is measured.
-EpickVertex meet(const Epick::Plane_3& plane, const Point& from, const Point& to) {
+EpickVertex meeting_point(const Epick::Plane_3& plane, const Point& from, const Point& to) {
   EpickVertex vertex;
   const auto result = CGAL::intersection(plane, Epick::Line_3(cgal(from), cgal(to)));
   const Epick::Point_3* point = result ? boost::get<Epick::Point_3>(&*result) : nullptr;
@@ -95,34 +94,35 @@ EpickPlane EpickSceneSpace::support(PlaneId plane) const {
   return result;
 }
 
-Side EpickSceneSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+Side EpickSceneSpace::side_of_support(PlaneId id, const Vertex& vertex) const {
+  const SupportTriple& triple = geometry_->planes[id];
+  const auto& at = geometry_->positions;
+  return side_of(orientation(at[triple.a], at[triple.b], at[triple.c], vertex.x));
+}
+
+Side EpickSceneSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) const {
   const PlaneId id = ref.index();
-  if (identity_) {
-    const SupportTriple& triple = geometry_->planes[id];
-    const VertexId source = corner.vertex.source;
-    if (id == corner.support || corner.before.index() == id || corner.after.index() == id ||
-        (source != kMadeVertex &&
-         (source == triple.a || source == triple.b || source == triple.c))) {
-      return Side::kOn;
-    }
+  if (identity_ && (corner.before.index() == id || corner.after.index() == id ||
+                    is_known_on_support(*geometry_, id, corner))) {
+    return Side::kOn;
   }
-  const EpickPlane plane = support(id);
-  const Sign sign = orientation(plane.a, plane.b, plane.c, corner.vertex.x);
-  return side_of(ref.flipped() ? -sign : sign);
+  const Side side = side_of_support(id, corner.vertex);
+  return ref.flipped() ? opposite(side) : side;
 }
 
 EpickVertex EpickSceneSpace::crossing(PlaneRef ref, PlaneRef, bool, const Corner<Vertex>& from,
                                       const Corner<Vertex>& to) const {
-  return meet(coefficients(support(ref.index())), from.vertex.x, to.vertex.x);
+  return meeting_point(coefficients(support(ref.index())), from.vertex.x, to.vertex.x);
 }
 
 EpickLightSpace::EpickLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions&)
-    : scene_(&scene), identity_(scene.identity()), light_(light), axes_(LightAxes::of(light)) {
-  plane_of_edge_.assign(scene.geometry().edges.size(), kNone);
-}
+    : Base(scene, scene.identity()),
+      light_(light),
+      axes_(LightAxes::of(light)),
+      chart_(scene.geometry(), light, light.nearest) {}
 
 Sign EpickLightSpace::light_side(PlaneId id) const {
-  const EpickPlane plane = scene_->support(id);
+  const EpickPlane plane = scene().support(id);
   if (!light_.directional) return orientation(plane.a, plane.b, plane.c, light_.nearest);
   // ((b - a) x (c - a)) . d = (d x (b - a)) . (c - a)
   return direction_orientation(plane.a, light_.nearest, plane.b, plane.c);
@@ -135,27 +135,6 @@ EpickPlane EpickLightSpace::shadow_plane_of(const Vertex& from, const Vertex& to
   plane.b = light_.nearest;
   plane.c = to.x;
   return plane;
-}
-
-PlaneRef EpickLightSpace::import_edge(PlaneRef scene_edge, PlaneId, bool reversed,
-                                      const Vertex& from, const Vertex& to) {
-  if (!identity_) return {};
-  const SceneEdges names = scene_->edges();
-  if (!names.is_input_edge(scene_edge)) return add(shadow_plane_of(from, to));
-  const EdgeId edge = names.edge(scene_edge);
-  if (plane_of_edge_[edge] == kNone) {
-    const EdgeEnds ends = scene_->geometry().edges[edge];
-    plane_of_edge_[edge] = static_cast<std::uint32_t>(planes_.size());
-    EpickPlane plane = shadow_plane_of(scene_->input_vertex(ends.a), scene_->input_vertex(ends.b));
-    plane.from = ends.a;
-    plane.to = ends.b;
-    add(plane);
-  }
-  return PlaneRef(plane_of_edge_[edge], scene_edge.flipped() != reversed);
-}
-
-PlaneRef EpickLightSpace::shadow_plane(PlaneRef edge, const Vertex& from, const Vertex& to) {
-  return identity_ ? edge : add(shadow_plane_of(from, to));
 }
 
 // The same planes as in coordinate_space_impl.h, with exact coefficients.
@@ -172,70 +151,52 @@ PlaneRef EpickLightSpace::add_prefix_plane(const PrefixPlane& prefix) {
     const int u = first ? axes_.x : axes_.y, z = axes_.z;
     normal[u] = along * light[z];
     normal[z] = -along * light[u];
-    const Geometry& geometry = scene_->geometry();
+    const Geometry& geometry = scene().geometry();
     point = geometry.origin;
     mpq_class ratio(prefix.n[2], along);
     ratio.canonicalize();
     point[u] -= geometry.step * ratio;
   }
-  LinearPlane linear;
+  EpickPlane::Linear linear;
   linear.exact[3] = 0;
   for (int k = 0; k < 3; ++k) {
     linear.exact[k] = normal[k];
     linear.exact[3] += normal[k] * point[k];
   }
-  for (int k = 0; k < 4; ++k) {
-    const double d = linear.exact[k].get_d();
-    linear.enclosure[k] = Ball(d, 2 * Ball::kUnit * std::fabs(d) + Ball::kTiny);
-  }
-  linear_.push_back(std::move(linear));
+  for (int k = 0; k < 4; ++k) linear.enclosure[k] = enclose(linear.exact[k]);
   EpickPlane plane;
   plane.kind = EpickPlane::Kind::kLinear;
-  plane.linear = static_cast<std::uint32_t>(linear_.size() - 1);
-  return add(plane);
+  plane.linear = std::make_shared<const EpickPlane::Linear>(std::move(linear));
+  return add(std::move(plane));
 }
 
-Sign EpickLightSpace::sign(const EpickPlane& plane, const Point& v) const {
+Side EpickLightSpace::side(const EpickPlane& plane, const Vertex& vertex) const {
+  const Point& v = vertex.x;
   switch (plane.kind) {
     case EpickPlane::Kind::kPoints:
-      return orientation(plane.a, plane.b, plane.c, v);
+      return side_of(orientation(plane.a, plane.b, plane.c, v));
     case EpickPlane::Kind::kDirection:
-      return direction_orientation(plane.a, plane.b, plane.c, v);
+      return side_of(direction_orientation(plane.a, plane.b, plane.c, v));
     case EpickPlane::Kind::kLinear:
       break;
   }
-  if (!is_finite(v)) return Sign::kZero;
-  const LinearPlane& linear = linear_[plane.linear];
-  const auto& e = linear.enclosure;
+  if (!is_finite(v)) return Side::kOn;
+  const auto& e = plane.linear->enclosure;
   const Ball near = e[0] * Ball(v[0]) + e[1] * Ball(v[1]) + e[2] * Ball(v[2]) - e[3];
-  if (near.is_finite() && near.lower() > 0) return Sign::kPositive;
-  if (near.is_finite() && near.upper() < 0) return Sign::kNegative;
-  mpq_class exact = -linear.exact[3];
-  for (int k = 0; k < 3; ++k) exact += linear.exact[k] * mpq_class(v[k]);
-  return static_cast<Sign>(sgn(exact));
+  if (near.is_finite() && near.lower() > 0) return Side::kFront;
+  if (near.is_finite() && near.upper() < 0) return Side::kBack;
+  mpq_class exact = -plane.linear->exact[3];
+  for (int k = 0; k < 3; ++k) exact += plane.linear->exact[k] * mpq_class(v[k]);
+  return side_of(sign_of(exact));
 }
 
-Side EpickLightSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
-  const EpickPlane& plane = planes_[ref.index()];
-  if (identity_) {
-    const VertexId source = corner.vertex.source;
-    if (ref.same_plane(corner.before) || ref.same_plane(corner.after) ||
-        (source != kMadeVertex && (source == plane.from || source == plane.to))) {
-      return Side::kOn;
-    }
-  }
-  const Sign s = sign(plane, corner.vertex.x);
-  return side_of(ref.flipped() ? -s : s);
-}
-
-EpickVertex EpickLightSpace::crossing(PlaneRef ref, PlaneRef, bool, const Corner<Vertex>& from,
-                                      const Corner<Vertex>& to) const {
-  const EpickPlane& plane = planes_[ref.index()];
+EpickVertex EpickLightSpace::meet(const EpickPlane& plane, const Vertex& from,
+                                  const Vertex& to) const {
   if (plane.kind != EpickPlane::Kind::kLinear) {
-    return meet(coefficients(plane), from.vertex.x, to.vertex.x);
+    return meeting_point(coefficients(plane), from.x, to.x);
   }
-  const auto& e = linear_[plane.linear].enclosure;
-  return meet({e[0].middle, e[1].middle, e[2].middle, -e[3].middle}, from.vertex.x, to.vertex.x);
+  const auto& e = plane.linear->enclosure;
+  return meeting_point({e[0].middle, e[1].middle, e[2].middle, -e[3].middle}, from.x, to.x);
 }
 
 std::array<Ball, 3> EpickLightSpace::position(const Corner<Vertex>& corner) const {
@@ -247,13 +208,6 @@ std::array<mpq_class, 3> EpickLightSpace::exact_position(const Corner<Vertex>& c
   if (!is_finite(corner.vertex.x)) return point;
   for (int k = 0; k < 3; ++k) point[k] = corner.vertex.x[k];
   return point;
-}
-
-std::string EpickLightSpace::describe(PlaneRef ref) const {
-  const EpickPlane& plane = planes_[ref.index()];
-  if (plane.kind == EpickPlane::Kind::kLinear) return "a plane of the balanced prefix";
-  if (plane.from == kMadeVertex) return "a shadow plane through two computed vertices";
-  return "the shadow plane of edge " + std::to_string(plane.from) + "-" + std::to_string(plane.to);
 }
 
 }  // namespace gnomon

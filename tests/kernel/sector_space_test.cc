@@ -2,13 +2,38 @@
 #include "sector_space_test.h"
 
 #include "gnomon/kernel/coordinate_space.h"
+#include "gnomon/kernel/epick_space.h"
 
 namespace gnomon::test {
 namespace {
 
 using Kernels = testing::Types<CoordinateLightSpace<float>, CoordinateLightSpace<double>,
-                               CoordinateLightSpace<long double>, CoordinateLightSpace<mpq_class>>;
+                               CoordinateLightSpace<long double>, CoordinateLightSpace<mpq_class>,
+                               EpickLightSpace>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Kernels, SectorSpace, Kernels);
+
+TEST(SectorSpaceThickness, ASupportPlaneHasIt) {
+  // The diagonal is 3000; the second triangle's corners are 1, 2 and 3 from the plane z = 0.
+  const TriangleSoup soup({{{{0, 0, 0}, {2000, 0, 0}, {0, 2000, 0}}},
+                           {{{1000, 1000, 1}, {1000, 0, 2}, {2000, 2000, 1000}}},
+                           {{{1000, 1000, 1}, {1000, 0, 2}, {0, 1000, 3}}}},
+                          0);
+  for (const double thickness : {0.0, 1.5, 2.5}) {
+    const KernelOptions options{.identity = true, .thickness = thickness / 3000};
+    CoordinateSceneSpace<double> scene(soup.geometry(), options);
+    CoordinateLightSpace<double> space(scene, light_at(soup.geometry(), {1, 1, 2000}, false),
+                                       options);
+    const auto loop = Loop<CoordinateLightSpace<double>>::import(soup, scene, space, 2);
+    const PlaneRef cut = space.cut_of_supports(2, 0);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const auto corner = loop.view().corner(i);
+      const double distance = corner.vertex.x[2];
+      const Side expected = distance > thickness ? Side::kFront : Side::kOn;
+      EXPECT_EQ(space.side_of_support(0, corner), expected) << thickness << ' ' << distance;
+      EXPECT_EQ(space.side_of_plane(cut, corner), expected) << thickness << ' ' << distance;
+    }
+  }
+}
 
 }  // namespace
 }  // namespace gnomon::test

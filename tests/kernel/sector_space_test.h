@@ -12,8 +12,11 @@
 
 #include <cmath>
 #include <limits>
+#include <thread>
+#include <type_traits>
 #include <vector>
 
+#include "gnomon/kernel/coordinate_space.h"
 #include "gnomon/kernel/kernel_concept.h"
 #include "triangle_soup.h"
 
@@ -148,6 +151,12 @@ class SectorSpace : public testing::Test {
   static std::vector<unsigned> sizes() {
     return kExact ? std::vector<unsigned>{3, 7, 20, 21, 53, 62, 63, 200}
                   : std::vector<unsigned>{3, 7};
+  }
+  /// Of steps for which the kernel holds 21-bit positions without rounding: the last are subnormal.
+  static std::vector<int> exponents() {
+    if (kExact) return {-3000, -1200, -1074, -1040, -1000, -600, 500, 960, 1000, 1100, 3000};
+    if (std::is_same_v<Space, CoordinateLightSpace<float>>) return {-149, -130, -100, 50, 100};
+    return {-1074, -1060, -1030, -1000, -600, 500, 960, 1002};
   }
 };
 TYPED_TEST_SUITE_P(SectorSpace);
@@ -371,13 +380,20 @@ class DepthScale {
     if (unit_ == 0) {
       if (abs(found) < 8 * error || expected == 0) return abs(found) <= 8 * error;
       if (sgn(found) != sgn(expected)) return false;
-      const auto power = std::lround(std::log2(mpq_class(found / expected).get_d()));
+      const mpq_class ratio = found / expected;
+      const long power = std::lround(log2_of(ratio.get_num()) - log2_of(ratio.get_den()));
       unit_ = power < 0 ? mpq_class(1, mpz_class(1) << -power) : mpq_class(mpz_class(1) << power);
     }
     return abs(found - unit_ * expected) <= error;
   }
 
  private:
+  static double log2_of(const mpz_class& value) {
+    long exponent = 0;
+    const double mantissa = mpz_get_d_2exp(&exponent, value.get_mpz_t());
+    return std::log2(mantissa) + static_cast<double>(exponent);
+  }
+
   bool has_zero_;
   mpq_class zero_ = 0, zero_truth_ = 0, zero_error_ = 0, unit_ = 0;
 };
@@ -439,7 +455,6 @@ void check_charts(Random& random, const TriangleSoup& soup, const Geometry& geom
     }
   };
   for (std::uint32_t i = 0; i < soup.size(); ++i) {
-    if (space.light_side(i) == Sign::kZero) continue;
     const Loop<Space> loop = Loop<Space>::import(soup, scene, space, i);
     check(loop);
     const auto j = static_cast<PlaneId>(random.below(soup.size()));
@@ -460,8 +475,12 @@ TYPED_TEST_P(SectorSpace, ChartPointsEncloseTheTruth) {
       for (int round = 0; round < 12; ++round) {
         const TriangleSoup soup =
             random_soup(random, kind, bits, 4, static_cast<int>(random.between(-30, 30)));
-        const LightPoint light = small_light(random, soup.geometry(), bits, round % 2 == 0);
-        check_charts<Space>(random, soup, soup.geometry(), light, true, finite);
+        const mpq_class step = soup.geometry().step;
+        Rationals origin;
+        for (mpq_class& x : origin) x = step * static_cast<long>(random.between(-65536, 65536));
+        const Geometry geometry = moved(soup.geometry(), origin);
+        const LightPoint light = small_light(random, geometry, bits, round % 2 == 0);
+        check_charts<Space>(random, soup, geometry, light, true, finite);
         if (this->HasFatalFailure()) return;
       }
     }
@@ -469,9 +488,127 @@ TYPED_TEST_P(SectorSpace, ChartPointsEncloseTheTruth) {
   EXPECT_GT(finite, 1000);
 }
 
+/// Where the doubles end: whatever is said there is true, or nothing is said.
+TYPED_TEST_P(SectorSpace, ChartPointsAreTrueAtEveryMagnitude) {
+  using Space = TypeParam;
+  Random random(5);
+  int finite = 0;
+  for (const int exponent : TestFixture::exponents()) {
+    for (const SoupKind kind : kSoupKinds) {
+      for (int round = 0; round < 4; ++round) {
+        const TriangleSoup soup = random_soup(random, kind, 20, 3, exponent);
+        const LightPoint light = small_light(random, soup.geometry(), 20, round % 2 == 0);
+        check_charts<Space>(random, soup, soup.geometry(), light, false, finite);
+        ASSERT_FALSE(this->HasFatalFailure()) << "step 2^" << exponent;
+      }
+    }
+  }
+  EXPECT_GT(finite, 100);
+  if constexpr (Space::kExact) {
+    for (const unsigned bits : {53u, 62u, 63u, 300u, 1100u, 2100u}) {
+      for (const SoupKind kind : kSoupKinds) {
+        for (int round = 0; round < 4; ++round) {
+          const TriangleSoup soup = random_soup(random, kind, bits, 3);
+          // As far as the scene is large, or much farther, or nearer than it is small.
+          const unsigned lamp_bits = round < 2 ? bits : round == 2 ? 3 : 2 * bits;
+          const LightPoint light = small_light(random, soup.geometry(), lamp_bits, round % 2 == 0);
+          check_charts<Space>(random, soup, soup.geometry(), light, false, finite);
+          ASSERT_FALSE(this->HasFatalFailure()) << bits << " bits";
+        }
+      }
+    }
+  }
+}
+
+TYPED_TEST_P(SectorSpace, WithoutIdentityPlanesAreComputed) {
+  using Space = TypeParam;
+  if constexpr (Space::kExact) {
+    GTEST_SKIP() << "an exact kernel knows by identity";
+  } else {
+    constexpr KernelOptions kPlain{.identity = false, .thickness = 0};
+    const TriangleSoup soup(
+        {{{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}}, {{{1, 0, 0}, {1, 3, 0}, {1, 0, 3}}}}, 0);
+    typename Space::SceneSpace scene(soup.geometry(), kPlain);
+    Space space(scene, light_at(soup.geometry(), {1, 1, 4}, false), kPlain);
+    EXPECT_FALSE(space.knows_identity());
+    space.make_edge_planes(0, static_cast<EdgeId>(soup.geometry().edges.size()));
+    const auto a = scene.input_vertex(soup.loop(0)[0]), b = scene.input_vertex(soup.loop(0)[1]);
+    const PlaneRef edge = soup.edge(0, 0);
+    EXPECT_FALSE(
+        space.import_edge(scene.edges().of_edge(edge.index(), edge.flipped()), 0, false, a, b)
+            .valid());
+    const std::uint32_t mark = space.plane_mark();
+    const Loop<Space> loop = Loop<Space>::import(soup, scene, space, 0);
+    EXPECT_EQ(space.plane_mark(), mark + 3);
+    Space fork = space.fork();
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::vector<Side> sides = loop.sides(fork, loop.edges[k]);
+      EXPECT_EQ(sides[k], Side::kOn);
+      EXPECT_EQ(sides[(k + 1) % 3], Side::kOn);
+      EXPECT_EQ(sides[(k + 2) % 3], Side::kFront);
+    }
+    EXPECT_EQ(fork.side_of_support(1, loop.view().corner(0)), Side::kBack);
+    EXPECT_EQ(fork.side_of_support(1, loop.view().corner(1)), Side::kFront);
+    EXPECT_EQ(fork.side_of_support(0, loop.view().corner(2)), Side::kOn);
+    const PlaneRef cut = space.cut_of_supports(0, 1);
+    const Loop<Space> piece = loop.clipped(space, cut, loop.sides(space, cut));
+    ASSERT_EQ(piece.vertices.size(), 3u);  // x >= 1: (1, 0, 0), (3, 0, 0), (1, 2, 0)
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(space.side_of_support(1, piece.view().corner(k)),
+                piece.vertices[k].source == kMadeVertex ? Side::kOn : Side::kFront);
+    }
+  }
+}
+
+TYPED_TEST_P(SectorSpace, ForksRunInParallel) {
+  using Space = TypeParam;
+  if constexpr (!Space::kParallel) {
+    GTEST_SKIP() << "not a parallel kernel";
+  } else {
+    Random random(6);
+    const TriangleSoup soup = random_soup(random, SoupKind::kFull, 7, 40);
+    const auto edges = static_cast<EdgeId>(soup.geometry().edges.size());
+    typename Space::SceneSpace scene(soup.geometry(), TestFixture::kOptions);
+    Space space(scene, small_light(random, soup.geometry(), 7, false), TestFixture::kOptions);
+    const auto together = [](const auto& first, const auto& second) {
+      std::thread thread(first);
+      second();
+      thread.join();
+    };
+    together([&] { space.make_edge_planes(0, edges / 2); },
+             [&] { space.make_edge_planes(edges / 2, edges); });
+    const auto all_sides = [&](Space& fork) {
+      std::vector<Side> all;
+      for (std::uint32_t i = 0; i < soup.size(); ++i) {
+        if (fork.light_side(i) == Sign::kZero) continue;
+        const Loop<Space> loop = Loop<Space>::import(soup, scene, fork, i);
+        for (PlaneId j = 0; j < soup.size(); ++j) {
+          if (!meet_in_line(soup, i, j)) continue;
+          const std::uint32_t mark = fork.plane_mark();
+          const PlaneRef cut = fork.cut_of_supports(i, j);
+          const Loop<Space> piece = loop.clipped(fork, cut, loop.sides(fork, cut));
+          for (std::uint32_t k = 0; k < piece.view().size(); ++k) {
+            all.push_back(fork.side_of_support((j + 1) % soup.size(), piece.view().corner(k)));
+          }
+          fork.release_planes(mark);
+        }
+      }
+      return all;
+    };
+    Space first = space.fork(), second = space.fork();
+    std::vector<Side> from_first, from_second;
+    together([&] { from_first = all_sides(first); }, [&] { from_second = all_sides(second); });
+    EXPECT_GT(from_first.size(), 100u);
+    EXPECT_EQ(from_first, from_second);
+    EXPECT_EQ(from_first, all_sides(space));
+  }
+}
+
 REGISTER_TYPED_TEST_SUITE_P(SectorSpace, ModelsTheConcept, SidesOfSupportPlanesAreTrue,
                             CutsAreOnBothSupportPlanes, EdgePlanesAreTheEdges,
-                            ForksAreIndependentAndPlanesAreAStack, ChartPointsEncloseTheTruth);
+                            ForksAreIndependentAndPlanesAreAStack, ChartPointsEncloseTheTruth,
+                            ChartPointsAreTrueAtEveryMagnitude, WithoutIdentityPlanesAreComputed,
+                            ForksRunInParallel);
 
 }  // namespace gnomon::test
 

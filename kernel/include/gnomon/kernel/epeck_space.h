@@ -13,10 +13,11 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "gnomon/kernel/ball.h"
+#include "gnomon/kernel/chart_formulas.h"
+#include "gnomon/kernel/constructed_light_space.h"
 #include "gnomon/kernel/corner.h"
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/kernel/kernel_options.h"
@@ -41,7 +42,9 @@ class EpeckSceneSpace {
   EpeckSceneSpace(const Geometry& geometry, const KernelOptions& options);
 
   Vertex input_vertex(VertexId v) const { return {points_[v], v}; }
-  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
+  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner) const;
+  /// By arithmetic alone, in the plane's own orientation.
+  Side side_of_support(PlaneId plane, const Vertex& vertex) const;
   Vertex crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
                   const Corner<Vertex>& to) const;
   const Geometry& geometry() const { return *geometry_; }
@@ -59,52 +62,37 @@ class EpeckSceneSpace {
   double step_ = 1;
 };
 
-class EpeckLightSpace {
+class EpeckLightSpace
+    : public ConstructedLightSpace<EpeckLightSpace, EpeckSceneSpace, Epeck::Plane_3> {
+  using Base = ConstructedLightSpace<EpeckLightSpace, EpeckSceneSpace, Epeck::Plane_3>;
+
  public:
-  using SceneSpace = EpeckSceneSpace;
-  using Vertex = EpeckVertex;
-  static constexpr bool kExact = true;
+  /// Deciding may evaluate a lazy number that another fork holds too.
+  static constexpr bool kParallel = false;
 
   EpeckLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options);
 
-  bool knows_identity() const { return true; }
   Sign light_side(PlaneId plane) const;
-  PlaneRef import_edge(PlaneRef scene_edge, PlaneId support, bool reversed, const Vertex& from,
-                       const Vertex& to);
-  Vertex import_vertex(const Vertex& vertex) const { return vertex; }
-  /// Vertices carry coordinates, so that an edge cut for another light needs no plane here.
-  PlaneRef import_cut(const EpeckLightSpace&, PlaneRef, PlaneId) { return {}; }
-  void finish_vertex(Vertex&, PlaneRef, PlaneRef) const {}
-  PlaneRef shadow_plane(PlaneRef edge, const Vertex&, const Vertex&) { return edge; }
   PlaneRef add_prefix_plane(const PrefixPlane& plane);
-  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
-  Vertex crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
-                  const Corner<Vertex>& to) const;
   /// Grid units.
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   /// Scene units.
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
-  std::string describe(PlaneRef plane) const;
-  StageCounts stage_counts() const { return {}; }
+  /// Requires: for a directional light, its one chart.
+  ChartPoint chart_point(const LightChart& chart, const Corner<Vertex>& corner) const;
 
  private:
-  struct Plane {
-    Epeck::Plane_3 plane;
-    VertexId a = kMadeVertex, b = kMadeVertex;
-  };
-  PlaneRef add(Plane plane) {
-    planes_.push_back(std::move(plane));
-    return PlaneRef(static_cast<std::uint32_t>(planes_.size() - 1));
-  }
-  Epeck::Plane_3 shadow_plane_of(const Epeck::Point_3& from, const Epeck::Point_3& to) const;
+  friend Base;
+  Epeck::Plane_3 shadow_plane_of(const Vertex& from, const Vertex& to) const;
+  Side side(const Epeck::Plane_3& plane, const Vertex& vertex) const;
+  Vertex meet(const Epeck::Plane_3& plane, const Vertex& from, const Vertex& to) const;
 
-  SceneSpace* scene_;
   LightPoint light_;
   LightAxes axes_;
   Epeck::Point_3 position_;    // point light
   Epeck::Vector_3 direction_;  // directional light
-  std::vector<Plane> planes_;
-  std::vector<std::uint32_t> plane_of_edge_;
+  std::array<Ball, 3> enclosed_position_;
+  EnclosedChart chart_;
 };
 
 }  // namespace gnomon

@@ -14,10 +14,11 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <vector>
+#include <memory>
 
 #include "gnomon/kernel/ball.h"
+#include "gnomon/kernel/chart_formulas.h"
+#include "gnomon/kernel/constructed_light_space.h"
 #include "gnomon/kernel/corner.h"
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/kernel/kernel_options.h"
@@ -32,15 +33,20 @@ struct EpickVertex {
   VertexId source = kMadeVertex;
 };
 
-/// A plane through a, oriented by two further points, or by a direction and a point.
+/// A plane through a, oriented by two further points, or by a direction and a point; or exact
+/// coefficients.
 struct EpickPlane {
   enum class Kind : std::uint8_t { kPoints, kDirection, kLinear };
+  /// n . v - d.
+  struct Linear {
+    std::array<mpq_class, 4> exact;
+    std::array<Ball, 4> enclosure;
+  };
   Kind kind = Kind::kPoints;
   // kPoints: front where ((b - a) x (c - a)) . (v - a) > 0; kDirection: where (b x (c - a)) . (v -
   // a) > 0.
   std::array<double, 3> a{}, b{}, c{};
-  std::uint32_t linear = 0;  // kLinear: index of exact coefficients (prefix planes)
-  VertexId from = kMadeVertex, to = kMadeVertex;
+  std::shared_ptr<const Linear> linear;  // kLinear (prefix planes)
 };
 
 class EpickSceneSpace {
@@ -51,7 +57,9 @@ class EpickSceneSpace {
   EpickSceneSpace(const Geometry& geometry, const KernelOptions& options);
 
   Vertex input_vertex(VertexId v) const { return {geometry_->positions[v], v}; }
-  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
+  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner) const;
+  /// By CGAL's predicate alone, in the plane's own orientation.
+  Side side_of_support(PlaneId plane, const Vertex& vertex) const;
   Vertex crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
                   const Corner<Vertex>& to) const;
   const Geometry& geometry() const { return *geometry_; }
@@ -66,52 +74,33 @@ class EpickSceneSpace {
   bool identity_;
 };
 
-class EpickLightSpace {
+class EpickLightSpace : public ConstructedLightSpace<EpickLightSpace, EpickSceneSpace, EpickPlane> {
+  using Base = ConstructedLightSpace<EpickLightSpace, EpickSceneSpace, EpickPlane>;
+
  public:
-  using SceneSpace = EpickSceneSpace;
-  using Vertex = EpickVertex;
-  static constexpr bool kExact = false;
+  /// CGAL's filtered predicates keep no state.
+  static constexpr bool kParallel = true;
 
   EpickLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options);
 
-  bool knows_identity() const { return identity_; }
   Sign light_side(PlaneId plane) const;
-  PlaneRef import_edge(PlaneRef scene_edge, PlaneId support, bool reversed, const Vertex& from,
-                       const Vertex& to);
-  Vertex import_vertex(const Vertex& vertex) const { return vertex; }
-  /// Vertices carry coordinates, so that an edge cut for another light needs no plane here.
-  PlaneRef import_cut(const EpickLightSpace&, PlaneRef, PlaneId) { return {}; }
-  void finish_vertex(Vertex&, PlaneRef, PlaneRef) const {}
-  PlaneRef shadow_plane(PlaneRef edge, const Vertex& from, const Vertex& to);
   PlaneRef add_prefix_plane(const PrefixPlane& plane);
-  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
-  Vertex crossing(PlaneRef plane, PlaneRef, bool, const Corner<Vertex>& from,
-                  const Corner<Vertex>& to) const;
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
-  std::string describe(PlaneRef plane) const;
-  StageCounts stage_counts() const { return {}; }
+  /// Requires: for a directional light, its one chart.
+  ChartPoint chart_point(const LightChart& chart, const Corner<Vertex>& corner) const {
+    return chart_(chart, corner.vertex.x);
+  }
 
  private:
-  /// n . v - d with exact coefficients.
-  struct LinearPlane {
-    std::array<mpq_class, 4> exact;
-    std::array<Ball, 4> enclosure;
-  };
-  PlaneRef add(const EpickPlane& plane) {
-    planes_.push_back(plane);
-    return PlaneRef(static_cast<std::uint32_t>(planes_.size() - 1));
-  }
+  friend Base;
   EpickPlane shadow_plane_of(const Vertex& from, const Vertex& to) const;
-  Sign sign(const EpickPlane& plane, const std::array<double, 3>& v) const;
+  Side side(const EpickPlane& plane, const Vertex& vertex) const;
+  Vertex meet(const EpickPlane& plane, const Vertex& from, const Vertex& to) const;
 
-  SceneSpace* scene_;
-  bool identity_;
   LightPoint light_;
   LightAxes axes_;
-  std::vector<EpickPlane> planes_;
-  std::vector<LinearPlane> linear_;
-  std::vector<std::uint32_t> plane_of_edge_;
+  RoundedChart<double> chart_;
 };
 
 }  // namespace gnomon
