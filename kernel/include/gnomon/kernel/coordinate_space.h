@@ -59,7 +59,8 @@ class CoordinatePlanes {
   }
   Side side(const CoordinatePlane<T>& plane, const Vertex& vertex) const {
     const T v = value(plane, vertex);
-    return v > thickness_ ? Side::kFront : v < -thickness_ ? Side::kBack : Side::kOn;
+    // Without branches, which would be mispredicted half of the time.
+    return static_cast<Side>(int{v > thickness_} - int{v < -thickness_});
   }
   Vertex crossing(const CoordinatePlane<T>& plane, const Vertex& from, const Vertex& to) const;
   Vertex input_vertex(VertexId v) const;
