@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The integers that preparation decides with: 128 and 256 bits where the scene's grid lets every
-// determinant fit, GMP integers where it does not. Private to scene/src.
+// The integers that preparation decides with: 64, 128 and 256 bits where the scene's grid lets
+// every determinant fit, GMP integers where it does not. Private to scene/src.
 #ifndef GNOMON_SCENE_SRC_EXACT_INT_H
 #define GNOMON_SCENE_SRC_EXACT_INT_H
 
@@ -21,17 +21,39 @@ __extension__ typedef unsigned __int128 UInt128;
 using Int256 = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
     256, 256, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;
 
-/// Signed bits of the largest quantity: n . (p - q), with n the area vector of a loop of `corners`
-/// vertices, on b-bit coordinates. n is a sum of at most `corners` cross products of differences,
-/// each below 2^(2b+1), a difference is below 2^b, and the dot product has three terms; one bit
-/// more for midpoints (doubled coordinates, degree 2 only) is covered as long as b >= 1, and one
-/// for the sign.
+/// Bits, sign included, of the largest quantity on b-bit coordinates: n . (p - q), with n the area
+/// vector of a polygon of `corners` vertices. n is a sum of at most corners - 2 cross products of
+/// differences, each component of which is below 2^(2b+1); a difference is below 2^b; the dot
+/// product has three terms: together below 3 (corners - 2) 2^(3b+1).
+///
+/// What else there is stays below that. Sides of doubled coordinates (midpoints) are degree 2 and
+/// below 2^(2b+3). The area of a ring that was refined where others touch it has at most corners *
+/// 2^b terms below 2^(2b+1), for an edge has at most 2^b points of the grid inside. A plane's key
+/// is n . p with one or with n as above.
+/// Requires: corners >= 3, those of holes and two more a hole, for its bridge, included.
 constexpr unsigned bits_needed(unsigned b, std::size_t corners) {
-  return 3 * b + 3 + static_cast<unsigned>(std::bit_width(corners)) + 4;
+  return 3 * b + 2 + static_cast<unsigned>(std::bit_width(3 * (corners - 2)));
 }
 
+inline std::uint64_t magnitude(std::int64_t value) {
+  return value < 0 ? 0 - static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
+}
 inline UInt128 magnitude(Int128 value) {
   return value < 0 ? -static_cast<UInt128>(value) : static_cast<UInt128>(value);
+}
+
+/// Greatest common divisor, by halving. gcd(0, a) = a.
+inline std::uint64_t gcd_of(std::uint64_t a, std::uint64_t b) {
+  if (a == 0) return b;
+  if (b == 0) return a;
+  const int shift = std::countr_zero(a | b);
+  a >>= std::countr_zero(a);
+  while (b != 0) {
+    b >>= std::countr_zero(b);
+    if (a > b) std::swap(a, b);
+    b -= a;
+  }
+  return a << shift;
 }
 
 inline int trailing_zeros(UInt128 value) {
@@ -40,7 +62,7 @@ inline int trailing_zeros(UInt128 value) {
                   : 64 + std::countr_zero(static_cast<std::uint64_t>(value >> 64));
 }
 
-/// Greatest common divisor, by halving: no 128-bit division. gcd(0, a) = a.
+/// The same, without 128-bit division.
 inline UInt128 gcd_of(UInt128 a, UInt128 b) {
   if (a == 0) return b;
   if (b == 0) return a;
@@ -49,14 +71,9 @@ inline UInt128 gcd_of(UInt128 a, UInt128 b) {
   while (b != 0) {
     b >>= trailing_zeros(b);
     if ((a >> 64) == 0 && (b >> 64) == 0) {
-      auto x = static_cast<std::uint64_t>(a);
-      auto y = static_cast<std::uint64_t>(b);
-      while (y != 0) {
-        y >>= std::countr_zero(y);
-        if (x > y) std::swap(x, y);
-        y -= x;
-      }
-      return static_cast<UInt128>(x) << shift;
+      return static_cast<UInt128>(
+                 gcd_of(static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b)))
+             << shift;
     }
     if (a > b) std::swap(a, b);
     b -= a;
@@ -64,6 +81,9 @@ inline UInt128 gcd_of(UInt128 a, UInt128 b) {
   return a << shift;
 }
 
+inline std::int64_t gcd_of(std::int64_t a, std::int64_t b) {
+  return static_cast<std::int64_t>(gcd_of(magnitude(a), magnitude(b)));
+}
 inline Int128 gcd_of(Int128 a, Int128 b) {
   return static_cast<Int128>(gcd_of(magnitude(a), magnitude(b)));
 }
@@ -80,6 +100,7 @@ inline Int256 gcd_of(const Int256& a, const Int256& b) {
 }
 inline mpz_class gcd_of(const mpz_class& a, const mpz_class& b) { return gcd(a, b); }
 
+inline mpz_class to_mpz(std::int64_t value) { return static_cast<long>(value); }
 inline mpz_class to_mpz(UInt128 value) {
   mpz_class result = static_cast<unsigned long>(value >> 64);
   result <<= 64;
@@ -140,6 +161,8 @@ Int coordinate(const GridPositions& grid, VertexId vertex, int axis) {
   const mpz_class& value = grid.wide(vertex, axis);
   if constexpr (std::is_same_v<Int, mpz_class>) {
     return value;
+  } else if constexpr (sizeof(Int) <= sizeof(std::int64_t)) {
+    return static_cast<Int>(value.get_si());
   } else {
     const auto low = static_cast<std::uint64_t>(mpz_getlimbn(value.get_mpz_t(), 0));
     const auto high = static_cast<std::uint64_t>(mpz_getlimbn(value.get_mpz_t(), 1));

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "exact_int.h"
+#include "parallel.h"
 
 namespace gnomon {
 namespace {
@@ -43,6 +44,15 @@ struct CommonUnit {
         number.is_decimal() ? (std::int64_t{exponent} * 3322 + (exponent > 0 ? 999 : 0)) / 1000
                             : exponent;
     top = std::max(top, bits + scale);
+  }
+
+  void add(const CommonUnit& other) {
+    dyadic |= other.dyadic;
+    decimal |= other.decimal;
+    big |= other.big;
+    lowest_two = std::min(lowest_two, other.lowest_two);
+    lowest_ten = std::min(lowest_ten, other.lowest_ten);
+    top = std::max(top, other.top);
   }
 
   /// 2^two * 10^ten divides every number. Of a kind that is absent the exponent is 0; where both
@@ -141,28 +151,65 @@ void fill_narrow_or_wide(ExactGrid& grid, std::vector<mpz_class> coordinates) {
   for (const mpz_class& c : coordinates) grid.narrow.push_back(c.get_si());
 }
 
+/// The box of points, and the greatest common divisor of the differences of their coordinates along
+/// each axis: 0 if there are none.
+struct BoxAndStep {
+  bool empty = true;
+  std::array<Int128, 3> low{}, high{};
+  UInt128 step = 0;
+
+  void add(const std::array<Int128, 3>& point) {
+    if (empty) {
+      empty = false;
+      low = high = point;
+      return;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      add_difference(
+          static_cast<UInt128>(point[k] > low[k] ? point[k] - low[k] : low[k] - point[k]));
+      low[k] = std::min(low[k], point[k]);
+      high[k] = std::max(high[k], point[k]);
+    }
+  }
+  void add(const BoxAndStep& other) {
+    if (other.empty) return;
+    add_difference(other.step);
+    add(other.low);
+    add(other.high);
+  }
+
+ private:
+  void add_difference(UInt128 d) {
+    if (d == 0 || step == 1) return;
+    if (step != 0 && ((d | step) >> 64) == 0 &&
+        static_cast<std::uint64_t>(d) % static_cast<std::uint64_t>(step) == 0) {
+      return;
+    }
+    step = scene_detail::gcd_of(step, d);
+  }
+};
+
 ExactGrid make_grid_in_machine_integers(std::span<const Position* const> points,
                                         const CommonUnit& unit) {
   const NarrowScale scale(unit);
-  std::array<Int128, 3> low{};
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Int128 value = scale((*points[i])[k]);
-      low[k] = i == 0 ? value : std::min(low[k], value);
-    }
+  BoxAndStep box;
+  for (const BoxAndStep& piece :
+       scene_detail::map_pieces(points.size(), scene_detail::kPieceOfCheapElements,
+                                [&](std::size_t begin, std::size_t end) {
+                                  BoxAndStep result;
+                                  for (std::size_t i = begin; i < end; ++i) {
+                                    const Position& p = *points[i];
+                                    result.add(std::array{scale(p[0]), scale(p[1]), scale(p[2])});
+                                  }
+                                  return result;
+                                })) {
+    box.add(piece);
   }
-  UInt128 step = 0;
+  const std::array<Int128, 3>& low = box.low;
+  UInt128 step = box.step;
   UInt128 top = 0;
-  for (const Position* point : points) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto d = static_cast<UInt128>(scale((*point)[k]) - low[k]);
-      top = std::max(top, d);
-      if (d == 0 || step == 1) continue;
-      if (((d | step) >> 64) == 0 && step != 0) {
-        if (static_cast<std::uint64_t>(d) % static_cast<std::uint64_t>(step) == 0) continue;
-      }
-      step = scene_detail::gcd_of(step, d);
-    }
+  for (std::size_t k = 0; k < 3; ++k) {
+    top = std::max(top, static_cast<UInt128>(box.high[k] - low[k]));
   }
   if (step == 0) step = 1;
 
@@ -177,26 +224,25 @@ ExactGrid make_grid_in_machine_integers(std::span<const Position* const> points,
   const UInt128 largest = top / step;
   if ((largest >> GridPositions::kNarrowBits) == 0) {
     grid.bits = static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(largest)));
-    grid.narrow.reserve(3 * points.size());
+    grid.narrow.resize(3 * points.size());
     const bool short_values = (top >> 64) == 0 && (step >> 64) == 0;
-    for (const Position* point : points) {
+    scene_detail::for_each_index(points.size(), [&](std::size_t i) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto d = static_cast<UInt128>(scale((*point)[k]) - low[k]);
-        grid.narrow.push_back(static_cast<std::int64_t>(
+        const auto d = static_cast<UInt128>(scale((*points[i])[k]) - low[k]);
+        grid.narrow[3 * i + k] = static_cast<std::int64_t>(
             step == 1      ? static_cast<std::uint64_t>(d)
             : short_values ? static_cast<std::uint64_t>(d) / static_cast<std::uint64_t>(step)
-                           : static_cast<std::uint64_t>(d / step)));
+                           : static_cast<std::uint64_t>(d / step));
       }
-    }
+    });
     return grid;
   }
-  std::vector<mpz_class> coordinates;
-  coordinates.reserve(3 * points.size());
-  for (const Position* point : points) {
+  std::vector<mpz_class> coordinates(3 * points.size());
+  scene_detail::for_each_index(points.size(), [&](std::size_t i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      coordinates.push_back(to_mpz(static_cast<UInt128>(scale((*point)[k]) - low[k]) / step));
+      coordinates[3 * i + k] = to_mpz(static_cast<UInt128>(scale((*points[i])[k]) - low[k]) / step);
     }
-  }
+  });
   fill_narrow_or_wide(grid, std::move(coordinates));
   return grid;
 }
@@ -233,8 +279,16 @@ ExactGrid make_grid_in_gmp_integers(std::span<const Position* const> points,
 
 ExactGrid make_grid(std::span<const Position* const> points) {
   CommonUnit unit;
-  for (const Position* point : points) {
-    for (const Number& number : *point) unit.add(number);
+  for (const CommonUnit& piece :
+       scene_detail::map_pieces(points.size(), scene_detail::kPieceOfCheapElements,
+                                [&](std::size_t begin, std::size_t end) {
+                                  CommonUnit result;
+                                  for (std::size_t i = begin; i < end; ++i) {
+                                    for (const Number& number : *points[i]) result.add(number);
+                                  }
+                                  return result;
+                                })) {
+    unit.add(piece);
   }
   return unit.fits_machine_integers() ? make_grid_in_machine_integers(points, unit)
                                       : make_grid_in_gmp_integers(points, unit);

@@ -137,8 +137,8 @@ bool lies_in_plane(const std::vector<Vec3<Int>>& loop, const Vec3<Int>& origin,
                      [&](const Vec3<Int>& p) { return dot(normal, p - origin) == 0; });
 }
 
-/// Strictly convex, by its turns and by its going round once. Requires: planar with this area
-/// vector, no repeated or collinear corners.
+/// Strictly convex, by its turns and by its going round once; so without repeated or collinear
+/// corners. Requires: planar with this area vector, which is not zero.
 template <class Int>
 bool is_convex(const std::vector<Vec3<Int>>& loop, const Vec3<Int>& area) {
   const std::size_t n = loop.size();

@@ -45,6 +45,7 @@ tl::expected<std::vector<Ring>, CutProblem> cut_into_convex_parts(CutInput<Int> 
   return parts;
 }
 
+template tl::expected<std::vector<Ring>, CutProblem> cut_into_convex_parts(CutInput<std::int64_t>);
 template tl::expected<std::vector<Ring>, CutProblem> cut_into_convex_parts(CutInput<Int128>);
 template tl::expected<std::vector<Ring>, CutProblem> cut_into_convex_parts(CutInput<Int256>);
 template tl::expected<std::vector<Ring>, CutProblem> cut_into_convex_parts(CutInput<mpz_class>);

@@ -4,48 +4,96 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <iterator>
 #include <unordered_map>
 
-#include "index_table.h"
 #include "loop_geometry.h"
+#include "numbering.h"
+#include "parallel.h"
 #include "polygon_cut.h"
 
 namespace gnomon::scene_detail {
 namespace {
 
+/// A plane, canonically: n . p = offset.
 template <class Int>
-class PartMaker {
- public:
-  PartMaker(const Scene& scene, PreparedScene& out)
-      : scene_(scene),
-        out_(out),
-        grid_(out.geometry.grid),
-        planes_(scene.polygons.size()),
-        edges_(2 * scene.polygons.size()) {}
+struct PlaneKey {
+  Vec3<Int> normal;  // primitive, first non-zero component positive
+  Int offset;
+  bool flipped;  // the part's front is where n . p < offset
 
-  std::optional<Error> run() {
-    std::size_t corners = 0;
-    for (const Polygon& polygon : scene_.polygons) corners += polygon.loop.size();
-    out_.parts.reserve(scene_.polygons.size());
-    out_.first_part.reserve(scene_.polygons.size() + 1);
-    out_.loop_vertices.reserve(corners);
-    out_.loop_edges.reserve(corners);
-    for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
-      out_.first_part.push_back(static_cast<std::uint32_t>(out_.parts.size()));
-      if (auto error = add_polygon(p)) return error;
+  /// Of the plane through `a` with this normal, which is the part's.
+  PlaneKey(Vec3<Int> normal_of_part, const Vec3<Int>& a) : normal(std::move(normal_of_part)) {
+    Int common = gcd_of(gcd_of(normal.x, normal.y), normal.z);
+    const Int& leading = normal.x != 0 ? normal.x : normal.y != 0 ? normal.y : normal.z;
+    flipped = leading < 0;
+    if (flipped) common = -common;
+    if (common != 1) {
+      for (Int* component : {&normal.x, &normal.y, &normal.z}) {
+        if (*component != 0) *component /= common;
+      }
     }
-    out_.first_part.push_back(static_cast<std::uint32_t>(out_.parts.size()));
-    return std::nullopt;
+    offset = dot(normal, a);
+  }
+  /// As sets of points.
+  bool same_plane(const PlaneKey& other) const {
+    return normal.x == other.normal.x && normal.y == other.normal.y && normal.z == other.normal.z &&
+           offset == other.offset;
+  }
+  std::uint64_t hash() const {
+    std::uint64_t result = 0;
+    for (int k = 0; k < 3; ++k) result = hash_into(result, normal[k]);
+    return hash_into(result, offset);
+  }
+};
+
+/// What became of a run of polygons: loops and parts as in PreparedScene, but counted from the
+/// run's first, without planes and edges.
+template <class Int>
+struct Run {
+  std::vector<VertexId> loop_vertices;
+  std::vector<Part> parts;
+  std::vector<PlaneKey<Int>> keys;  // of parts
+  std::vector<PreparationNote> notes;
+  std::optional<Error> error;  // that of the first polygon that has one; later ones are left out
+};
+
+/// Makes the parts of polygons first .. last - 1.
+template <class Int>
+class RunMaker {
+ public:
+  RunMaker(const Scene& scene, const PreparedScene& prepared)
+      : scene_(scene), prepared_(prepared), grid_(prepared.geometry.grid) {}
+
+  Run<Int> make(std::size_t first, std::size_t last) {
+    run_.parts.reserve(last - first);
+    run_.keys.reserve(last - first);
+    run_.loop_vertices.reserve(4 * (last - first));
+    for (std::size_t p = first; p < last && !run_.error; ++p) {
+      look_ahead(p, last);
+      run_.error = add_polygon(static_cast<std::uint32_t>(p));
+    }
+    return std::move(run_);
   }
 
  private:
   using Point = Vec3<Int>;
 
-  struct PlaneKey {
-    Point normal;  // primitive, first non-zero component positive
-    Int offset;
-    bool flipped;  // normal is opposite to that of the plane's support triple
-  };
+  /// Polygons may name vertices in random order: asks for those of the next ones early.
+  void look_ahead(std::size_t p, std::size_t last) const {
+    constexpr std::size_t kAhead = 4;
+    if (p + 4 * kAhead < last) prefetch(scene_.polygons[p + 4 * kAhead].loop.data());
+    if (p + 2 * kAhead < last) {
+      for (const VertexId v : scene_.polygons[p + 2 * kAhead].loop) {
+        prefetch(&prepared_.vertex_of_input[v]);
+      }
+    }
+    if (p + kAhead < last && grid_.is_narrow()) {
+      for (const VertexId v : scene_.polygons[p + kAhead].loop) {
+        prefetch(grid_.narrow_point(prepared_.vertex_of_input[v]));
+      }
+    }
+  }
 
   Error error_at(std::uint32_t polygon, std::size_t ring, const std::string& what,
                  std::string expected) const {
@@ -62,12 +110,12 @@ class PartMaker {
   }
 
   void note(std::uint32_t polygon, Repair repair, std::string detail) {
-    out_.notes.push_back({polygon, repair, std::move(detail)});
+    run_.notes.push_back({polygon, repair, std::move(detail)});
   }
 
   void load(const std::vector<VertexId>& input, std::vector<Corner>& corners) const {
     corners.clear();
-    for (const VertexId v : input) corners.push_back({out_.vertex_of_input[v], v});
+    for (const VertexId v : input) corners.push_back({prepared_.vertex_of_input[v], v});
   }
 
   void load_points(const std::vector<Corner>& corners, std::vector<Point>& points) const {
@@ -75,7 +123,7 @@ class PartMaker {
     for (const Corner& corner : corners) points.push_back(point<Int>(grid_, corner.vertex));
   }
 
-  /// Neither repeated nor collinear vertices: the usual case, seen without copying anything.
+  /// Neither repeated nor collinear vertices.
   static bool is_clean(const std::vector<Point>& loop) {
     const std::size_t n = loop.size();
     Point last = loop[0] - loop[n - 1];
@@ -90,28 +138,36 @@ class PartMaker {
   std::optional<Error> add_polygon(std::uint32_t p) {
     const Polygon& polygon = scene_.polygons[p];
     load(polygon.loop, loop_);
-    if (loop_.size() >= 3) load_points(loop_, points_);
-    if (loop_.size() < 3 || !is_clean(points_)) {
+    load_points(loop_, points_);
+    // The usual case first: a strictly convex loop has neither repeated nor collinear vertices.
+    if (points_.size() >= 3 && polygon.holes.empty() && add_if_convex(p)) return std::nullopt;
+    if (points_.size() < 3 || !is_clean(points_)) {
       clean_and_note(p);
       if (loop_.size() < 3) {
         note(p, Repair::kZeroArea, "dropped: all vertices on one line");
         return std::nullopt;
       }
       load_points(loop_, points_);
+      if (polygon.holes.empty() && add_if_convex(p)) return std::nullopt;
     }
     const Point area = area_vector(points_);
     if (area.is_zero()) {
       return error_at(p, 0, "crosses itself: it runs as much clockwise as counter-clockwise",
                       "a simple closed curve");
     }
-    const bool planar = lies_in_plane(points_, points_[0], area);
-    if (planar && polygon.holes.empty() && is_convex(points_, area)) {
-      scratch_.clear();
-      for (const Corner& corner : loop_) scratch_.push_back(corner.vertex);
-      add_part(p, scratch_);
-      return std::nullopt;
+    return cut(p, area, lies_in_plane(points_, points_[0], area));
+  }
+
+  /// Adds the loop at hand as it is, if it is planar and strictly convex.
+  bool add_if_convex(std::uint32_t p) {
+    Point area = area_vector(points_);
+    if (area.is_zero() || !lies_in_plane(points_, points_[0], area) || !is_convex(points_, area)) {
+      return false;
     }
-    return cut(p, area, planar);
+    scratch_.clear();
+    for (const Corner& corner : loop_) scratch_.push_back(corner.vertex);
+    add_part(p, scratch_, std::move(area));
+    return true;
   }
 
   void clean_and_note(std::uint32_t p) {
@@ -174,7 +230,7 @@ class PartMaker {
     }
     input.planar = planar;
     if (rings.size() == 1 && planar && is_convex(points_, area)) {  // all holes were empty
-      add_part(p, vertices);
+      add_part(p, vertices, area);
       return std::nullopt;
     }
     const auto parts = cut_into_convex_parts(std::move(input));
@@ -208,7 +264,9 @@ class PartMaker {
     for (const auto& part : *parts) {
       scratch_.clear();
       for (const std::uint32_t i : part) scratch_.push_back(vertices[i]);
-      add_part(p, scratch_);
+      const Point a = point<Int>(grid_, scratch_[0]);
+      add_part(p, scratch_,
+               cross(point<Int>(grid_, scratch_[1]) - a, point<Int>(grid_, scratch_[2]) - a));
     }
     return std::nullopt;
   }
@@ -237,89 +295,128 @@ class PartMaker {
     const mpz_class w = to_mpz(worst);
     mpq_class square(w * w, x * x + y * y + z * z);
     square.canonicalize();
-    square *= out_.geometry.step * out_.geometry.step;
+    square *= prepared_.geometry.step * prepared_.geometry.step;
     return std::sqrt(square.get_d());
   }
 
-  void add_part(std::uint32_t p, const std::vector<VertexId>& loop) {
+  /// The normal is that of the loop's front, of any length.
+  void add_part(std::uint32_t p, const std::vector<VertexId>& loop, Point normal) {
     Part part;
     part.polygon = p;
-    part.first = static_cast<std::uint32_t>(out_.loop_vertices.size());
+    part.first = static_cast<std::uint32_t>(run_.loop_vertices.size());
     part.count = static_cast<std::uint32_t>(loop.size());
     part.two_sided = scene_.is_two_sided(scene_.polygons[p]);
     part.casts = scene_.polygons[p].casts;
-    intern_plane(loop, part);
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      out_.loop_vertices.push_back(loop[i]);
-      out_.loop_edges.push_back(intern_edge(loop[i], loop[i + 1 == loop.size() ? 0 : i + 1]));
-    }
-    out_.parts.push_back(part);
-  }
-
-  void intern_plane(const std::vector<VertexId>& loop, Part& part) {
-    const Point a = point<Int>(grid_, loop[0]);
-    PlaneKey key{cross(point<Int>(grid_, loop[1]) - a, point<Int>(grid_, loop[2]) - a), 0, false};
-    Int common = gcd_of(gcd_of(key.normal.x, key.normal.y), key.normal.z);
-    const Int& leading = key.normal.x != 0   ? key.normal.x
-                         : key.normal.y != 0 ? key.normal.y
-                                             : key.normal.z;
-    key.flipped = leading < 0;
-    if (key.flipped) common = -common;
-    if (common != 1) {
-      for (Int* component : {&key.normal.x, &key.normal.y, &key.normal.z}) {
-        if (*component != 0) *component /= common;
-      }
-    }
-    key.offset = dot(key.normal, a);
-    std::uint64_t hash = 0;
-    for (int k = 0; k < 3; ++k) hash = hash_into(hash, key.normal[k]);
-    hash = hash_into(hash, key.offset);
-
-    const auto next = static_cast<std::uint32_t>(keys_.size());
-    const std::uint32_t found = planes_.find_or_enter(hash, next, [&](std::uint32_t i) {
-      const PlaneKey& other = keys_[i];
-      return other.normal.x == key.normal.x && other.normal.y == key.normal.y &&
-             other.normal.z == key.normal.z && other.offset == key.offset;
-    });
-    if (found == IndexTable::kNone) {
-      part.plane = next;
-      part.flipped = false;
-      out_.geometry.planes.push_back({loop[0], loop[1], loop[2]});
-      keys_.push_back(std::move(key));
-    } else {
-      part.plane = found;
-      part.flipped = keys_[found].flipped != key.flipped;
-    }
-  }
-
-  PlaneRef intern_edge(VertexId from, VertexId to) {
-    const EdgeEnds ends{std::min(from, to), std::max(from, to)};
-    auto& edges = out_.geometry.edges;
-    const auto next = static_cast<std::uint32_t>(edges.size());
-    const std::uint64_t hash = mix(mix(0, ends.a), ends.b) * 0x9e3779b97f4a7c15u;
-    const std::uint32_t found =
-        edges_.find_or_enter(hash, next, [&](std::uint32_t i) { return edges[i] == ends; });
-    if (found == IndexTable::kNone) edges.push_back(ends);
-    return PlaneRef(found == IndexTable::kNone ? next : found, from != ends.a);
+    run_.parts.push_back(part);
+    run_.keys.emplace_back(std::move(normal), point<Int>(grid_, loop[0]));
+    run_.loop_vertices.insert(run_.loop_vertices.end(), loop.begin(), loop.end());
   }
 
   const Scene& scene_;
-  PreparedScene& out_;
+  const PreparedScene& prepared_;
   const GridPositions& grid_;
-  IndexTable planes_, edges_;
-  std::vector<PlaneKey> keys_;
+  Run<Int> run_;
   std::vector<Corner> loop_;  // of the polygon at hand
   std::vector<Point> points_;
   std::vector<VertexId> scratch_;
 };
 
+/// Strings the runs together; their keys stay where they are.
+template <class Int>
+void join(std::vector<Run<Int>>& runs, std::size_t polygons, PreparedScene& out) {
+  std::size_t parts = 0, corners = 0;
+  for (const Run<Int>& run : runs) {
+    parts += run.parts.size();
+    corners += run.loop_vertices.size();
+  }
+  out.parts.reserve(parts);
+  out.loop_vertices.reserve(corners);
+  out.first_part.reserve(polygons + 1);
+  for (Run<Int>& run : runs) {
+    const auto first_corner = static_cast<std::uint32_t>(out.loop_vertices.size());
+    for (Part& part : run.parts) {
+      part.first += first_corner;
+      const auto next = static_cast<std::uint32_t>(out.parts.size());
+      out.first_part.resize(std::size_t{part.polygon} + 1, next);
+      out.parts.push_back(part);
+    }
+    out.loop_vertices.insert(out.loop_vertices.end(), run.loop_vertices.begin(),
+                             run.loop_vertices.end());
+    std::move(run.notes.begin(), run.notes.end(), std::back_inserter(out.notes));
+    run.parts = {};
+    run.loop_vertices = {};
+  }
+  out.first_part.resize(polygons + 1, static_cast<std::uint32_t>(parts));
+}
+
+/// Numbers planes in the order of the parts that lie in them. The first part's loop is the support.
+template <class Int>
+void number_planes(const std::vector<Run<Int>>& runs, PreparedScene& out) {
+  const auto key = [&](std::size_t i) -> const PlaneKey<Int>& {
+    const std::size_t run = out.parts[i].polygon / kPieceOfPolygons;
+    return runs[run].keys[i - out.first_part[run * kPieceOfPolygons]];
+  };
+  const Numbering planes(
+      out.parts.size(), [&](std::size_t i) { return key(i).hash(); },
+      [&](std::size_t i, std::size_t j) { return key(i).same_plane(key(j)); });
+  out.geometry.planes.resize(planes.count());
+  std::vector<std::uint8_t> flipped(planes.count());  // the key's normal against the support's
+  planes.for_each_first([&](std::size_t i, std::size_t plane) {
+    const auto loop = out.loop(out.parts[i]);
+    out.geometry.planes[plane] = {loop[0], loop[1], loop[2]};
+    flipped[plane] = key(i).flipped ? 1 : 0;
+  });
+  for_each_index(out.parts.size(), [&](std::size_t i) {
+    out.parts[i].plane = planes[i];
+    out.parts[i].flipped = (flipped[planes[i]] != 0) != key(i).flipped;
+  });
+}
+
+/// Numbers edges in the order of the loops that run along them.
+void number_edges(PreparedScene& out) {
+  const std::size_t corners = out.loop_vertices.size();
+  std::vector<EdgeEnds> ends(corners);
+  for_each_index(out.parts.size(), [&](std::size_t i) {
+    const Part& part = out.parts[i];
+    const auto loop = out.loop(part);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const VertexId from = loop[k], to = loop[k + 1 == loop.size() ? 0 : k + 1];
+      ends[part.first + k] = {std::min(from, to), std::max(from, to)};
+    }
+  });
+  const Numbering edges(
+      corners, [&](std::size_t i) { return mix(mix(0, ends[i].a), ends[i].b); },
+      [&](std::size_t i, std::size_t j) { return ends[i] == ends[j]; });
+  out.geometry.edges.resize(edges.count());
+  edges.for_each_first(
+      [&](std::size_t i, std::size_t edge) { out.geometry.edges[edge] = ends[i]; });
+  out.loop_edges.resize(corners);
+  for_each_index(corners, [&](std::size_t i) {
+    out.loop_edges[i] = PlaneRef(edges[i], out.loop_vertices[i] != ends[i].a);
+  });
+}
+
 }  // namespace
 
 template <class Int>
 std::optional<Error> make_parts(const Scene& scene, PreparedScene& out) {
-  return PartMaker<Int>(scene, out).run();
+  const std::size_t polygons = scene.polygons.size();
+  {
+    std::vector<Run<Int>> runs =
+        map_pieces(polygons, kPieceOfPolygons, [&](std::size_t first, std::size_t last) {
+          return RunMaker<Int>(scene, out).make(first, last);
+        });
+    for (Run<Int>& run : runs) {
+      if (run.error) return std::move(run.error);
+    }
+    join(runs, polygons, out);
+    number_planes(runs, out);
+  }
+  number_edges(out);
+  return std::nullopt;
 }
 
+template std::optional<Error> make_parts<std::int64_t>(const Scene&, PreparedScene&);
 template std::optional<Error> make_parts<Int128>(const Scene&, PreparedScene&);
 template std::optional<Error> make_parts<Int256>(const Scene&, PreparedScene&);
 template std::optional<Error> make_parts<mpz_class>(const Scene&, PreparedScene&);

@@ -11,7 +11,7 @@
 namespace gnomon::scene_detail {
 
 /// Fills parts, loops, edges, planes, first_part and notes of `out`, whose grid, positions and
-/// vertex_of_input are there already. Int must hold bits_needed(b, corners of the largest loop).
+/// vertex_of_input are there already. Int must hold bits_needed(b, corners of the largest polygon).
 template <class Int>
 std::optional<Error> make_parts(const Scene& scene, PreparedScene& out);
 

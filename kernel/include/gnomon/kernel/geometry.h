@@ -49,6 +49,10 @@ class GridPositions {
   std::int64_t narrow(VertexId vertex, int axis) const {
     return narrow_[3 * std::size_t{vertex} + axis];
   }
+  /// Where the three coordinates of a vertex lie. Requires: is_narrow().
+  const std::int64_t* narrow_point(VertexId vertex) const {
+    return narrow_.data() + 3 * std::size_t{vertex};
+  }
   /// Requires: !is_narrow().
   const mpz_class& wide(VertexId vertex, int axis) const {
     return wide_[3 * std::size_t{vertex} + axis];

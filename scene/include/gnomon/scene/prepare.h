@@ -97,7 +97,8 @@ struct PreparedScene {
 /// no part in the grid. Errors: kGeometry (a loop that crosses itself or runs round an area twice,
 /// a hole that crosses or leaves its loop or overlaps another, degenerate or non-planar area light,
 /// zero to_light), kIndex. Cost: O(n log n) for n vertices, plus the square of a loop's size where
-/// it is not convex.
+/// it is not convex. Large scenes are worked on by all threads of the caller's task arena (oneTBB);
+/// the result, errors included, does not depend on their number.
 Expected<PreparedScene> prepare(const Scene& scene);
 
 }  // namespace gnomon
