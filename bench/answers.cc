@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "scenes.h"
+
 namespace gnomon::bench {
 namespace {
 
@@ -62,6 +64,36 @@ std::uint64_t total_fragments(const ShadowResult& result) {
   std::uint64_t total = 0;
   for (const LightResult& light : result.lights) total += light.fragment_total;
   return total;
+}
+
+bool enclosures_overlap(const ShadowResult& a, const ShadowResult& b) {
+  for (std::size_t i = 0; i < a.lights.size(); ++i) {
+    for (std::size_t k = 0; k < a.lights[i].parts.size(); ++k) {
+      const Interval &left = a.lights[i].parts[k].lit, &right = b.lights[i].parts[k].lit;
+      if (!(left.lower <= right.upper && right.lower <= left.upper)) return false;
+    }
+  }
+  return true;
+}
+
+double lit_area(const LightResult& light, const std::vector<double>& areas) {
+  double sum = 0;
+  for (const PartResult& part : light.parts) sum += part.lit.middle() * areas[part.part];
+  return sum;
+}
+
+const std::vector<NamedAlgorithm>& algorithms() {
+  static const std::vector<NamedAlgorithm> kAlgorithms = {{"svbsp", Algorithm::kSvbsp},
+                                                          {"sectors", Algorithm::kSectors}};
+  return kAlgorithms;
+}
+
+std::size_t default_algorithm() {
+  const ShadowResult result = shadows_or_stop(make_scene("quads", {{"n", 4}}), {});
+  for (std::size_t i = 0; i < algorithms().size(); ++i) {
+    if (algorithms()[i].name == result.algorithm) return i;
+  }
+  return 0;
 }
 
 ShadowResult shadows_or_stop(const PreparedScene& scene, const ShadowOptions& options) {

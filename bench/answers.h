@@ -34,6 +34,20 @@ Deviation deviation(const ShadowResult& result, const ExactAnswers& exact);
 
 std::uint64_t total_fragments(const ShadowResult& result);
 
+/// Whether the certified bounds of both overlap for every part of every light.
+bool enclosures_overlap(const ShadowResult& a, const ShadowResult& b);
+/// Lit area of each light's parts together, in the unit of `areas` (one a part).
+double lit_area(const LightResult& light, const std::vector<double>& areas);
+
+/// The algorithms by name, in the order of the tables.
+struct NamedAlgorithm {
+  std::string name;
+  Algorithm algorithm;
+};
+const std::vector<NamedAlgorithm>& algorithms();
+/// Index into algorithms() of the one that runs where none is asked for.
+std::size_t default_algorithm();
+
 /// compute_shadows; ends the program with a message on an error.
 ShadowResult shadows_or_stop(const PreparedScene& scene, const ShadowOptions& options);
 

@@ -12,7 +12,7 @@ namespace gnomon::bench {
 enum class Extent {
   kShort,  // seconds: smaller scenes, for continuous integration
   kUsual,
-  kLong,  // the scene BSP also at a million polygons
+  kLong,  // scene BSP at a million polygons, slow exact kernels at full size, more repetitions
 };
 
 /// Every kernel on every scene: time, ratio to double, fragments, exact stage, answer. False if the
@@ -24,6 +24,11 @@ bool run_thickness(Extent extent);
 bool run_papers(Extent extent);
 /// Splits, depth, memory and time of the scene BSP.
 bool run_scene_bsp(Extent extent);
+/// The table of targets, and what it is made of. False if answers differ, of exact kernels, of the
+/// algorithms, or of a peer beyond its tolerance; a missed target is none of these.
+bool run_targets(Extent extent);
+/// Scenes that are known to hurt, n = 250 to 4,000: pieces, time, growth.
+bool run_pitfalls(Extent extent);
 /// Pieces of the scene BSP of all polygons.
 std::uint64_t scene_bsp_pieces(const PreparedScene& scene);
 
