@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gnomon/kernel/nearest_double.h"
 #include "gnomon/oracle/enclosure.h"
 
 namespace gnomon::report {
@@ -153,16 +154,6 @@ mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon) {
     sum += precise_part_area(scene, scene.parts[part]);
   }
   return sum;
-}
-
-double nearest_double(const mpq_class& value) {
-  const Enclosure bounds = oracle::enclose(value);
-  if (bounds.lower == bounds.upper || !std::isfinite(bounds.lower) ||
-      !std::isfinite(bounds.upper)) {
-    return bounds.middle();
-  }
-  const mpq_class below = value - mpq_class(bounds.lower), above = mpq_class(bounds.upper) - value;
-  return below <= above ? bounds.lower : bounds.upper;
 }
 
 double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights) {

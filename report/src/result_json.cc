@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "gnomon/kernel/nearest_double.h"
 #include "gnomon/report/json_writer.h"
 #include "gnomon/report/number_text.h"
 #include "gnomon/report/polygon_sides.h"

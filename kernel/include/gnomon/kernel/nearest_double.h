@@ -5,24 +5,27 @@
 
 #include <gmpxx.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "gnomon/kernel/ball.h"
 
 namespace gnomon {
 
-/// The double nearest to a rational, ties to even. Where the nearest would be beyond the largest
-/// finite double, what GMP truncates to.
+/// The double nearest to a rational, ties to even, as IEEE 754 rounds: an infinity from halfway
+/// between the largest finite double and 2^1024.
 inline double nearest_double(const mpq_class& value) {
   // GMP truncates towards zero: the answer is that or the next double away from zero.
   const double low = value.get_d();
-  const double high = std::nextafter(low, sgn(value) > 0 ? INFINITY : -INFINITY);
-  if (!std::isfinite(low) || !std::isfinite(high)) return low;
-  const mpq_class to_low = abs(value - mpq_class(low)), to_high = abs(mpq_class(high) - value);
-  if (to_low != to_high) return to_low < to_high ? low : high;
-  int exponent = 0;
-  const double mantissa = std::ldexp(std::frexp(low, &exponent), 53);
-  return std::fmod(mantissa, 2) == 0 ? low : high;
+  if (std::isinf(low)) return low;
+  const double high = std::nextafter(low, sgn(value) < 0 ? -INFINITY : INFINITY);
+  const mpq_class magnitude = abs(value);
+  const mpq_class beyond =
+      std::isinf(high) ? mpq_class(mpz_class(1) << 1024) : mpq_class(std::fabs(high));
+  const int order = cmp(magnitude - mpq_class(std::fabs(low)), beyond - magnitude);
+  if (order != 0) return order < 0 ? low : high;
+  return (std::bit_cast<std::uint64_t>(low) & 1) == 0 ? low : high;
 }
 
 /// Truncation errs by less than one unit in the last place, 2u |value|, or by 2^-1074 among the

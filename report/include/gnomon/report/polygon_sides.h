@@ -62,8 +62,6 @@ Interval part_area(const PreparedScene& scene, const Part& part);
 double nearest_area(const PreparedScene& scene, const Part& part);
 /// The area of a polygon's parts, to far more digits than a double has.
 mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon);
-/// The double nearest to a rational, ties to even; an infinity beyond the range.
-double nearest_double(const mpq_class& value);
 /// Area in scene units squared of all parts with a side that faces one of the lights, once a light.
 double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights);
 
