@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -16,25 +15,42 @@
 #include "parts.h"
 #include "scenes.h"
 #include "table.h"
+#include "timing.h"
 
 namespace gnomon::bench {
 namespace {
 
 struct Runner {
-  std::string name;
+  std::string name;  // "plane/sectors"
   KernelId kernel;
   bool identity;
   bool slow;  // numbers on the heap: fewer repetitions
+  Algorithm algorithm = Algorithm::kAutomatic;
 };
 
-const std::array<Runner, 8> kRunners{{{"float", KernelId::kFloat, false, false},
-                                      {"double", KernelId::kDouble, false, false},
-                                      {"double+identity", KernelId::kDouble, true, false},
-                                      {"longdouble", KernelId::kLongDouble, false, false},
-                                      {"epick", KernelId::kEpick, false, false},
-                                      {"epeck", KernelId::kEpeck, false, true},
-                                      {"rational", KernelId::kRational, false, true},
-                                      {"plane", KernelId::kPlane, true, false}}};
+/// Every kernel with each algorithm, one algorithm after the other.
+const std::vector<Runner>& runners() {
+  static const std::vector<Runner> kRunners = [] {
+    const std::array<Runner, 8> kernels{{{"float", KernelId::kFloat, false, false},
+                                         {"double", KernelId::kDouble, false, false},
+                                         {"double+identity", KernelId::kDouble, true, false},
+                                         {"longdouble", KernelId::kLongDouble, false, false},
+                                         {"epick", KernelId::kEpick, false, false},
+                                         {"epeck", KernelId::kEpeck, false, true},
+                                         {"rational", KernelId::kRational, false, true},
+                                         {"plane", KernelId::kPlane, true, false}}};
+    std::vector<Runner> all;
+    for (const NamedAlgorithm& algorithm : algorithms()) {
+      for (Runner runner : kernels) {
+        runner.name += "/" + algorithm.name;
+        runner.algorithm = algorithm.algorithm;
+        all.push_back(std::move(runner));
+      }
+    }
+    return all;
+  }();
+  return kRunners;
+}
 
 struct SceneChoice {
   std::string title;
@@ -53,10 +69,19 @@ const std::vector<SceneChoice>& scene_choices() {
   return kScenes;
 }
 
+std::string algorithm_name(Algorithm algorithm) {
+  for (const NamedAlgorithm& named : algorithms()) {
+    if (named.algorithm == algorithm) return named.name;
+  }
+  return {};
+}
+
 ShadowOptions options_of(const Runner& runner) {
   ShadowOptions options;
   options.kernel = runner.kernel;
   options.identity = runner.identity;
+  options.algorithm = runner.algorithm;
+  options.jobs = 1;
   return options;
 }
 
@@ -71,14 +96,11 @@ class TimeCollector : public benchmark::BenchmarkReporter {
       }
     }
   }
-  /// Median of the repetitions; nothing if the benchmark did not run.
-  std::optional<double> median(const std::string& name) const {
+  /// Of the repetitions; nothing if the benchmark did not run.
+  std::optional<double> median_of(const std::string& name) const {
     const auto found = seconds_.find(name);
     if (found == seconds_.end() || found->second.empty()) return std::nullopt;
-    std::vector<double> times = found->second;
-    std::sort(times.begin(), times.end());
-    const std::size_t half = times.size() / 2;
-    return times.size() % 2 == 1 ? times[half] : (times[half - 1] + times[half]) / 2;
+    return median(found->second);
   }
 
  private:
@@ -95,7 +117,7 @@ struct Measured {
 };
 
 void register_runs(const SceneChoice& choice, Measured& measured, Extent extent) {
-  for (const Runner& runner : kRunners) {
+  for (const Runner& runner : runners()) {
     benchmark::RegisterBenchmark(name_of(choice, runner).c_str(),
                                  [&measured, runner](benchmark::State& state) {
                                    for (auto _ : state) {
@@ -120,7 +142,7 @@ bool report(const SceneChoice& choice, const Measured& measured, const TimeColle
   std::optional<ExactAnswers> reference;
   std::map<std::string, ExactAnswers> answers;
   bool good = true;
-  for (const Runner& runner : kRunners) {
+  for (const Runner& runner : runners()) {
     if (!kernel_info(runner.kernel).exact || !measured.results.contains(runner.name)) continue;
     ShadowOptions options = options_of(runner);
     options.exact_fractions = true;
@@ -133,14 +155,15 @@ bool report(const SceneChoice& choice, const Measured& measured, const TimeColle
     if (own.checksum != reference->checksum) good = false;
     answers.emplace(runner.name, std::move(own));
   }
-  const std::optional<double> base = times.median(name_of(choice, kRunners[1]));
-  Table table({"kernel", "CPU ms", "x double", "BSP ms", "fragments", "exact %", "wrong parts",
-               "worst", "answer"});
-  for (const Runner& runner : kRunners) {
+  Table table({"kernel/algorithm", "CPU ms", "x double", "BSP ms", "fragments", "exact %",
+               "wrong parts", "worst", "answer"});
+  for (const Runner& runner : runners()) {
     const auto found = measured.results.find(runner.name);
-    const std::optional<double> time = times.median(name_of(choice, runner));
+    const std::optional<double> time = times.median_of(name_of(choice, runner));
     if (found == measured.results.end() || !time) continue;
     const ShadowResult& result = found->second;
+    const std::optional<double> base =
+        times.median_of(choice.generator + "/double/" + algorithm_name(runner.algorithm));
     std::string exact_share = "-", wrong = "-", worst = "-", answer;
     if (runner.kernel == KernelId::kPlane) {
       ShadowOptions options = options_of(runner);

@@ -152,7 +152,7 @@ bool measure_overhead(Extent extent, Verdicts& verdicts) {
       }
     }
     contest.run(extent == Extent::kLong ? 7 : 3);
-    Table table({"algorithm/kernel", "CPU ms", "BSP", "points", "x identity", "x without",
+    Table table({"kernel/algorithm", "CPU ms", "BSP", "points", "x identity", "x without",
                  "areas ms", "x identity", "x without", "fragments"});
     // Areas alone, then with points.
     std::vector<double> identity_ratios[2], plain_ratios[2];
@@ -162,7 +162,7 @@ bool measure_overhead(Extent extent, Verdicts& verdicts) {
       for (std::size_t i = 0; i < rows.size(); ++i) {
         const std::size_t areas = at + 2 * i, points = areas + 1;
         const ShadowResult& result = contest.result(points);
-        table.add({algorithm.name + "/" + rows[i].name, short_number(1e3 * contest.cpu(points)),
+        table.add({rows[i].name + "/" + algorithm.name, short_number(1e3 * contest.cpu(points)),
                    short_number(1e3 * result.scene_bsp_seconds),
                    short_number(1e3 * (contest.cpu(points) - contest.cpu(areas))),
                    short_number(contest.ratio(points, at + 3)),
@@ -222,7 +222,7 @@ bool measure_exact_kernels(Extent extent, Verdicts& verdicts) {
       }
     }
     contest.run(full ? 1 : 3);
-    Table table({"algorithm/kernel", "CPU ms", "x plane", "answer"});
+    Table table({"kernel/algorithm", "CPU ms", "x plane", "answer"});
     std::vector<std::vector<double>> ratios(kernels.size());
     std::string checksum;
     for (std::size_t a = 0; a < algorithms().size(); ++a) {
@@ -242,7 +242,7 @@ bool measure_exact_kernels(Extent extent, Verdicts& verdicts) {
           answer = "BOUNDS DO NOT OVERLAP";
           good = false;
         }
-        table.add({algorithms()[a].name + "/" + kernels[k].first,
+        table.add({kernels[k].first + "/" + algorithms()[a].name,
                    short_number(1e3 * contest.cpu(plane + k)), short_number(ratio), answer});
       }
     }
@@ -324,8 +324,7 @@ bool measure_peers(Extent extent, Verdicts& verdicts) {
     const std::string title = fmt::format("{}, {}", choice.title, grouped(scene.parts.size()));
     std::vector<double> ratios;
     for (std::size_t i = 0; i < peers().size(); ++i) {
-      // The first takes minutes.
-      const int rounds = i == 0 && extent == Extent::kUsual ? 1 : 3;
+      const int rounds = extent == Extent::kLong ? 7 : 3;
       good = measure_peer(peers()[i], scene, areas, rounds, table, ratios) && good;
       verdicts.add(peers()[i].name + " / plane", title, targets[i], ratios);
     }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CGAL: regularised Boolean operations on Polygon_set_2 over exact constructions. Per receiver the
 // shadows of its casters, with exact rational vertices, are joined in one call (CGAL then sweeps
-// several polygons at a time), and taken from the receiver. Exact.
+// several polygons at a time); what they leave is lit. Exact.
 //
-// The vertices are computed in rationals first, so that they are leaves with tight intervals for
-// CGAL's lazy numbers: deeper expressions made it slower.
+// Vertices are computed in rationals first, so that they are leaves with tight intervals for CGAL's
+// lazy numbers. Shadows are cut off at the receiver, and a receiver that one caster covers is done:
+// whole shadows, subtracted from the receiver by CGAL, took 1.2 times as long.
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polygon_set_2.h>
 #include <fmt/format.h>
