@@ -26,6 +26,7 @@ void city(SceneMaker& maker, const Values& values, Random& random) {
   const std::int64_t n = at(values, "n");
   const std::int64_t side = side_for(n);
   const std::int64_t width = side * kLot;
+  maker.reserve(5 * n + 1, 8 * n + 4);
   maker.face("ground", {{0, 0, 0}, {width, 0, 0}, {width, width, 0}, {0, width, 0}});
   for (std::int64_t i = 0; i < n; ++i) {
     const Int3 lot{(i % side) * kLot, (i / side) * kLot, 0};
@@ -52,6 +53,7 @@ void quads(SceneMaker& maker, const Values& values, Random& random) {
   const Int3 sun{3, 5, 40};
   maker.set_two_sided(at(values, "two_sided") != 0);
   const std::int64_t margin = 2 * kExtent;
+  maker.reserve(n + 1, 4 * (n + 1));
   maker.face("floor", {{-margin, -margin, -reach},
                        {kExtent + margin, -margin, -reach},
                        {kExtent + margin, kExtent + margin, -reach},
@@ -133,6 +135,7 @@ void nested_boxes(SceneMaker& maker, const Values& values, Random&) {
 void coplanar_tiles(SceneMaker& maker, const Values& values, Random& random) {
   const std::int64_t n = at(values, "n");
   const std::int64_t size = 2 * side_for(n) + 4;
+  maker.reserve(n + 1, 4 * (n + 1));
   maker.face(
       "floor",
       {{-size, -size, 0}, {2 * size, -size, 0}, {2 * size, 2 * size, 0}, {-size, 2 * size, 0}});

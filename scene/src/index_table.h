@@ -10,16 +10,25 @@
 #include <utility>
 #include <vector>
 
+#include "prefetch.h"
+
 namespace gnomon::scene_detail {
 
 class IndexTable {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
 
-  explicit IndexTable(std::size_t expected = 0) {
+  IndexTable() : slots_(64) {}
+
+  /// Room for so many things. Requires: none was entered yet.
+  void reserve(std::size_t expected) {
     std::size_t size = 64;
     while (size < 2 * expected) size *= 2;
-    slots_.resize(size);
+    slots_.assign(size, Slot{});
+  }
+  /// Asks for the memory that find_or_enter() with this hash will look at first.
+  void look_ahead(std::uint64_t hash) const {
+    prefetch(&slots_[place(static_cast<std::uint32_t>(hash >> 32))]);
   }
 
   /// The number of an equal thing seen before, or kNone after `next` was entered for this one.

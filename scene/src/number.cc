@@ -2,6 +2,8 @@
 // Storage, reading and exact values of Number; its texts are in number_text.cc.
 #include "gnomon/scene/number.h"
 
+#include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -172,13 +174,15 @@ double round_decimal(const mpz_class& mantissa, std::int32_t exponent) {
 
 Number::Number(double value) {
   if (value == 0) return;
-  int exponent = 0;
-  const double fraction = std::frexp(value, &exponent);
-  auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
-  exponent -= 53;
-  const int zeros = __builtin_ctzll(static_cast<unsigned long long>(mantissa));
-  small_ = mantissa >> zeros;  // exact: the shifted-out bits are 0
-  exponent_ = exponent + zeros;
+  // Of a binary64: 52 bits of fraction, 11 of exponent (0 if subnormal), the sign.
+  constexpr std::uint64_t kImplicitBit = std::uint64_t{1} << 52;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  const auto field = static_cast<std::int32_t>((bits >> 52) & 0x7ff);
+  const std::uint64_t fraction = bits & (kImplicitBit - 1);
+  const auto mantissa = static_cast<std::int64_t>(field == 0 ? fraction : fraction | kImplicitBit);
+  const int shift = std::countr_zero(static_cast<std::uint64_t>(mantissa));
+  small_ = std::signbit(value) ? -(mantissa >> shift) : mantissa >> shift;
+  exponent_ = std::max(field, 1) - 1075 + shift;
 }
 
 Number::Number(const Number& other)
@@ -321,9 +325,11 @@ double Number::nearest() const {
   constexpr std::int64_t kExactIntegers = std::int64_t{1} << 53;
   const bool fits = !is_big_ && small_ <= kExactIntegers && small_ >= -kExactIntegers;
   if (base_ == 2) {
-    // A double's own mantissa and exponent: one exact scaling, unless the result is subnormal.
-    if (fits && exponent_ >= -1074 && exponent_ <= 971) {
-      return std::ldexp(static_cast<double>(small_), exponent_);
+    // A double's own mantissa and exponent: one exact scaling.
+    if (fits && exponent_ >= -1022 && exponent_ <= 971) {
+      // 2^exponent is a normal double, and so is the product.
+      return static_cast<double>(small_) *
+             std::bit_cast<double>(static_cast<std::uint64_t>(exponent_ + 1023) << 52);
     }
     return is_zero() ? 0.0 : round_dyadic(mantissa(), exponent_);
   }

@@ -23,6 +23,7 @@
 #endif
 
 #include "parallel.h"
+#include "prefetch.h"
 
 namespace gnomon::scene_detail {
 

@@ -50,13 +50,6 @@ auto map_pieces(std::size_t n, std::size_t piece, const F& f) {
   return results;
 }
 
-/// Asks for the memory at `address` to be in the cache soon; any address will do.
-inline void prefetch(const void* address) {
-  __builtin_prefetch(address);
-  // GCC takes a function that only prefetches for one without effects, and drops calls to it.
-  __asm__ volatile("");
-}
-
 }  // namespace gnomon::scene_detail
 
 #endif  // GNOMON_SCENE_SRC_PARALLEL_H

@@ -11,6 +11,7 @@
 #include "numbering.h"
 #include "parallel.h"
 #include "polygon_cut.h"
+#include "prefetch.h"
 
 namespace gnomon::scene_detail {
 namespace {

@@ -13,6 +13,7 @@
 #include "numbering.h"
 #include "parallel.h"
 #include "polygon_parts.h"
+#include "prefetch.h"
 #include "prepare_lights.h"
 
 namespace gnomon {

@@ -12,9 +12,18 @@ Number SceneMaker::number(std::int64_t value) const {
   return Number(std::ldexp(static_cast<double>(value), -fraction_bits_));
 }
 
-VertexId SceneMaker::vertex(Int3 p) {
-  const std::uint64_t hash =
-      mix(hash_into(hash_into(hash_into(0, p.x), p.y), p.z), 1) * 0x9e3779b97f4a7c15u;
+void SceneMaker::reserve(std::int64_t polygons, std::int64_t vertices) {
+  scene_.polygons.reserve(static_cast<std::size_t>(polygons));
+  scene_.vertices.reserve(static_cast<std::size_t>(vertices));
+  points_.reserve(static_cast<std::size_t>(vertices));
+  table_.reserve(static_cast<std::size_t>(vertices));
+}
+
+std::uint64_t SceneMaker::hash(Int3 p) {
+  return mix(hash_into(hash_into(hash_into(0, p.x), p.y), p.z), 1) * 0x9e3779b97f4a7c15u;
+}
+
+VertexId SceneMaker::vertex(Int3 p, std::uint64_t hash) {
   const auto next = static_cast<std::uint32_t>(points_.size());
   const std::uint32_t found =
       table_.find_or_enter(hash, next, [&](std::uint32_t i) { return points_[i] == p; });
@@ -25,12 +34,18 @@ VertexId SceneMaker::vertex(Int3 p) {
 }
 
 Polygon& SceneMaker::face(std::string id, const std::vector<Int3>& loop) {
-  Polygon polygon;
+  hashes_.clear();
+  for (const Int3& p : loop) {
+    hashes_.push_back(hash(p));
+    table_.look_ahead(hashes_.back());
+  }
+  Polygon& polygon = scene_.polygons.emplace_back();
   polygon.id = std::move(id);
   polygon.loop.reserve(loop.size());
-  for (const Int3& p : loop) polygon.loop.push_back(vertex(p));
-  scene_.polygons.push_back(std::move(polygon));
-  return scene_.polygons.back();
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    polygon.loop.push_back(vertex(loop[i], hashes_[i]));
+  }
+  return polygon;
 }
 
 void SceneMaker::box(const std::string& id, Int3 low, Int3 high, unsigned faces, bool inside) {

@@ -36,6 +36,8 @@ class SceneMaker {
     scene_.name = std::move(name);
   }
   void set_fraction_bits(int bits) { fraction_bits_ = bits; }
+  /// Room for large scenes. Requires: there are no vertices yet.
+  void reserve(std::int64_t polygons, std::int64_t vertices);
 
   /// The polygon as it is written to the scene, to be changed further.
   Polygon& face(std::string id, const std::vector<Int3>& loop);
@@ -70,7 +72,8 @@ class SceneMaker {
   Scene take() { return std::move(scene_); }
 
  private:
-  VertexId vertex(Int3 p);
+  static std::uint64_t hash(Int3 p);
+  VertexId vertex(Int3 p, std::uint64_t hash);
   Number number(std::int64_t value) const;
   Light& light(LightType type, const char* name);
 
@@ -78,6 +81,7 @@ class SceneMaker {
   int fraction_bits_;
   IndexTable table_;
   std::vector<Int3> points_;
+  std::vector<std::uint64_t> hashes_;  // of the loop at hand
   std::map<std::string, int> light_counts_;
 };
 
