@@ -20,35 +20,30 @@ PlaneSceneSpace<Stats>::PlaneSceneSpace(const Geometry& geometry, const KernelOp
   for (int k = 0; k < 3; ++k) origin_[k] = geometry.origin[k].get_d();
   const mpq_class extent = geometry.step * mpq_class(mpz_class(1) << bits_);
   scale_ = extent.get_d();
-  planes_.resize(geometry.planes.size());
-  const ExactGeometry<mpz_class> wide(geometry);
-  const ExactGeometry<Int128> narrow(geometry);
-  // 3 b + 5 bits hold every intermediate of a support plane.
-  const bool fits = geometry.grid.is_narrow() && 3 * bits_ + 5 <= 128;
-  for (PlaneId id = 0; id < planes_.size(); ++id) {
-    FilteredPlane& plane = planes_[id];
-    std::array<double, 4> value;  // n scaled by 2^-2b, d by 2^-3b: relative error at most 2u each
-    if (fits) {
-      const ExactPlane<Int128> exact = narrow.plane(id);
-      for (int k = 0; k < 3; ++k) {
-        value[k] = std::ldexp(static_cast<double>(exact.n[k]), -2 * static_cast<int>(bits_));
-      }
-      value[3] = std::ldexp(static_cast<double>(exact.d), -3 * static_cast<int>(bits_));
-    } else {
-      const ExactPlane<mpz_class> exact = wide.plane(id);
-      for (int k = 0; k < 3; ++k) value[k] = to_double_scaled(exact.n[k], 2L * bits_);
-      value[3] = to_double_scaled(exact.d, 3L * bits_);
-    }
-    const double largest =
-        std::max({std::fabs(value[0]), std::fabs(value[1]), std::fabs(value[2])});
-    // Scaling by a power of two is exact only while nothing is subnormal.
-    if (largest < 0x1p-900) continue;
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    for (int k = 0; k < 3; ++k) plane.n[k] = std::ldexp(value[k], -exponent);
-    plane.d = std::ldexp(value[3], -exponent);
-    plane.usable = true;
-  }
+  planes_.reserve(geometry.planes.size());
+  for (PlaneId id = 0; id < geometry.planes.size(); ++id) planes_.push_back(filtered(id));
+}
+
+template <class Stats>
+typename PlaneSceneSpace<Stats>::FilteredPlane PlaneSceneSpace<Stats>::filtered(PlaneId id) const {
+  // n scaled by 2^-2b, d by 2^-3b: relative error at most 2u each. The partial sums of d need a bit
+  // more than d.
+  std::array<double, 4> value;
+  with_width(narrowest_width(side_of_support_bits(bits_) + 1), [&]<class Int>() {
+    const ExactPlane<Int> exact = ExactGeometry<Int>(*geometry_).plane(id);
+    for (int k = 0; k < 3; ++k) value[k] = to_double_scaled(exact.n[k], 2L * bits_);
+    value[3] = to_double_scaled(exact.d, 3L * bits_);
+  });
+  FilteredPlane plane;
+  const double largest = std::max({std::fabs(value[0]), std::fabs(value[1]), std::fabs(value[2])});
+  // Scaling by a power of two is exact only while nothing is subnormal.
+  if (largest < 0x1p-900) return plane;
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  for (int k = 0; k < 3; ++k) plane.n[k] = std::ldexp(value[k], -exponent);
+  plane.d = std::ldexp(value[3], -exponent);
+  plane.usable = true;
+  return plane;
 }
 
 template <class Stats>
@@ -102,78 +97,80 @@ Side PlaneSceneSpace<Stats>::side_of_plane(PlaneRef ref, const Corner<Vertex>& c
     stats_.count(Stage::kFilter);
     return (value > 0) != ref.flipped() ? Side::kFront : Side::kBack;
   }
-  // All intermediates of the exact stage, by kind of vertex (docs/exactness.md).
-  const bool made = vertex.source == kMadeVertex;
-  const SceneEdges names = edges();
-  const bool on_edge =
-      made && (names.is_input_edge(corner.before) || names.is_input_edge(corner.after));
-  const unsigned bits = !made ? 3 * bits_ + 5 : on_edge ? 6 * bits_ + 10 : 9 * bits_ + 16;
-  const IntegerWidth width =
-      geometry_->grid.is_narrow() ? width_for(bits) : IntegerWidth::kUnbounded;
-  Sign sign = Sign::kZero;
-  switch (width) {
-    case IntegerWidth::k128:
-      stats_.count(Stage::kExact128);
-      sign = exact_side<Int128>(plane, corner);
-      break;
-    case IntegerWidth::k512:
-      stats_.count(Stage::kExact512);
-      sign = exact_side<Int512>(plane, corner);
-      break;
-    case IntegerWidth::kUnbounded:
-      stats_.count(Stage::kExactUnbounded);
-      sign = exact_side<mpz_class>(plane, corner);
-      break;
-  }
+  const Sign sign = exact_side(plane, corner);
   if (sign == Sign::kZero) stats_.count_zero();
   return side_of(ref.flipped() ? -sign : sign);
 }
 
+// The widths are those of the precision plan, by kind of vertex (docs/exactness.md).
 template <class Stats>
-template <class Int>
-ExactPoint<Int> PlaneSceneSpace<Stats>::exact_point(const Corner<Vertex>& corner) const {
-  const ExactGeometry<Int> exact(*geometry_);
+Sign PlaneSceneSpace<Stats>::exact_side(PlaneId plane, const Corner<Vertex>& corner) {
   if (corner.vertex.source != kMadeVertex) {
-    return {exact.position(corner.vertex.source), integer_from<Int>(std::int64_t{1})};
+    const IntegerWidth width = narrowest_width(side_of_support_bits(bits_));
+    stats_.count(exact_stage(width));
+    return with_width(width, [&]<class Int>() {
+      return sign_of(ExactGeometry<Int>(*geometry_).value(plane, corner.vertex.source));
+    });
   }
   const SceneEdges names = edges();
   const bool before_is_edge = names.is_input_edge(corner.before);
   if (before_is_edge || names.is_input_edge(corner.after)) {
-    const EdgeEnds ends =
-        geometry_->edges[names.edge(before_is_edge ? corner.before : corner.after)];
+    const EdgeId edge = names.edge(before_is_edge ? corner.before : corner.after);
     const PlaneId cut = (before_is_edge ? corner.after : corner.before).index();
-    const ExactPlane<Int> plane = exact.plane(cut);
-    const Vector3<Int> a = exact.position(ends.a), b = exact.position(ends.b);
-    const Int at_a = dot(plane.n, a) - plane.d, at_b = dot(plane.n, b) - plane.d;
-    // a + t (b - a) with t = at_a / (at_a - at_b), over the common denominator.
-    ExactPoint<Int> point;
-    point.w = at_b - at_a;
-    for (int k = 0; k < 3; ++k) point.x[k] = Int(at_b * a[k] - at_a * b[k]);
-    if (sign_of(point.w) == Sign::kNegative) {
-      point.w = -point.w;
-      for (Int& x : point.x) x = -x;
-    }
-    return point;
+    const IntegerWidth width = narrowest_width(edge_against_plane_bits(bits_));
+    stats_.count(exact_stage(width));
+    return with_widths(width, support_value_bits(bits_), [&]<class Value, class Int>() {
+      return side_of_edge_point<Value, Int>(plane, geometry_->edges[edge], cut);
+    });
   }
-  const ExactPlane<Int> p = exact.plane(corner.support), q = exact.plane(corner.before.index()),
-                        r = exact.plane(corner.after.index());
-  const Vector3<Int> qr = cross(q.n, r.n), rp = cross(r.n, p.n), pq = cross(p.n, q.n);
-  ExactPoint<Int> point;
-  point.w = dot(p.n, qr);
-  for (int k = 0; k < 3; ++k) point.x[k] = Int(p.d * qr[k] + q.d * rp[k] + r.d * pq[k]);
-  if (sign_of(point.w) == Sign::kNegative) {
-    point.w = -point.w;
-    for (Int& x : point.x) x = -x;
-  }
-  return point;
+  const IntegerWidth width = narrowest_width(four_planes_bits(bits_));
+  stats_.count(exact_stage(width));
+  return with_widths(width, support_normal_bits(bits_), [&]<class Factor, class Int>() {
+    return side_of_plane_point<Factor, Int>(
+        plane, {corner.support, corner.before.index(), corner.after.index()});
+  });
 }
 
+// With values P and Q of the two planes at the ends u, v: the point is (P(v) u - P(u) v) over
+// P(v) - P(u), so that Q there is (P(v) Q(u) - P(u) Q(v)) over the same.
 template <class Stats>
-template <class Int>
-Sign PlaneSceneSpace<Stats>::exact_side(PlaneId plane, const Corner<Vertex>& corner) const {
-  const ExactPoint<Int> point = exact_point<Int>(corner);
-  const ExactPlane<Int> exact = ExactGeometry<Int>(*geometry_).plane(plane);
-  return sign_of(Int(dot(exact.n, point.x) - exact.d * point.w));
+template <class Value, class Int>
+Sign PlaneSceneSpace<Stats>::side_of_edge_point(PlaneId plane, EdgeEnds edge, PlaneId cut) const {
+  const ExactGeometry<Value> exact(*geometry_);
+  const Value p_u = exact.value(cut, edge.a), p_v = exact.value(cut, edge.b),
+              q_u = exact.value(plane, edge.a), q_v = exact.value(plane, edge.b);
+  return sign_of(Int(multiply<Int>(p_v, q_u) - multiply<Int>(p_u, q_v))) *
+         sign_of(Value(p_v - p_u));
+}
+
+// Planes p, q, r meet in the point (d_p q x r + d_q r x p + d_r p x q) / (p . q x r), by their
+// normals; a fourth, t, has there the value
+// (d_p (t . q x r) + d_q (t . r x p) + d_r (t . p x q) - d_t (p . q x r)) / (p . q x r).
+template <class Stats>
+template <class Factor, class Int>
+Sign PlaneSceneSpace<Stats>::side_of_plane_point(PlaneId plane,
+                                                 const std::array<PlaneId, 3>& others) const {
+  using Offset = Product<Int, Factor, Factor>;
+  using Cross = Product<Int, Factor, Factor>;
+  using Minor = Product<Int, Factor, Cross>;
+  const ExactGeometry<Factor> exact(*geometry_);
+  const auto normal = [&](PlaneId id) {
+    const SupportTriple& triple = geometry_->planes[id];
+    const Vector3<Factor> a = exact.position(triple.a);
+    return cross(difference(exact.position(triple.b), a), difference(exact.position(triple.c), a));
+  };
+  const auto offset = [&](const Vector3<Factor>& n, PlaneId id) {
+    return dot<Offset>(n, exact.position(geometry_->planes[id].a));
+  };
+  const Vector3<Factor> p = normal(others[0]), q = normal(others[1]), r = normal(others[2]),
+                        t = normal(plane);
+  const Vector3<Cross> qr = cross<Cross>(q, r), rp = cross<Cross>(r, p), pq = cross<Cross>(p, q);
+  const Minor w = dot<Minor>(p, qr);
+  const Int value = multiply<Int>(offset(p, others[0]), dot<Minor>(t, qr)) +
+                    multiply<Int>(offset(q, others[1]), dot<Minor>(t, rp)) +
+                    multiply<Int>(offset(r, others[2]), dot<Minor>(t, pq)) -
+                    multiply<Int>(offset(t, plane), w);
+  return sign_of(value) * sign_of(w);
 }
 
 template <class Stats>
@@ -207,9 +204,4 @@ typename PlaneSceneSpace<Stats>::Vertex PlaneSceneSpace<Stats>::crossing(
 
 template class PlaneSceneSpace<NoStats>;
 template class PlaneSceneSpace<CountStats>;
-template ExactPoint<mpz_class> PlaneSceneSpace<NoStats>::exact_point<mpz_class>(
-    const Corner<Vertex>&) const;
-template ExactPoint<mpz_class> PlaneSceneSpace<CountStats>::exact_point<mpz_class>(
-    const Corner<Vertex>&) const;
-
 }  // namespace gnomon

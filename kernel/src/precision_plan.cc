@@ -2,6 +2,26 @@
 #include "gnomon/kernel/precision_plan.h"
 
 namespace gnomon {
+namespace {
+
+// The tables of docs/exactness.md: a building in millimetres, and full doubles of one magnitude;
+// for the directional lights, directions of 53 bits.
+constexpr bool has_bits(bool directional, unsigned b, unsigned e,
+                        const std::array<unsigned, 13>& bits) {
+  const auto plan = precision_plan(directional, b, e);
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (plan[i].bits != bits[i] || plan[i].width != narrowest_width(bits[i])) return false;
+  }
+  return true;
+}
+static_assert(has_bits(false, 17, 0, {35, 53, 106, 159, 35, 88, 53, 105, 88, 158, 211, 264, 53}));
+static_assert(has_bits(false, 53, 0,
+                       {107, 161, 322, 483, 107, 268, 161, 321, 268, 482, 643, 804, 161}));
+static_assert(has_bits(true, 17, 53, {35, 53, 106, 159, 90, 143, 90, 234, 180, 287, 339, 391, 53}));
+static_assert(has_bits(true, 53, 53,
+                       {107, 161, 322, 483, 162, 323, 162, 378, 324, 539, 699, 859, 161}));
+
+}  // namespace
 
 std::string_view width_name(IntegerWidth width) {
   switch (width) {
@@ -19,31 +39,6 @@ std::string_view width_name(IntegerWidth width) {
       return "GMP";
   }
   return "?";
-}
-
-std::vector<PredicateBits> precision_plan(bool directional, unsigned b, unsigned e) {
-  const unsigned q = light_space_bits(directional, b, e);
-  const unsigned n = shadow_plane_bits(q);
-  // A trace is P_j(L) n_i - P_i(L) n_j: support normals 2b + 1, values 3b + 3; for a direction H_i
-  // d_j - H_j d_i with H below 2b + e + 3 bits (docs/exactness.md).
-  const unsigned trace = directional ? 5 * b + e + 7 : 5 * b + 5;
-  std::vector<PredicateBits> plan = {
-      {"support normal", 2, 2 * b + 2, IntegerWidth::k128},
-      {"support plane at a vertex", 3, 3 * b + 5, IntegerWidth::k128},
-      {"scene split: edge against plane", 6, 6 * b + 10, IntegerWidth::k128},
-      {"scene split: four planes", 9, 9 * b + 16, IntegerWidth::k128},
-      {"shadow plane", 2, n + 1, IntegerWidth::k128},
-      {"side of input vertex", 3, side_of_input_vertex_bits(n, q), IntegerWidth::k128},
-      {"side of crossing", 6, side_of_crossing_bits(n, n, n), IntegerWidth::k128},
-      {"side of crossing, 1 scene split", 9, side_of_crossing_bits(n, n, trace),
-       IntegerWidth::k128},
-      {"side of crossing, 2 scene splits", 12, side_of_crossing_bits(n, trace, trace),
-       IntegerWidth::k128},
-      {"side of crossing, 3 scene splits", 15, side_of_crossing_bits(trace, trace, trace),
-       IntegerWidth::k128},
-  };
-  for (PredicateBits& predicate : plan) predicate.width = width_for(predicate.bits);
-  return plan;
 }
 
 }  // namespace gnomon

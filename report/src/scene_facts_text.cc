@@ -31,15 +31,16 @@ std::string position_text(const Position& position) {
 
 /// The plan holds for all lights of a kind, and needs e only for directional ones.
 std::string plan_text(const SceneFacts& facts, bool directional) {
-  const std::vector<PredicateBits> plan =
-      precision_plan(directional, facts.position_bits, facts.direction_bits);
+  const auto plan = precision_plan(directional, facts.position_bits, facts.direction_bits);
   TextTable table({{directional ? "directional lights: predicate" : "point lights: predicate"},
                    {"degree", Align::kRight},
                    {"bits", Align::kRight},
                    {"integers", Align::kRight}});
   for (const PredicateBits& predicate : plan) {
-    table.add_row({std::string(predicate.name), std::to_string(predicate.degree),
-                   std::to_string(predicate.bits), std::string(width_name(predicate.width))});
+    std::string degree = std::to_string(predicate.degree);
+    if (predicate.direction_degree > 0) degree += '+' + std::to_string(predicate.direction_degree);
+    table.add_row({std::string(predicate.name), degree, std::to_string(predicate.bits),
+                   std::string(width_name(predicate.width))});
   }
   return table.to_string();
 }
@@ -78,6 +79,7 @@ void write_plan(JsonWriter& json, const char* name, const SceneFacts& facts, boo
     json.begin_object(JsonLayout::kInline);
     json.member("predicate", predicate.name);
     json.member("degree", predicate.degree);
+    json.member("direction_degree", predicate.direction_degree);
     json.member("bits", predicate.bits);
     json.member("integers", width_name(predicate.width));
     json.end_object();
@@ -143,7 +145,10 @@ std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_not
   const bool any = facts.has_point || facts.has_directional;
   if (facts.has_point || !any) text += plan_text(facts, false);
   if (facts.has_point && facts.has_directional) text += '\n';
-  if (facts.has_directional) text += plan_text(facts, true);
+  if (facts.has_directional) {
+    text += plan_text(facts, true);
+    text += "degree: in positions + in the direction to the light\n";
+  }
   return text;
 }
 

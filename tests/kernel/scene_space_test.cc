@@ -5,6 +5,7 @@
 // filter that certifies a wrong sign, a wrong identity or an integer that overflows shows here.
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -145,16 +146,28 @@ TEST_P(SceneSpace, EverySideIsTrue) {
   EXPECT_GT(counts.identity, 0u);
   EXPECT_GT(counts.filter, 0u);
   EXPECT_GT(counts.exactly_zero, 0u);
-  // Which integers had to answer is decided by the bits alone, see precision_plan.h.
-  EXPECT_EQ(counts.exact128 > 0, 3 * bits + 5 <= 128);
-  EXPECT_EQ(counts.exact512 > 0, bits <= 62 && 9 * bits + 16 > 128);
-  EXPECT_EQ(counts.unbounded > 0, bits > 62 || 9 * bits + 16 > 512);
+  // Which integers had to answer is decided by the bits alone: three kinds of vertices. On the
+  // smallest grids the filter decides all about the third kind.
+  const std::set<IntegerWidth> planned = {narrowest_width(side_of_support_bits(bits)),
+                                          narrowest_width(edge_against_plane_bits(bits)),
+                                          narrowest_width(four_planes_bits(bits))};
+  for (std::size_t i = 0; i < counts.by_width().size(); ++i) {
+    const auto width = static_cast<IntegerWidth>(i);
+    if (counts.by_width()[i] > 0) {
+      EXPECT_TRUE(planned.contains(width)) << width_name(width);
+    } else if (bits > 10) {
+      EXPECT_FALSE(planned.contains(width)) << width_name(width);
+    }
+  }
 }
 
-// 12, 19, 41 and 55 are the last that fit 128 bits (9, 6, 3 factors) and 512 bits (9 factors).
+// The last grids whose predicates fit 64, 128, 256, 512 and 1024 bits, and one bit more: 20, 42,
+// 84, 170, 340 (3 factors), 10, 20, 42, 84, 170 (6), 6, 13, 27, 56, 113 (9); 62 is the last that is
+// stored in 64 bits.
 INSTANTIATE_TEST_SUITE_P(Bits, SceneSpace,
-                         testing::Values(3u, 12u, 13u, 19u, 20u, 41u, 42u, 53u, 55u, 56u, 62u, 63u,
-                                         300u, 1100u, 2100u));
+                         testing::Values(3u, 6u, 7u, 10u, 11u, 13u, 14u, 20u, 21u, 27u, 28u, 42u,
+                                         43u, 53u, 56u, 57u, 62u, 63u, 84u, 85u, 113u, 114u, 170u,
+                                         171u, 340u, 341u, 1100u, 2100u));
 
 TEST(SceneSpaceStages, EachStageAnswersWhatIsItsOwn) {
   // A floor, a wall through its middle, and a triangle that touches the floor at (1, 1, 0).
@@ -178,7 +191,7 @@ TEST(SceneSpaceStages, EachStageAnswersWhatIsItsOwn) {
   EXPECT_EQ(space.side_of_plane(PlaneRef(0, true), corner(2, 1, vertex)), Side::kBack);
   EXPECT_EQ(space.stage_counts().filter, 2u);
   EXPECT_EQ(space.side_of_plane(PlaneRef(0), corner(2, 0, vertex)), Side::kOn);
-  EXPECT_EQ(space.stage_counts().exact128, 1u);
+  EXPECT_EQ(space.stage_counts().exact64, 1u);
   EXPECT_EQ(space.stage_counts().exactly_zero, 1u);
   EXPECT_EQ(space.stage_counts().total(), 4u);
 }

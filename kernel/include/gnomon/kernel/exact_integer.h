@@ -66,6 +66,26 @@ decltype(auto) with_width(IntegerWidth width, F&& f) {
   return f.template operator()<mpz_class>();
 }
 
+/// Calls f.template operator()<Factor, Int>(): Int as with_width() has it, and Factor the narrowest
+/// type, at most Int, in which vectors with components below 2^factor_bits may be kept for
+/// determinant<Int>(): std::int64_t, Int128, 192 bits or Int.
+template <class F>
+decltype(auto) with_widths(IntegerWidth width, unsigned factor_bits, F&& f) {
+  return with_width(width, [&]<class Int>() {
+    constexpr std::size_t kLimbs = kLimbsOf<Int>;
+    if constexpr (kLimbs == 2 || kLimbs == 4) {
+      if (factor_bits <= 62) return f.template operator()<std::int64_t, Int>();
+    }
+    if constexpr (kLimbs >= 4) {
+      if (factor_bits <= 126) return f.template operator()<Int128, Int>();
+    }
+    if constexpr (kLimbs == 8) {
+      if (factor_bits <= 190) return f.template operator()<WideInteger<3>, Int>();
+    }
+    return f.template operator()<Int, Int>();
+  });
+}
+
 template <class Int>
 using Vector3 = std::array<Int, 3>;
 
@@ -127,14 +147,21 @@ template <class Int>
 Int dot(const Vector3<Int>& a, const Vector3<Int>& b) {
   return dot<Int, Int, Int>(a, b);
 }
+/// Requires: it fits.
 template <class Int>
 Vector3<Int> difference(const Vector3<Int>& a, const Vector3<Int>& b) {
   return {Int(a[0] - b[0]), Int(a[1] - b[1]), Int(a[2] - b[2])};
 }
-/// Sign of a . (b x c). Requires: side_of_crossing_bits() of the components' magnitude bits fit
-/// into Int, and each component leaves two bits of its own type free, |x| < 2^(64 limbs - 2), so
-/// that the product of three types holds the sum of the six products (unless the type is Int
-/// itself).
+/// a . (b x c), its cross product and itself formed in the narrowest types that hold them.
+/// Requires: side_of_crossing_bits() of the components' magnitude bits fit into Int, and each
+/// component leaves two bits of its own type free, |x| < 2^(64 limbs - 2), so that the product of
+/// three types holds the sum of the six products (unless the type is Int itself).
+template <class Int, class A, class B, class C>
+Int determinant(const Vector3<A>& a, const Vector3<B>& b, const Vector3<C>& c) {
+  using Term = Product<Int, B, C>;
+  return Int(dot<Product<Int, A, Term>>(a, cross<Term>(b, c)));
+}
+/// Its sign.
 template <class Int, class A, class B, class C>
 Sign sign_of_determinant(const Vector3<A>& a, const Vector3<B>& b, const Vector3<C>& c) {
   using Term = Product<Int, B, C>;
@@ -153,6 +180,14 @@ inline Sign sign_of(const mpz_class& value) {
   return static_cast<Sign>(sgn(value));
 }
 
+/// The double nearest to value * 2^-shift, rounded once: relative error at most u, where nothing
+/// underflows.
+inline double to_double_scaled(std::int64_t value, long shift) {
+  return std::ldexp(static_cast<double>(value), static_cast<int>(-shift));
+}
+inline double to_double_scaled(Int128 value, long shift) {
+  return std::ldexp(static_cast<double>(value), static_cast<int>(-shift));
+}
 /// The double nearest to value * 2^-shift, up to one unit in the last place (GMP truncates):
 /// relative error at most 2u, where nothing underflows.
 inline double to_double_scaled(const mpz_class& value, long shift) {

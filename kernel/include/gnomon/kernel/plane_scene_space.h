@@ -34,7 +34,7 @@ struct ExactPlane {
   Int d;
 };
 
-/// Reads the grid's integers as Int. Requires: they fit (Int128, Int512: narrow grids only).
+/// Reads the grid's integers as Int. Requires: what is asked for fits into Int.
 template <class Int>
 class ExactGeometry {
  public:
@@ -42,13 +42,14 @@ class ExactGeometry {
 
   Vector3<Int> position(VertexId v) const {
     const GridPositions& grid = geometry_->grid;
-    if constexpr (std::is_same_v<Int, mpz_class>) {
-      return {grid.at(v, 0), grid.at(v, 1), grid.at(v, 2)};
-    } else {
+    if (grid.is_narrow()) {
       return {integer_from<Int>(grid.narrow(v, 0)), integer_from<Int>(grid.narrow(v, 1)),
               integer_from<Int>(grid.narrow(v, 2))};
     }
+    return {integer_from<Int>(grid.wide(v, 0)), integer_from<Int>(grid.wide(v, 1)),
+            integer_from<Int>(grid.wide(v, 2))};
   }
+  /// n: support_normal_bits(); d = n . a: support_value_bits(), and one more on the way.
   ExactPlane<Int> plane(PlaneId id) const {
     const SupportTriple& triple = geometry_->planes[id];
     const Vector3<Int> a = position(triple.a);
@@ -56,16 +57,26 @@ class ExactGeometry {
         cross(difference(position(triple.b), a), difference(position(triple.c), a));
     return {n, dot(n, a)};
   }
+  /// n . (x - a) of a support plane at an input vertex: side_of_support_bits().
+  Int value(PlaneId id, VertexId v) const {
+    if constexpr (!std::is_same_v<Int, mpz_class>) {
+      if (geometry_->grid.is_narrow()) return value_from<std::int64_t>(id, v);
+    }
+    return value_from<Int>(id, v);
+  }
 
  private:
-  const Geometry* geometry_;
-};
+  template <class Factor>
+  Int value_from(PlaneId id, VertexId v) const {
+    const ExactGeometry<Factor> exact(*geometry_);
+    const SupportTriple& triple = geometry_->planes[id];
+    const Vector3<Factor> a = exact.position(triple.a);
+    return determinant<Int>(difference(exact.position(v), a),
+                            difference(exact.position(triple.b), a),
+                            difference(exact.position(triple.c), a));
+  }
 
-/// A homogeneous point x / w, w > 0.
-template <class Int>
-struct ExactPoint {
-  Vector3<Int> x;
-  Int w;
+  const Geometry* geometry_;
 };
 
 template <class Stats = NoStats>
@@ -94,10 +105,6 @@ class PlaneSceneSpace {
   Vertex crossing(PlaneRef plane, PlaneRef edge, bool leaving, const Corner<Vertex>& from,
                   const Corner<Vertex>& to) const;
 
-  /// Exact position on the grid, as a homogeneous point.
-  template <class Int>
-  ExactPoint<Int> exact_point(const Corner<Vertex>& corner) const;
-
   const Geometry& geometry() const { return *geometry_; }
   SceneEdges edges() const { return {static_cast<std::uint32_t>(geometry_->planes.size())}; }
   /// In scene units, for heuristics only.
@@ -122,8 +129,14 @@ class PlaneSceneSpace {
   /// slack.
   static double error_bound(double vertex_error) { return 3.01 * vertex_error + 64 * Ball::kUnit; }
 
-  template <class Int>
-  Sign exact_side(PlaneId plane, const Corner<Vertex>& corner) const;
+  FilteredPlane filtered(PlaneId plane) const;
+  Sign exact_side(PlaneId plane, const Corner<Vertex>& corner);
+  /// The side of `plane` that the point has where the edge meets the plane `cut`.
+  template <class Value, class Int>
+  Sign side_of_edge_point(PlaneId plane, EdgeEnds edge, PlaneId cut) const;
+  /// The side of `plane` that the point of three others has.
+  template <class Factor, class Int>
+  Sign side_of_plane_point(PlaneId plane, const std::array<PlaneId, 3>& others) const;
 
   const Geometry* geometry_;
   std::vector<FilteredPlane> planes_;
