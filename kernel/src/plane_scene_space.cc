@@ -26,10 +26,9 @@ PlaneSceneSpace<Stats>::PlaneSceneSpace(const Geometry& geometry, const KernelOp
 
 template <class Stats>
 typename PlaneSceneSpace<Stats>::FilteredPlane PlaneSceneSpace<Stats>::filtered(PlaneId id) const {
-  // n scaled by 2^-2b, d by 2^-3b: relative error at most 2u each. The partial sums of d need a bit
-  // more than d.
+  // n scaled by 2^-2b, d by 2^-3b: relative error at most 2u each.
   std::array<double, 4> value;
-  with_width(narrowest_width(side_of_support_bits(bits_) + 1), [&]<class Int>() {
+  with_width(narrowest_width(side_of_support_bits(bits_)), [&]<class Int>() {
     const ExactPlane<Int> exact = ExactGeometry<Int>(*geometry_).plane(id);
     for (int k = 0; k < 3; ++k) value[k] = to_double_scaled(exact.n[k], 2L * bits_);
     value[3] = to_double_scaled(exact.d, 3L * bits_);

@@ -49,7 +49,7 @@ class ExactGeometry {
     return {integer_from<Int>(grid.wide(v, 0)), integer_from<Int>(grid.wide(v, 1)),
             integer_from<Int>(grid.wide(v, 2))};
   }
-  /// n: support_normal_bits(); d = n . a: support_value_bits(), and one more on the way.
+  /// n: support_normal_bits(); d = n . a: support_value_bits().
   ExactPlane<Int> plane(PlaneId id) const {
     const SupportTriple& triple = geometry_->planes[id];
     const Vector3<Int> a = position(triple.a);
