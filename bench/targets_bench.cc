@@ -97,8 +97,8 @@ std::string percent(std::uint64_t part, std::uint64_t whole) {
 
 /// Share of decisions by stage, and memory: kernel plane, both algorithms.
 void print_statistics(const PreparedScene& scene, const SceneRecipe& recipe) {
-  Table table({"decisions %", "identity", "filter", "128 bits", "512 bits", "more", "decisions",
-               "fragments", "per polygon", "bytes/polygon"});
+  Table table({"decisions %", "identity", "filter", "64 bits", "128", "256", "512", "more",
+               "decisions", "fragments", "per polygon", "bytes/polygon"});
   for (const NamedAlgorithm& algorithm : algorithms()) {
     ShadowOptions options = options_for(algorithm.algorithm, KernelId::kPlane);
     options.count_stages = true;
@@ -108,8 +108,9 @@ void print_statistics(const PreparedScene& scene, const SceneRecipe& recipe) {
     const std::uint64_t all = stages.total(), fragments = total_fragments(result);
     const auto polygons = static_cast<double>(scene.parts.size());
     table.add({algorithm.name, percent(stages.identity, all), percent(stages.filter, all),
-               percent(stages.exact128, all), percent(stages.exact512, all),
-               percent(stages.unbounded, all), grouped(all), grouped(fragments),
+               percent(stages.exact64, all), percent(stages.exact128, all),
+               percent(stages.exact256, all), percent(stages.exact512, all),
+               percent(stages.exact1024 + stages.unbounded, all), grouped(all), grouped(fragments),
                short_number(static_cast<double>(fragments) / polygons),
                short_number(static_cast<double>(child.shadow_bytes) / polygons)});
   }
