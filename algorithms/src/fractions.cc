@@ -20,22 +20,6 @@ Chart chart_of(const Geometry& geometry, PlaneId plane) {
   return {(dropped + 1) % 3, (dropped + 2) % 3};
 }
 
-double nearest_double(const mpq_class& value) {
-  // GMP truncates towards zero: the answer is that or the next double away from zero.
-  const double low = value.get_d();
-  const double high = std::nextafter(low, sgn(value) > 0 ? INFINITY : -INFINITY);
-  if (!std::isfinite(low) || !std::isfinite(high)) return low;
-  const mpq_class to_low = abs(value - mpq_class(low)), to_high = abs(mpq_class(high) - value);
-  if (to_low != to_high) return to_low < to_high ? low : high;
-  int exponent = 0;
-  const double mantissa = std::ldexp(std::frexp(low, &exponent), 53);
-  return std::fmod(mantissa, 2) == 0 ? low : high;
-}
-
-std::array<double, 3> nearest_doubles(const std::array<mpq_class, 3>& point) {
-  return {nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2])};
-}
-
 void FractionSum::add(Fraction fraction) {
   sum_ = sum_ + fraction.enclosure;
   if (!fraction.has_exact) return;

@@ -16,6 +16,7 @@
 #include "gnomon/kernel/ball.h"
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/kernel/kernel_concept.h"
+#include "gnomon/kernel/nearest_double.h"
 
 namespace gnomon {
 
@@ -24,10 +25,6 @@ struct Chart {
   int u = 0, v = 1;
 };
 Chart chart_of(const Geometry& geometry, PlaneId plane);
-
-/// The double nearest to a rational, ties to even.
-double nearest_double(const mpq_class& value);
-std::array<double, 3> nearest_doubles(const std::array<mpq_class, 3>& point);
 
 struct Fraction {
   Ball enclosure;

@@ -4,7 +4,6 @@
 #define GNOMON_ALGORITHMS_SRC_SHADOWS_IMPL_H
 
 #include <algorithm>
-#include <ctime>
 #include <deque>
 #include <optional>
 #include <span>
@@ -15,58 +14,13 @@
 #include "gnomon/algorithms/scene_bsp.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/algorithms/svbsp.h"
+#include "light_parts.h"
 #include "pipeline.h"
 #include "scene_bsp_impl.h"
+#include "sectors_impl.h"
 #include "svbsp_impl.h"
 
 namespace gnomon {
-
-/// CPU time of this process in seconds.
-inline double cpu_seconds() {
-  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
-}
-
-/// How a part stands to a light.
-struct Facing {
-  Side side = Side::kFront;  // the part's side that faces
-  ShadowReason reason = ShadowReason::kNone;
-  bool faces() const { return reason == ShadowReason::kNone; }
-};
-
-inline Facing facing_of(const Part& part, Sign plane_at_light) {
-  if (plane_at_light == Sign::kZero) return {Side::kFront, ShadowReason::kLightInPlane};
-  const Sign at_light = part.flipped ? -plane_at_light : plane_at_light;
-  if (at_light == Sign::kPositive) return {Side::kFront, ShadowReason::kNone};
-  if (part.two_sided) return {Side::kBack, ShadowReason::kNone};
-  return {Side::kFront, ShadowReason::kFacesAway};
-}
-
-/// Appends the vertices of a loop to the points that the options ask for.
-template <LightSpaceModel Space, class AnyFragment>
-void export_loop(const Space& space, const Geometry& geometry, const ShadowOptions& options,
-                 const LoopView<typename Space::Vertex>& loop, AnyFragment& fragment,
-                 std::vector<std::array<double, 3>>& points,
-                 std::vector<std::array<mpq_class, 3>>& exact_points) {
-  fragment.first =
-      static_cast<std::uint32_t>(options.keep_points ? points.size() : exact_points.size());
-  fragment.count = loop.size();
-  for (std::uint32_t i = 0; i < loop.size(); ++i) {
-    const auto corner = loop.corner(i);
-    const bool input = corner.vertex.source != kMadeVertex;
-    if (options.keep_exact_points || (!input && Space::kExact)) {
-      std::array<mpq_class, 3> exact = space.exact_position(corner);
-      if (options.keep_points) {
-        points.push_back(input ? geometry.positions[corner.vertex.source] : nearest_doubles(exact));
-      }
-      if (options.keep_exact_points) exact_points.push_back(std::move(exact));
-    } else if (input) {
-      points.push_back(geometry.positions[corner.vertex.source]);
-    } else {
-      const std::array<Ball, 3> point = space.position(corner);
-      points.push_back({point[0].middle, point[1].middle, point[2].middle});
-    }
-  }
-}
 
 /// One light's computation: its space, tree and output.
 template <LightSpaceModel Space>
@@ -82,25 +36,14 @@ class LightRun {
         options_(options),
         scene_space_(scene_space),
         space_(scene_space, scene.lights[light].point, kernel_options),
+        facing_(scene, space_),
         tree_(space_, options.merge) {
     result_.light = light;
-    plane_signs_.reserve(scene.geometry.planes.size());
-    for (PlaneId plane = 0; plane < scene.geometry.planes.size(); ++plane) {
-      plane_signs_.push_back(space_.light_side(plane));
-    }
-    facing_.reserve(scene.parts.size());
-    for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
-      const Part& part = scene.parts[i];
-      facing_.push_back(facing_of(part, plane_signs_[part.plane]));
-      if (facing_.back().faces()) {
-        facing_parts_.push_back(i);
-        result_.facing_edges += part.count;
-      }
-    }
-    result_.facing_parts = facing_parts_.size();
+    result_.facing_parts = facing_.parts.size();
+    result_.facing_edges = facing_.edges;
   }
 
-  const std::vector<std::uint32_t>& facing_parts() const { return facing_parts_; }
+  const std::vector<std::uint32_t>& facing_parts() const { return facing_.parts; }
 
   /// The tree is smaller than a fragment's loop; this keeps it from outgrowing them.
   static constexpr std::uint64_t kMostNodesAFragment = 8;
@@ -112,10 +55,10 @@ class LightRun {
   Outcome run(const SceneBsp<SceneVertex>& bsp, const Progress& progress,
               const BeforeNode& before_node) {
     if (options_.prefix) {
-      tree_.plant(plan_prefix(scene_, scene_.lights[result_.light].point, facing_parts_));
+      tree_.plant(plan_prefix(scene_, scene_.lights[result_.light].point, facing_.parts));
     }
     const std::vector<std::uint32_t> order =
-        front_to_back(bsp.nodes, [&](PlaneId plane) { return plane_signs_[plane]; });
+        front_to_back(bsp.nodes, [&](PlaneId plane) { return facing_.plane_signs[plane]; });
     for (std::size_t i = 0; i < order.size(); ++i) {
       if ((i & 63) == 0) {
         if (options_.interrupted != nullptr &&
@@ -127,7 +70,7 @@ class LightRun {
       const BspNode& node = bsp.nodes[order[i]];
       for (std::uint32_t k = 0; k < node.count; ++k) {
         const std::uint32_t piece = bsp.node_pieces[node.first + k];
-        const Facing& facing = facing_[bsp.pieces[piece].part];
+        const Facing& facing = facing_.facing[bsp.pieces[piece].part];
         if (facing.faces()) before_node(piece, facing.side);
       }
       filter_node(bsp, node);
@@ -154,12 +97,12 @@ class LightRun {
     pieces_.clear();
     for (std::uint32_t i = 0; i < node.count; ++i) {
       const LoopRange& piece = bsp.pieces[bsp.node_pieces[node.first + i]];
-      if (facing_[piece.part].faces()) pieces_.push_back(piece);
+      if (facing_.facing[piece.part].faces()) pieces_.push_back(piece);
     }
     const bool alone = pieces_.size() == 1;
     for (const LoopRange& piece : pieces_) {
       const Part& part = scene_.parts[piece.part];
-      import(bsp.loops.view(piece, part.plane), part);
+      import(bsp.loops.view(piece, part.plane));
       tree_.filter(imported_.view({0, imported_.size(), piece.part}, part.plane),
                    {.classify = true, .insert = alone && part.casts}, output_);
     }
@@ -167,58 +110,25 @@ class LightRun {
     for (const LoopRange& piece : pieces_) {
       const Part& part = scene_.parts[piece.part];
       if (!part.casts) continue;
-      import(bsp.loops.view(piece, part.plane), part);
+      import(bsp.loops.view(piece, part.plane));
       tree_.filter(imported_.view({0, imported_.size(), piece.part}, part.plane),
                    {.classify = false, .insert = true}, output_);
     }
   }
 
-  /// From scene space into light space, counter-clockwise seen from the light.
-  void import(const LoopView<SceneVertex>& loop, const Part& part) {
-    imported_.clear();
-    const bool reversed = facing_[loop.part].side == Side::kBack;
-    const std::uint32_t n = loop.size();
-    // Reversed: vertex i becomes n - 1 - i, and the edge that ended in it now starts from it.
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t from = reversed ? n - 1 - i : i;
-      imported_.push(space_.import_vertex(loop.vertices[from]), PlaneRef());
-    }
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const std::uint32_t edge = reversed ? loop.previous(n - 1 - i) : i;
-      imported_.edge(i) =
-          space_.import_edge(loop.edges[edge], part.plane, reversed, imported_.vertex(i),
-                             imported_.vertex(i + 1 == n ? 0 : i + 1));
-    }
-    for (std::uint32_t i = 0; i < n; ++i) {
-      Vertex& vertex = imported_.vertex(i);
-      if (vertex.source == kMadeVertex) {
-        space_.finish_vertex(vertex, imported_.edge(i == 0 ? n - 1 : i - 1), imported_.edge(i));
-      }
-    }
+  void import(const LoopView<SceneVertex>& loop) {
+    imported_.resize(loop.size());
+    import_loop(space_, loop, facing_.facing[loop.part].side == Side::kBack, imported_, 0);
   }
-
-  void import_part(std::uint32_t index) {
-    const Part& part = scene_.parts[index];
-    const auto vertices = scene_.loop(part);
-    const auto edges = scene_.edges(part);
-    const SceneEdges names = scene_space_.edges();
-    whole_.clear();
-    for (std::uint32_t i = 0; i < part.count; ++i) {
-      whole_.push(scene_space_.input_vertex(vertices[i]),
-                  names.of_edge(edges[i].index(), edges[i].flipped()));
-    }
-    import(whole_.view({0, part.count, index}, part.plane), part);
-  }
+  void import_part(std::uint32_t index) { import(part_loop(scene_space_, scene_, index, whole_)); }
   void measure(PartResult& part, std::span<const ClassifiedLoop> fragments);
 
   const PreparedScene& scene_;
   const ShadowOptions& options_;
   SceneSpace& scene_space_;
   Space space_;
+  FacingParts facing_;
   SvbspTree<Space> tree_;
-  std::vector<Sign> plane_signs_;
-  std::vector<Facing> facing_;
-  std::vector<std::uint32_t> facing_parts_;
   SvbspOutput<Vertex> output_;
   std::vector<LoopRange> pieces_;
   LoopStore<Vertex> imported_;
@@ -243,8 +153,8 @@ LightResult LightRun<Space>::finish() {
   for (std::uint32_t index = 0; index < scene_.parts.size(); ++index) {
     PartResult part;
     part.part = index;
-    part.side = facing_[index].side;
-    part.reason = facing_[index].reason;
+    part.side = facing_.facing[index].side;
+    part.reason = facing_.facing[index].reason;
     part.first_fragment = static_cast<std::uint32_t>(result_.fragments.size());
     std::span<ClassifiedLoop> own(sorted.data() + start[index], start[index + 1] - start[index]);
     if (options_.merge && own.size() > 1) {
@@ -309,6 +219,49 @@ void LightRun<Space>::measure(PartResult& part, std::span<const ClassifiedLoop> 
   }
 }
 
+inline tl::unexpected<Error> interrupted() { return fail(ErrorCode::kInterrupted, "interrupted"); }
+inline tl::unexpected<Error> too_many_fragments(const ShadowOptions& options) {
+  return fail(ErrorCode::kLimit,
+              "more than " + std::to_string(options.max_fragments) + " fragments",
+              "a simpler scene, or a higher limit");
+}
+
+/// Every light by the sectors algorithm, one after another.
+template <SectorSpaceModel Space>
+Expected<ShadowResult> compute_by_sectors(const PreparedScene& scene, const ShadowOptions& options,
+                                          const std::vector<std::uint32_t>& lights,
+                                          ShadowResult result) {
+  using Run = SectorRun<Space>;
+  result.algorithm = "sectors";
+  const double start = cpu_seconds();
+  const KernelOptions kernel_options{options.identity, options.thickness};
+  typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    Run run(scene, options, scene_space, lights[i], kernel_options);
+    std::function<void(double)> progress;
+    if (options.progress) {
+      progress = [&](double share) {
+        options.progress((static_cast<double>(i) + share) / static_cast<double>(lights.size()));
+      };
+    }
+    switch (run.run(progress)) {
+      case Run::Outcome::kDone:
+        break;
+      case Run::Outcome::kInterrupted:
+        return interrupted();
+      case Run::Outcome::kTooManyFragments:
+        return too_many_fragments(options);
+      case Run::Outcome::kNoIeee:
+        return tl::unexpected<Error>(check_fp_environment().error());
+    }
+    result.stages += run.stage_counts();
+    result.lights.push_back(run.finish());
+  }
+  result.stages += scene_space.stage_counts();
+  result.shadow_seconds = cpu_seconds() - start;
+  return result;
+}
+
 template <LightSpaceModel Space>
 Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
                                             const ShadowOptions& options,
@@ -316,11 +269,14 @@ Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
   using SceneSpace = typename Space::SceneSpace;
   ShadowResult result;
   result.kernel = kernel_info(options.kernel).name;
-  result.algorithm = "svbsp";
   result.exact = Space::kExact;
   result.identity = options.identity || Space::kExact;
   result.thickness = Space::kExact ? 0 : options.thickness;
-  const auto interrupted = [] { return fail(ErrorCode::kInterrupted, "interrupted"); };
+  if (options.algorithm == Algorithm::kSectors ||
+      (options.algorithm == Algorithm::kAutomatic && !options.combined)) {
+    return compute_by_sectors<Space>(scene, options, lights, std::move(result));
+  }
+  result.algorithm = "svbsp";
 
   const double start = cpu_seconds();
   const KernelOptions kernel_options{options.identity, options.thickness};
@@ -345,12 +301,7 @@ Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
   result.bsp_depth = bsp.depth;
   for (const BspNode& node : bsp.nodes) result.bsp_fragments += node.count;
 
-  const auto too_many = [&] {
-    return fail(ErrorCode::kLimit,
-                "more than " + std::to_string(options.max_fragments) + " fragments",
-                "a simpler scene, or a higher limit");
-  };
-  if (bsp.too_many) return too_many();
+  if (bsp.too_many) return too_many_fragments(options);
   std::optional<Pipeline<Space>> pipeline;
   if (options.combined) {
     if (runs.size() > 64) {
@@ -378,7 +329,7 @@ Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
       case LightRun<Space>::Outcome::kInterrupted:
         return interrupted();
       case LightRun<Space>::Outcome::kTooManyFragments:
-        return too_many();
+        return too_many_fragments(options);
     }
     result.stages += run.stage_counts();
     result.lights.push_back(run.finish());

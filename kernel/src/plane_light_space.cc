@@ -13,18 +13,45 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnit = Ball::kUnit;
-// Below this a product of three factors may have lost bits to underflow; see the header.
-constexpr double kLeastBound = 0x1p-900;
 
 double largest(const std::array<double, 3>& v) {
   return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
 }
 
-/// For a vector that was rounded once: relative error 2u, unless underflow took part of it.
-void set_bound(const std::array<double, 3>& v, double& magnitude, double& error) {
-  magnitude = largest(v);
-  error = magnitude >= kLeastBound && magnitude < kInfinity ? 2 * kUnit * magnitude : kInfinity;
+/// 2^-k with largest |v| * 2^-k in [1/2, 1). Requires: v is finite and normal.
+double normalizer(double magnitude) {
+  int exponent = 0;
+  std::frexp(magnitude, &exponent);
+  return std::ldexp(1.0, -exponent);
 }
+
+/// Nearest double, or within one unit in the last place: relative error 2u. Infinite beyond
+/// doubles.
+template <class Int>
+double to_double(const Int& value) {
+  if constexpr (std::is_same_v<Int, mpz_class>) {
+    return to_double_scaled(value, 0);
+  } else if constexpr (kLimbsOf<Int> <= 2) {
+    return static_cast<double>(value);
+  } else {
+    return to_double_scaled(value, 0);
+  }
+}
+
+/// A bound as a float that is not smaller.
+float rounded_up(double bound) { return static_cast<float>(bound * (1 + 0x1p-22)); }
+
+// The error of n . r for |n_k| <= 1, |r_k| <= m, errors 2u f of n and e of r is at most
+//   3 e + 6 u f (m + e) from the operands, and 8 u m from three products and two sums,
+// and so at most f (3.01 e + 14.1 u m) for 1 <= f <= 2^40: the slack of the plane times a bound of
+// the ray. docs/exactness.md has the derivation.
+constexpr double ray_bound(double error, double magnitude) {
+  return 3.01 * error + 14.1 * kUnit * magnitude;
+}
+/// A ray of an input vertex: normalized, one conversion a component.
+const float kInputBound = rounded_up(ray_bound(2 * kUnit, 1));
+/// The largest slack for which the bound above holds.
+constexpr double kMostSlack = 0x1p40;
 
 unsigned bits(const Vector3<mpz_class>& v) {
   std::size_t most = 1;
@@ -36,28 +63,95 @@ mpz_class normal_dot(const Vector3<mpz_class>& n, const std::array<mpz_class, 3>
   return n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
 }
 
+/// The vector as doubles, scaled by a power of two so that the largest component is in [1/2, 1),
+/// after component k was multiplied by 2^stretch[k]. Relative error of each at most 2u, or 2^-1074
+/// where it underflows. False: all zero.
+template <class Int>
+bool to_normalized(const Vector3<Int>& v, const std::array<int, 3>& stretch,
+                   std::array<double, 3>& result) {
+  if constexpr (std::is_same_v<Int, mpz_class>) {
+    long most = std::numeric_limits<long>::min();
+    for (int k = 0; k < 3; ++k) {
+      if (sgn(v[k]) == 0) continue;
+      most = std::max(most, static_cast<long>(mpz_sizeinbase(v[k].get_mpz_t(), 2)) + stretch[k]);
+    }
+    if (most == std::numeric_limits<long>::min()) return false;
+    for (int k = 0; k < 3; ++k) result[k] = to_double_scaled(v[k], most - stretch[k]);
+  } else {
+    for (int k = 0; k < 3; ++k) {
+      result[k] = static_cast<double>(v[k]);
+      if (stretch[k] != 0) result[k] = std::ldexp(result[k], stretch[k]);
+    }
+    const double magnitude = largest(result);
+    if (magnitude == 0) return false;
+    const double scale = normalizer(magnitude);
+    for (double& x : result) x *= scale;
+  }
+  return true;
+}
+
 }  // namespace
 
 template <class Stats>
 PlaneLightSpace<Stats>::PlaneLightSpace(SceneSpace& scene, const LightPoint& light,
                                         const KernelOptions&)
-    : geometry_(&scene.geometry()), scene_(&scene), light_(light), axes_(LightAxes::of(light)) {
-  const unsigned grid_bits = geometry_->grid.bits();
+    : shared_(std::make_shared<Shared>()) {
+  Shared& shared = *shared_;
+  shared.geometry = &scene.geometry();
+  shared.scene = &scene;
+  shared.light = light;
+  shared.axes = LightAxes::of(light);
+  const unsigned grid_bits = shared.geometry->grid.bits(), light_bits = bits(light.grid);
   // The grid's bits are those of the vertices; a lamp may stand far outside.
-  const unsigned b = light.directional ? grid_bits : std::max(grid_bits, bits(light.grid));
-  q_bits_ = light_space_bits(light.directional, b, bits(light.grid));
-  edge_bits_ = shadow_plane_bits(q_bits_);
-  stretch_ = light.directional ? static_cast<int>(b) : 0;
-  narrow_ = geometry_->grid.is_narrow() && q_bits_ <= 62 && bits(light.grid) <= 62;
-  if (narrow_) {
-    for (int k = 0; k < 3; ++k) narrow_light_[k] = light.grid[k].get_si();
+  const unsigned b = light.directional ? grid_bits : std::max(grid_bits, light_bits);
+  shared.q_bits = light_space_bits(light.directional, b, light_bits);
+  shared.edge_bits = shadow_plane_bits(shared.q_bits);
+  shared.cut_bits = light.directional ? 5 * grid_bits + light_bits + 7 : 5 * b + 5;
+  shared.stretch = light.directional ? static_cast<int>(b) : 0;
+  shared.narrow = shared.geometry->grid.is_narrow() && shared.q_bits <= 62 && light_bits <= 62;
+  if (shared.narrow) {
+    for (int k = 0; k < 3; ++k) shared.narrow_light[k] = light.grid[k].get_si();
   }
-  const unsigned shift = light.directional ? bits(light.grid) : grid_bits;
+  const unsigned shift = light.directional ? light_bits : grid_bits;
   for (int k = 0; k < 3; ++k) {
     const double value = to_double_scaled(light.grid[k], shift);
-    light_enclosure_[k] = Ball(value, 2 * kUnit * std::fabs(value) + Ball::kTiny);
+    shared.light_enclosure[k] = Ball(value, 2 * kUnit * std::fabs(value) + Ball::kTiny);
   }
-  plane_of_edge_.assign(geometry_->edges.size(), kExplicit);
+  shared.edges.resize(shared.geometry->edges.size());
+  make_depth_planes();
+}
+
+template <class Stats>
+PlaneLightSpace<Stats> PlaneLightSpace<Stats>::fork() const {
+  PlaneLightSpace result = *this;
+  result.stats_ = {};
+  return result;
+}
+
+template <class Stats>
+Sign PlaneLightSpace<Stats>::light_side(PlaneId plane) const {
+  return shared_->depths[plane].at_light;
+}
+
+template <class Stats>
+template <class Int>
+Vector3<Int> PlaneLightSpace<Stats>::q(VertexId v) const {
+  const Vector3<Int> p = ExactGeometry<Int>(*shared_->geometry).position(v);
+  const Vector3<Int> l = light<Int>();
+  if (!shared_->light.directional) return difference(l, p);
+  const auto [x, y, z] = shared_->axes;
+  return {Int(p[x] * l[z] - p[z] * l[x]), Int(p[y] * l[z] - p[z] * l[y]), l[z]};
+}
+
+template <class Stats>
+template <class Int>
+Vector3<Int> PlaneLightSpace<Stats>::light() const {
+  if constexpr (std::is_same_v<Int, mpz_class>) {
+    return shared_->light.grid;
+  } else {
+    const std::array<std::int64_t, 3>& l = shared_->narrow_light;
+    return {integer_from<Int>(l[0]), integer_from<Int>(l[1]), integer_from<Int>(l[2])};
+  }
 }
 
 // The doubles of a directional light's q are scaled by 2^b in z: q = (x d_z - z d_x, y d_z - z d_y,
@@ -65,79 +159,117 @@ PlaneLightSpace<Stats>::PlaneLightSpace(SceneSpace& scene, const LightPoint& lig
 // component would say nothing about the smallest. Scaling q by diag(1, 1, 2^b) scales normals by
 // diag(2^b, 2^b, 1), up to a positive factor: no sign changes.
 template <class Stats>
-std::array<double, 3> PlaneLightSpace<Stats>::scaled(const Vector3<mpz_class>& v, bool is_normal,
-                                                     unsigned magnitude_bits) const {
-  std::array<double, 3> result;
-  for (int k = 0; k < 3; ++k) {
-    const bool grows = stretch_ != 0 && (is_normal ? k < 2 : k == 2);
-    result[k] = to_double_scaled(v[k], static_cast<long>(magnitude_bits) - (grows ? stretch_ : 0));
-  }
-  return result;
-}
-
-template <class Stats>
-std::array<double, 3> PlaneLightSpace<Stats>::scaled(const Vector3<Int128>& v, bool is_normal,
-                                                     unsigned magnitude_bits) const {
-  std::array<double, 3> result;
-  for (int k = 0; k < 3; ++k) {
-    const bool grows = stretch_ != 0 && (is_normal ? k < 2 : k == 2);
-    result[k] = std::ldexp(static_cast<double>(v[k]),
-                           -static_cast<int>(magnitude_bits) + (grows ? stretch_ : 0));
-  }
-  return result;
-}
-
-template <class Stats>
-Sign PlaneLightSpace<Stats>::light_side(PlaneId plane) const {
-  const ExactPlane<mpz_class> exact = ExactGeometry<mpz_class>(*geometry_).plane(plane);
-  const mpz_class value = normal_dot(exact.n, light_.grid);
-  return sign_of(light_.directional ? value : mpz_class(value - exact.d));
-}
-
-template <class Stats>
 template <class Int>
-Vector3<Int> PlaneLightSpace<Stats>::q(VertexId v) const {
-  const Vector3<Int> p = ExactGeometry<Int>(*geometry_).position(v);
-  Vector3<Int> l;
-  for (int k = 0; k < 3; ++k) {
-    if constexpr (std::is_same_v<Int, mpz_class>) {
-      l[k] = light_.grid[k];
-    } else {
-      l[k] = integer_from<Int>(narrow_light_[k]);
+typename PlaneLightSpace<Stats>::FilteredPlane PlaneLightSpace<Stats>::filtered_from(
+    const Vector3<Int>& normal) const {
+  const int stretch = shared_->stretch;
+  FilteredPlane plane;
+  plane.slack = to_normalized(normal, {stretch, stretch, 0}, plane.n) ? 1 : kInfinity;
+  return plane;
+}
+
+template <class Stats>
+void PlaneLightSpace<Stats>::make_edge_planes(EdgeId begin, EdgeId end) {
+  Shared& shared = *shared_;
+  const auto make = [&]<class Int>() {
+    for (EdgeId edge = begin; edge < end; ++edge) {
+      const EdgeEnds ends = shared.geometry->edges[edge];
+      shared.edges[edge] = filtered_from(cross(q<Int>(ends.a), q<Int>(ends.b)));
     }
+  };
+  if (!shared.narrow) {
+    make.template operator()<mpz_class>();
+  } else if (shared.edge_bits <= 62) {
+    make.template operator()<std::int64_t>();
+  } else {
+    make.template operator()<Int128>();  // q of 62 bits: planes of 125
   }
-  if (!light_.directional) return difference(l, p);
-  const auto [x, y, z] = axes_;
-  return {Int(p[x] * l[z] - p[z] * l[x]), Int(p[y] * l[z] - p[z] * l[y]), l[z]};
 }
 
 template <class Stats>
 template <class Int>
-Vector3<Int> PlaneLightSpace<Stats>::exact_normal(PlaneRef ref) const {
-  const Plane& plane = planes_[ref.index()];
-  Vector3<Int> n;
-  if (plane.b == kExplicit) {
-    for (int k = 0; k < 3; ++k) n[k] = integer_from<Int>(explicit_[plane.a][k]);
+typename PlaneLightSpace<Stats>::DepthPlane PlaneLightSpace<Stats>::depth_plane(PlaneId id) const {
+  const Shared& shared = *shared_;
+  const ExactGeometry<Int> exact(*shared.geometry);
+  const ExactPlane<Int> plane = exact.plane(id);
+  const Vector3<Int> l = light<Int>();
+  Int height;
+  if (shared.light.directional) {
+    height = dot(plane.n, l);
   } else {
-    n = cross(q<Int>(plane.a), q<Int>(plane.b));
+    height = dot(plane.n, difference(l, exact.position(shared.geometry->planes[id].a)));
   }
-  if (ref.flipped()) {
-    for (Int& x : n) x = -x;
+  DepthPlane depth;
+  depth.at_light = sign_of(height);
+  depth.magnitude = kInfinity;
+  if (depth.at_light == Sign::kZero) return depth;
+  // |value| * 2^-shift, such that nothing of usual size over- or underflows.
+  const auto scaled = [](const Int& value, unsigned shift) {
+    if constexpr (std::is_same_v<Int, mpz_class>) {
+      return to_double_scaled(value, shift);
+    } else {
+      return std::ldexp(static_cast<double>(value), -static_cast<int>(shift));
+    }
+  };
+  const unsigned b = shared.geometry->grid.bits();
+  if (shared.light.directional) {
+    const auto [x, y, z] = shared.axes;
+    const unsigned e = shared.q_bits - b;
+    const double h = scaled(height, 2 * b + e);
+    const double sign = sgn(shared.light.grid[z]) < 0 ? -1 : 1;
+    depth.n = {-sign * scaled(plane.n[x], 2 * b) / h, -sign * scaled(plane.n[y], 2 * b) / h,
+               sign * scaled(plane.d, 3 * b) / h};
+  } else {
+    const unsigned B = shared.q_bits;
+    const double h = scaled(height, 2 * b + B);
+    for (int k = 0; k < 3; ++k) depth.n[k] = scaled(plane.n[k], 2 * b) / h;
   }
-  return n;
+  const double magnitude = largest(depth.n);
+  if (magnitude > 0x1p-900 && magnitude < 0x1p900) depth.magnitude = magnitude;
+  return depth;
+}
+
+template <class Stats>
+void PlaneLightSpace<Stats>::make_depth_planes() {
+  Shared& shared = *shared_;
+  shared.depths.resize(shared.geometry->planes.size());
+  const auto make = [&]<class Int>() {
+    for (PlaneId id = 0; id < shared.depths.size(); ++id) shared.depths[id] = depth_plane<Int>(id);
+  };
+  const unsigned b = shared.geometry->grid.bits();
+  // n . (L - A), n . d and the plane's offset n . A.
+  const unsigned most = std::max(2 * b + shared.q_bits, 3 * b) + 4;
+  if (!shared.narrow || most > 127) {
+    make.template operator()<mpz_class>();
+  } else if (most <= 63) {
+    make.template operator()<std::int64_t>();
+  } else {
+    make.template operator()<Int128>();
+  }
+}
+
+template <class Stats>
+PlaneRef PlaneLightSpace<Stats>::add(const FilteredPlane& plane, Source source) {
+  own_.push_back(plane);
+  sources_.push_back(source);
+  return PlaneRef(edge_count() + static_cast<std::uint32_t>(own_.size()) - 1);
+}
+
+template <class Stats>
+void PlaneLightSpace<Stats>::release_planes(std::uint32_t mark) {
+  for (std::size_t i = mark; i < sources_.size(); ++i) {
+    if (sources_[i].b == kExplicit) explicit_.pop_back();
+  }
+  own_.resize(mark);
+  sources_.resize(mark);
 }
 
 template <class Stats>
 PlaneRef PlaneLightSpace<Stats>::add_explicit(Vector3<mpz_class> normal) {
-  Plane plane;
-  plane.a = static_cast<std::uint32_t>(explicit_.size());
+  const FilteredPlane plane = filtered_from(normal);
   const unsigned width = bits(normal);
-  plane.n = scaled(normal, true, width);
-  set_bound(plane.n, plane.magnitude, plane.error);
-  explicit_bits_.push_back(width);
-  explicit_.push_back(std::move(normal));
-  planes_.push_back(plane);
-  return PlaneRef(static_cast<std::uint32_t>(planes_.size() - 1));
+  explicit_.push_back({std::move(normal), width});
+  return add(plane, {static_cast<std::uint32_t>(explicit_.size() - 1), kExplicit});
 }
 
 template <class Stats>
@@ -151,29 +283,63 @@ PlaneRef PlaneLightSpace<Stats>::add_prefix_plane(const PrefixPlane& plane) {
 // Directional light with H = n . d > 0 for i: H_i P_j - H_j P_i is constant along d; in q
 // coordinates it is (N_x, N_y, -o) . q / d_z, N = H_i n_j - H_j n_i, o = H_i d_j - H_j d_i.
 template <class Stats>
-PlaneRef PlaneLightSpace<Stats>::trace(PlaneId support, const ExactPlane<mpz_class>& j) {
-  const ExactPlane<mpz_class> i = ExactGeometry<mpz_class>(*geometry_).plane(support);
-  mpz_class hi = normal_dot(i.n, light_.grid), hj = normal_dot(j.n, light_.grid);
-  if (!light_.directional) {
-    hi -= i.d;
-    hj -= j.d;
-  }
-  Vector3<mpz_class> normal;
-  if (!light_.directional) {
+template <class Int>
+Vector3<Int> PlaneLightSpace<Stats>::cut_normal(const ExactPlane<Int>& i,
+                                                const ExactPlane<Int>& j) const {
+  const LightAxes& axes = shared_->axes;
+  const Vector3<Int> l = light<Int>();
+  const bool directional = shared_->light.directional;
+  Int hi = dot(i.n, l), hj = dot(j.n, l);
+  Vector3<Int> normal;
+  if (!directional) {
+    hi = hi - i.d;
+    hj = hj - j.d;
     for (int k = 0; k < 3; ++k) normal[k] = hj * i.n[k] - hi * j.n[k];
   } else {
-    const mpz_class o = hi * j.d - hj * i.d;
-    normal[0] = hi * j.n[axes_.x] - hj * i.n[axes_.x];
-    normal[1] = hi * j.n[axes_.y] - hj * i.n[axes_.y];
-    normal[2] = -o;
-    if (sgn(light_.grid[axes_.z]) < 0) {
-      for (mpz_class& x : normal) x = -x;
-    }
+    normal[0] = hi * j.n[axes.x] - hj * i.n[axes.x];
+    normal[1] = hi * j.n[axes.y] - hj * i.n[axes.y];
+    normal[2] = hj * i.d - hi * j.d;
   }
-  if (sgn(hi) < 0) {  // plane i was not oriented to the light
-    for (mpz_class& x : normal) x = -x;
+  // Plane i oriented to the light, and d_z positive.
+  const bool flip =
+      (sign_of(hi) == Sign::kNegative) != (directional && sign_of(l[axes.z]) == Sign::kNegative);
+  if (flip) {
+    for (Int& x : normal) x = -x;
   }
-  return add_explicit(std::move(normal));
+  return normal;
+}
+
+template <class Stats>
+PlaneRef PlaneLightSpace<Stats>::trace(PlaneId support, const ExactPlane<mpz_class>& cut) {
+  return add_explicit(cut_normal(ExactGeometry<mpz_class>(*shared_->geometry).plane(support), cut));
+}
+
+// Both planes usable: the normal is the difference of the depth planes, up to a positive factor.
+template <class Stats>
+PlaneRef PlaneLightSpace<Stats>::cut_of_supports(PlaneId first, PlaneId second) {
+  const DepthPlane& i = shared_->depths[first];
+  const DepthPlane& j = shared_->depths[second];
+  const double sum = i.magnitude + j.magnitude;
+  FilteredPlane plane;
+  plane.slack = kInfinity;
+  for (int k = 0; k < 3; ++k) plane.n[k] = i.n[k] - j.n[k];
+  const double magnitude = largest(plane.n);
+  if (sum < kInfinity && magnitude > sum * 0x1p-40) {
+    const double scale = normalizer(magnitude) * static_cast<int>(j.at_light);
+    for (double& x : plane.n) x *= scale;
+    // Components are off by 8u of each operand and a rounding: 9.1u of the sum. In units of 2u.
+    plane.slack = 1 + 4.6 * sum * std::fabs(scale);
+    if (!(plane.slack <= kMostSlack)) plane.slack = kInfinity;
+  }
+  return add(plane, {first, second});
+}
+
+template <class Stats>
+bool PlaneLightSpace<Stats>::is_cut_of(PlaneRef ref, PlaneId first, PlaneId second) const {
+  if (is_edge(ref)) return false;
+  const Source& from = source(ref);
+  return from.b != kExplicit &&
+         ((from.a == first && from.b == second) || (from.a == second && from.b == first));
 }
 
 // A plane of another light in three dimensions: m . q with q = L - v is -m . v + m . L; for a
@@ -181,14 +347,15 @@ PlaneRef PlaneLightSpace<Stats>::trace(PlaneId support, const ExactPlane<mpz_cla
 template <class Stats>
 ExactPlane<mpz_class> PlaneLightSpace<Stats>::in_scene(PlaneRef ref) const {
   const Vector3<mpz_class> m = exact_normal<mpz_class>(PlaneRef(ref.index()));
+  const LightPoint& light = shared_->light;
   ExactPlane<mpz_class> plane;
-  if (!light_.directional) {
+  if (!light.directional) {
     for (int k = 0; k < 3; ++k) plane.n[k] = -m[k];
-    plane.d = -normal_dot(m, light_.grid);
+    plane.d = -normal_dot(m, light.grid);
     return plane;
   }
-  const auto [x, y, z] = axes_;
-  const std::array<mpz_class, 3>& d = light_.grid;
+  const auto [x, y, z] = shared_->axes;
+  const std::array<mpz_class, 3>& d = light.grid;
   plane.n[x] = m[0] * d[z];
   plane.n[y] = m[1] * d[z];
   plane.n[z] = -(m[0] * d[x] + m[1] * d[y]);
@@ -211,33 +378,20 @@ PlaneRef PlaneLightSpace<Stats>::import_cut(const PlaneLightSpace& other, PlaneR
 template <class Stats>
 PlaneRef PlaneLightSpace<Stats>::import_edge(PlaneRef scene_edge, PlaneId support, bool reversed,
                                              const Vertex&, const Vertex&) {
-  const SceneEdges names = scene_->edges();
-  if (!names.is_input_edge(scene_edge)) {
-    const std::uint64_t key = (std::uint64_t{support} << 32) | scene_edge.index();
-    auto found = traces_.find(key);
-    if (found == traces_.end()) {
-      const ExactPlane<mpz_class> cut =
-          ExactGeometry<mpz_class>(*geometry_).plane(scene_edge.index());
-      found = traces_.emplace(key, trace(support, cut)).first;
-    }
-    return scene_edge.flipped() ? -found->second : found->second;
+  const SceneEdges names = shared_->scene->edges();
+  if (names.is_input_edge(scene_edge)) {
+    const EdgeId edge = names.edge(scene_edge);
+    if (shared_->edges[edge].slack == kNotMade) make_edge_planes(edge, edge + 1);
+    return PlaneRef(edge, scene_edge.flipped() != reversed);
   }
-  const EdgeId edge = names.edge(scene_edge);
-  if (plane_of_edge_[edge] == kExplicit) {
-    const EdgeEnds ends = geometry_->edges[edge];
-    Plane plane;
-    plane.a = ends.a;
-    plane.b = ends.b;
-    if (narrow_ && edge_bits_ <= 126) {
-      plane.n = scaled(cross(q<Int128>(ends.a), q<Int128>(ends.b)), true, edge_bits_);
-    } else {
-      plane.n = scaled(cross(q<mpz_class>(ends.a), q<mpz_class>(ends.b)), true, edge_bits_);
-    }
-    set_bound(plane.n, plane.magnitude, plane.error);
-    plane_of_edge_[edge] = static_cast<std::uint32_t>(planes_.size());
-    planes_.push_back(plane);
+  const std::uint64_t key = (std::uint64_t{support} << 32) | scene_edge.index();
+  auto found = traces_.find(key);
+  if (found == traces_.end()) {
+    const ExactPlane<mpz_class> cut =
+        ExactGeometry<mpz_class>(*shared_->geometry).plane(scene_edge.index());
+    found = traces_.emplace(key, trace(support, cut)).first;
   }
-  return PlaneRef(plane_of_edge_[edge], scene_edge.flipped() != reversed);
+  return scene_edge.flipped() ? -found->second : found->second;
 }
 
 template <class Stats>
@@ -246,104 +400,287 @@ typename PlaneLightSpace<Stats>::Vertex PlaneLightSpace<Stats>::import_vertex(
   Vertex result;
   result.source = vertex.source;
   if (vertex.source == kMadeVertex) return result;
-  if (narrow_) {
-    result.ray = scaled(q<Int128>(vertex.source), false, q_bits_);
+  const std::array<int, 3> stretch{0, 0, shared_->stretch};
+  bool some;
+  if (shared_->narrow) {
+    some = to_normalized(q<std::int64_t>(vertex.source), stretch, result.ray);
   } else {
-    result.ray = scaled(q<mpz_class>(vertex.source), false, q_bits_);
+    some = to_normalized(q<mpz_class>(vertex.source), stretch, result.ray);
   }
-  set_bound(result.ray, result.magnitude, result.error);
+  result.bound = some ? kInputBound : std::numeric_limits<float>::infinity();
   return result;
+}
+
+// Components are two products of factors below 1 that err by 2u times their slack, so by
+// 2 (2u f_m + 2u f_n (1 + 2u f_m)), and roundings of 4u; the ray is below 2.
+template <class Stats>
+typename PlaneLightSpace<Stats>::Vertex PlaneLightSpace<Stats>::made_vertex(PlaneRef before,
+                                                                            PlaneRef after) const {
+  const FilteredPlane& m = filtered(before);
+  const FilteredPlane& n = filtered(after);
+  const double sign = before.flipped() != after.flipped() ? -1 : 1;
+  Vertex vertex;
+  vertex.ray = {sign * (m.n[1] * n.n[2] - m.n[2] * n.n[1]),
+                sign * (m.n[2] * n.n[0] - m.n[0] * n.n[2]),
+                sign * (m.n[0] * n.n[1] - m.n[1] * n.n[0])};
+  const double error = 4.01 * kUnit * (m.slack + n.slack) + 4.01 * kUnit;
+  vertex.bound = rounded_up(ray_bound(error, 2));
+  return vertex;
 }
 
 template <class Stats>
 void PlaneLightSpace<Stats>::finish_vertex(Vertex& vertex, PlaneRef before, PlaneRef after) const {
-  const Plane& m = planes_[before.index()];
-  const Plane& n = planes_[after.index()];
-  for (int k = 0; k < 3; ++k) {
-    const int i = k == 2 ? 0 : k + 1, j = k == 0 ? 2 : k - 1;
-    vertex.ray[k] = m.n[i] * n.n[j] - m.n[j] * n.n[i];
-  }
-  if (before.flipped() != after.flipped()) {
-    for (double& x : vertex.ray) x = -x;
-  }
-  vertex.magnitude = largest(vertex.ray);
-  // Two products whose factors err by m.error and n.error; three roundings of at most |m||n| each.
-  vertex.error = 2.01 * (m.magnitude * n.error + m.error * (n.magnitude + n.error)) +
-                 4.01 * kUnit * m.magnitude * n.magnitude;
-  if (!(vertex.magnitude >= kLeastBound)) vertex.error = kInfinity;
+  vertex = made_vertex(before, after);
 }
 
 template <class Stats>
 typename PlaneLightSpace<Stats>::Vertex PlaneLightSpace<Stats>::crossing(
     PlaneRef plane, PlaneRef edge, bool leaving, const Corner<Vertex>&,
     const Corner<Vertex>&) const {
-  Vertex vertex;
   // Counter-clockwise and inside positive: leaving the front, the cut edge follows the edge.
-  if (leaving) {
-    finish_vertex(vertex, edge, plane);
-  } else {
-    finish_vertex(vertex, plane, edge);
-  }
-  return vertex;
+  return leaving ? made_vertex(edge, plane) : made_vertex(plane, edge);
 }
 
 template <class Stats>
-Side PlaneLightSpace<Stats>::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+Side PlaneLightSpace<Stats>::undecided_side(PlaneRef ref, const Corner<Vertex>& corner) {
   if (ref.same_plane(corner.before) || ref.same_plane(corner.after)) {
     stats_.count(Stage::kIdentity);
     return Side::kOn;
   }
-  const Plane& plane = planes_[ref.index()];
   const Vertex& vertex = corner.vertex;
-  if (vertex.source != kMadeVertex && plane.b != kExplicit &&
-      (vertex.source == plane.a || vertex.source == plane.b)) {
+  if (vertex.source != kMadeVertex && is_edge(ref)) {
+    const EdgeEnds ends = shared_->geometry->edges[ref.index()];
+    if (vertex.source == ends.a || vertex.source == ends.b) {
+      stats_.count(Stage::kIdentity);
+      return Side::kOn;
+    }
+  }
+  return side_of(exact_sign(ref, corner));
+}
+
+template <class Stats>
+Side PlaneLightSpace<Stats>::side_of_support(PlaneId plane, const Corner<Vertex>& corner) {
+  if (plane == corner.support) {
     stats_.count(Stage::kIdentity);
     return Side::kOn;
   }
-  const double value =
-      plane.n[0] * vertex.ray[0] + plane.n[1] * vertex.ray[1] + plane.n[2] * vertex.ray[2];
-  // Three products, each erring by |n| e_r + e_n (|r| + e_r), and five roundings of at most 3
-  // |n||r|.
+  const DepthPlane& own = shared_->depths[corner.support];
+  const DepthPlane& other = shared_->depths[plane];
+  const std::array<double, 3>& r = corner.vertex.ray;
+  const double value = (own.n[0] - other.n[0]) * r[0] + (own.n[1] - other.n[1]) * r[1] +
+                       (own.n[2] - other.n[2]) * r[2];
+  // With M the sum of the magnitudes, |r| <= 2 and e <= bound / 3: differences err by 9.1u M, so
+  // their products with r by 3 (M e + 9.1u M (2 + e)), and roundings are 16u M.
   const double bound =
-      3.01 * (plane.magnitude * vertex.error + plane.error * (vertex.magnitude + vertex.error)) +
-      10 * kUnit * plane.magnitude * vertex.magnitude;
-  if (std::fabs(value) > bound && bound >= kLeastBound && std::fabs(value) < kInfinity) {
+      (own.magnitude + other.magnitude) * (static_cast<double>(corner.vertex.bound) + 72 * kUnit);
+  if (std::fabs(value) > bound) {
     stats_.count(Stage::kFilter);
-    return side_of((value > 0) != ref.flipped() ? Sign::kPositive : Sign::kNegative);
+    return (value > 0) == (other.at_light == Sign::kPositive) ? Side::kFront : Side::kBack;
   }
-  const bool made = vertex.source == kMadeVertex;
-  const unsigned width_bits =
-      made ? side_of_crossing_bits(bits_of(ref), bits_of(corner.before), bits_of(corner.after))
-           : side_of_input_vertex_bits(bits_of(ref), q_bits_);
-  const bool small =
-      narrow_ && is_small(ref) && (!made || (is_small(corner.before) && is_small(corner.after)));
-  Sign sign = Sign::kZero;
-  switch (small ? width_for(width_bits) : IntegerWidth::kUnbounded) {
-    case IntegerWidth::k128:
-      stats_.count(Stage::kExact128);
-      sign = exact_side<Int128>(ref, corner);
-      break;
-    case IntegerWidth::k512:
-      stats_.count(Stage::kExact512);
-      sign = exact_side<Int512>(ref, corner);
-      break;
-    case IntegerWidth::kUnbounded:
-      stats_.count(Stage::kExactUnbounded);
-      sign = exact_side<mpz_class>(ref, corner);
-      break;
+  return undecided_depth(plane, corner);
+}
+
+template <class Stats>
+Side PlaneLightSpace<Stats>::undecided_depth(PlaneId plane, const Corner<Vertex>& corner) {
+  if (corner.vertex.source != kMadeVertex) return side_of(input_depth(plane, corner.vertex.source));
+  if (is_cut_of(corner.before, corner.support, plane) ||
+      is_cut_of(corner.after, corner.support, plane)) {
+    stats_.count(Stage::kIdentity);
+    return Side::kOn;
   }
-  if (sign == Sign::kZero) stats_.count_zero();
+  // A vertex on an edge of its own polygon lies between the edge's ends: two decisions of degree 3
+  // often save one of degree 9. A polygon that shares the edge is the common case.
+  for (const PlaneRef ref : {corner.before, corner.after}) {
+    if (!is_edge(ref)) continue;
+    const EdgeEnds ends = shared_->geometry->edges[ref.index()];
+    if (input_depth(corner.support, ends.a) != Sign::kZero ||
+        input_depth(corner.support, ends.b) != Sign::kZero) {
+      continue;  // an edge of another polygon
+    }
+    const Sign a = input_depth(plane, ends.a), b = input_depth(plane, ends.b);
+    if (a == b) return side_of(a);
+    if (a == Sign::kZero) return side_of(b);
+    if (b == Sign::kZero) return side_of(a);
+  }
+  const Shared& shared = *shared_;
+  const bool narrow = shared.narrow && is_narrow(corner.before) && is_narrow(corner.after);
+  const unsigned width =
+      side_of_crossing_bits(shared.cut_bits, bits_of(corner.before), bits_of(corner.after));
+  const Sign sign = decide(narrow, width, [&]<class Int>() {
+    const ExactGeometry<Int> exact(*shared.geometry);
+    return sign_of_determinant(cut_normal(exact.plane(corner.support), exact.plane(plane)),
+                               exact_normal<Int>(corner.before), exact_normal<Int>(corner.after));
+  });
   return side_of(sign);
 }
 
 template <class Stats>
-template <class Int>
-Sign PlaneLightSpace<Stats>::exact_side(PlaneRef plane, const Corner<Vertex>& corner) const {
-  const Vector3<Int> n = exact_normal<Int>(plane);
-  if (corner.vertex.source != kMadeVertex) {
-    return sign_of(dot(n, q<Int>(corner.vertex.source)));
+Sign PlaneLightSpace<Stats>::input_depth(PlaneId plane, VertexId vertex) {
+  const Geometry& geometry = *shared_->geometry;
+  const SupportTriple& triple = geometry.planes[plane];
+  if (vertex == triple.a || vertex == triple.b || vertex == triple.c) {
+    stats_.count(Stage::kIdentity);
+    return Sign::kZero;
   }
-  return sign_of_determinant(n, exact_normal<Int>(corner.before), exact_normal<Int>(corner.after));
+  return decide(geometry.grid.is_narrow(), 3 * geometry.grid.bits() + 5, [&]<class Int>() {
+    const ExactGeometry<Int> exact(geometry);
+    const ExactPlane<Int> support = exact.plane(plane);
+    return sign_of(Int(dot(support.n, exact.position(vertex)) - support.d));
+  });
+}
+
+template <class Stats>
+Sign PlaneLightSpace<Stats>::exact_sign(PlaneRef ref, const Corner<Vertex>& corner) {
+  const Shared& shared = *shared_;
+  const VertexId input = corner.vertex.source;
+  if (input != kMadeVertex) {
+    return decide(shared.narrow && is_narrow(ref),
+                  side_of_input_vertex_bits(bits_of(ref), shared.q_bits),
+                  [&]<class Int>() { return sign_of(dot(exact_normal<Int>(ref), q<Int>(input))); });
+  }
+  const bool narrow =
+      shared.narrow && is_narrow(ref) && is_narrow(corner.before) && is_narrow(corner.after);
+  const unsigned width =
+      side_of_crossing_bits(bits_of(ref), bits_of(corner.before), bits_of(corner.after));
+  return decide(narrow, width, [&]<class Int>() {
+    return sign_of_determinant(exact_normal<Int>(ref), exact_normal<Int>(corner.before),
+                               exact_normal<Int>(corner.after));
+  });
+}
+
+template <class Stats>
+template <class Predicate>
+Sign PlaneLightSpace<Stats>::decide(bool narrow, unsigned width_bits, const Predicate& predicate) {
+  const IntegerWidth width = narrow ? narrowest_width(width_bits) : IntegerWidth::kUnbounded;
+  stats_.count(exact_stage(width));
+  const Sign sign = with_width(width, predicate);
+  if (sign == Sign::kZero) stats_.count_zero();
+  return sign;
+}
+
+template <class Stats>
+unsigned PlaneLightSpace<Stats>::bits_of(PlaneRef plane) const {
+  if (is_edge(plane)) return shared_->edge_bits;
+  const Source& from = source(plane);
+  return from.b == kExplicit ? explicit_[from.a].bits : shared_->cut_bits;
+}
+
+template <class Stats>
+bool PlaneLightSpace<Stats>::is_narrow(PlaneRef plane) const {
+  if (is_edge(plane)) return true;
+  const Source& from = source(plane);
+  return from.b != kExplicit || explicit_[from.a].bits <= 63;
+}
+
+template <class Stats>
+template <class Int>
+Vector3<Int> PlaneLightSpace<Stats>::exact_normal(PlaneRef ref) const {
+  Vector3<Int> n;
+  if (is_edge(ref)) {
+    const EdgeEnds ends = shared_->geometry->edges[ref.index()];
+    n = cross(q<Int>(ends.a), q<Int>(ends.b));
+  } else if (const Source& from = source(ref); from.b == kExplicit) {
+    for (int k = 0; k < 3; ++k) n[k] = integer_from<Int>(explicit_[from.a].n[k]);
+  } else {
+    const ExactGeometry<Int> exact(*shared_->geometry);
+    n = cut_normal(exact.plane(from.a), exact.plane(from.b));
+  }
+  if (ref.flipped()) {
+    for (Int& x : n) x = -x;
+  }
+  return n;
+}
+
+// In the chart a direction is (r_u, r_v) / |r_w|, and the depth plane gives z. With e the error of
+// a component and w = |r_w|, e / w <= 2^-10, quotients err by (1 + |u|) e / w (1 + 2^-9) and a
+// rounding.
+template <class Stats>
+ChartPoint PlaneLightSpace<Stats>::chart_point(const LightChart& chart,
+                                               const Corner<Vertex>& corner) const {
+  const Vertex& vertex = corner.vertex;
+  const std::array<double, 3>& r = vertex.ray;
+  const DepthPlane& depth = shared_->depths[corner.support];
+  const double error = static_cast<double>(vertex.bound) * (1 / 3.0);
+  const double w = chart.sign * r[chart.w];
+  ChartPoint point;
+  point.uv_error = point.z_error = kInfinity;
+  if (!(error < w * 0x1p-10)) return point;
+  const double inverse = 1 / w, relative = error * inverse;
+  point.u = chart.sign * r[chart.u] * inverse;
+  point.v = chart.sign * r[chart.v] * inverse;
+  point.z = (depth.n[0] * r[0] + depth.n[1] * r[1] + depth.n[2] * r[2]) * inverse;
+  const double most = std::max(std::fabs(point.u), std::fabs(point.v));
+  point.uv_error = 1.01 * (1 + most) * relative + 3 * kUnit * most;
+  // The sum errs by 3 |depth| (e + 8u (2 + e)) and roundings of 16u |depth|.
+  point.z_error = depth.magnitude * inverse * (3.01 * error + 66 * kUnit) +
+                  std::fabs(point.z) * (1.01 * relative + 3 * kUnit);
+  return point;
+}
+
+// On the ray r the plane is met in q = r / (depth . r); errors as in chart_point.
+template <class Stats>
+PlanarPoint PlaneLightSpace<Stats>::planar_point(const Corner<Vertex>& corner) const {
+  const Vertex& vertex = corner.vertex;
+  const std::array<double, 3>& r = vertex.ray;
+  const double error = static_cast<double>(vertex.bound) * (1 / 3.0);
+  PlanarPoint point;
+  point.error = kInfinity;
+  double inverse, relative;
+  if (shared_->light.directional) {
+    inverse = 1 / r[2];
+    relative = error * std::fabs(inverse);
+    point.x = r[0] * inverse;
+    point.y = r[1] * inverse;
+  } else {
+    const DepthPlane& depth = shared_->depths[corner.support];
+    inverse = 1 / (depth.n[0] * r[0] + depth.n[1] * r[1] + depth.n[2] * r[2]);
+    relative = depth.magnitude * (3.01 * error + 66 * kUnit) * std::fabs(inverse);
+    const auto [u, v] = kept_axes(depth);
+    point.x = r[u] * inverse;
+    point.y = r[v] * inverse;
+  }
+  if (!(relative < 0x1p-10)) return point;
+  const double most = std::max(std::fabs(point.x), std::fabs(point.y));
+  point.error = 1.01 * (error * std::fabs(inverse) + most * relative) + 3 * kUnit * most;
+  return point;
+}
+
+// The same from integers: q = h r / (n . r), each factor rounded once, so that nothing cancels.
+template <class Stats>
+PlanarPoint PlaneLightSpace<Stats>::accurate_planar_point(const Corner<Vertex>& corner) const {
+  const Shared& shared = *shared_;
+  const VertexId input = corner.vertex.source;
+  const bool made = input == kMadeVertex;
+  PlanarPoint point;
+  point.error = kInfinity;
+  const auto [u, v] = kept_axes(shared.depths[corner.support]);
+  const auto locate = [&]<class Int>() {
+    const Vector3<Int> r =
+        made ? cross(exact_normal<Int>(corner.before), exact_normal<Int>(corner.after))
+             : q<Int>(input);
+    std::array<double, 4> value;  // up to one common factor
+    if (shared.light.directional) {
+      value = {to_double(r[0]), to_double(r[1]), to_double(r[2]), 1};
+      value[2] = std::ldexp(value[2], shared.stretch);
+    } else {
+      const ExactGeometry<Int> exact(*shared.geometry);
+      const Vector3<Int> n = exact.plane(corner.support).n;
+      const VertexId a = shared.geometry->planes[corner.support].a;
+      const Int height = dot(n, difference(light<Int>(), exact.position(a)));
+      value = {to_double(r[u]), to_double(r[v]), to_double(dot(n, r)),
+               std::ldexp(to_double(height), -static_cast<int>(shared.q_bits))};
+    }
+    point.x = value[0] / value[2] * value[3];
+    point.y = value[1] / value[2] * value[3];
+  };
+  const unsigned bits = made ? bits_of(corner.before) + bits_of(corner.after) + 2 : shared.q_bits;
+  const bool narrow =
+      shared.narrow && (!made || (is_narrow(corner.before) && is_narrow(corner.after)));
+  const unsigned plane_bits = 2 * shared.geometry->grid.bits() + 1;
+  with_width(narrow ? narrowest_width(bits + plane_bits + 3) : IntegerWidth::kUnbounded, locate);
+  const double most = std::max(std::fabs(point.x), std::fabs(point.y));
+  if (most < 0x1p900) point.error = 16 * kUnit * most + 0x1p-900;
+  return point;
 }
 
 // On the ray r the support plane i is met where P_i(v) = 0. Point light: v = L - s r with
@@ -354,24 +691,24 @@ std::array<Ball, 3> PlaneLightSpace<Stats>::position(const Corner<Vertex>& corne
   const Vertex& vertex = corner.vertex;
   std::array<Ball, 3> point;
   if (vertex.source != kMadeVertex) {
-    const typename SceneSpace::Vertex input = scene_->input_vertex(vertex.source);
+    const typename SceneSpace::Vertex input = shared_->scene->input_vertex(vertex.source);
     for (int k = 0; k < 3; ++k) {
       point[k] = Ball(input.x[k], input.error * input.x[k] + Ball::kTiny);
     }
     return point;
   }
-  const std::array<Ball, 4> plane = scene_->plane_enclosure(corner.support);
-  const std::array<Ball, 3>& l = light_enclosure_;
+  const std::array<Ball, 4> plane = shared_->scene->plane_enclosure(corner.support);
+  const std::array<Ball, 3>& l = shared_->light_enclosure;
   std::array<Ball, 3> r;
-  for (int k = 0; k < 3; ++k) r[k] = Ball(vertex.ray[k], vertex.error);
+  for (int k = 0; k < 3; ++k) r[k] = Ball(vertex.ray[k], static_cast<double>(vertex.bound));
   Ball height = plane[0] * l[0] + plane[1] * l[1] + plane[2] * l[2];
-  if (!light_.directional) {
+  if (!shared_->light.directional) {
     height = height - plane[3];
     const Ball s = height / (plane[0] * r[0] + plane[1] * r[1] + plane[2] * r[2]);
     for (int k = 0; k < 3; ++k) point[k] = l[k] - s * r[k];
     return point;
   }
-  const auto [x, y, z] = axes_;
+  const auto [x, y, z] = shared_->axes;
   // q_x / q_z = (x d_z - z d_x) / d_z is in grid units; the stretch of z makes it units of 2^b.
   const Ball u = r[0] / r[2], v = r[1] / r[2];
   point[z] = (plane[3] - plane[x] * u - plane[y] * v) * l[z] / height;
@@ -384,7 +721,8 @@ template <class Stats>
 std::array<mpq_class, 3> PlaneLightSpace<Stats>::exact_position(
     const Corner<Vertex>& corner) const {
   std::array<mpq_class, 3> point = exact_grid_position(corner);
-  for (int k = 0; k < 3; ++k) point[k] = geometry_->origin[k] + geometry_->step * point[k];
+  for (int k = 0; k < 3; ++k)
+    point[k] = shared_->geometry->origin[k] + shared_->geometry->step * point[k];
   return point;
 }
 
@@ -393,36 +731,37 @@ std::array<mpq_class, 3> PlaneLightSpace<Stats>::exact_grid_position(
     const Corner<Vertex>& corner) const {
   std::array<mpq_class, 3> point;
   if (corner.vertex.source != kMadeVertex) {
-    for (int k = 0; k < 3; ++k) point[k] = geometry_->grid.at(corner.vertex.source, k);
+    for (int k = 0; k < 3; ++k) point[k] = shared_->geometry->grid.at(corner.vertex.source, k);
     return point;
   }
   const Vector3<mpz_class> r =
       cross(exact_normal<mpz_class>(corner.before), exact_normal<mpz_class>(corner.after));
-  const ExactPlane<mpz_class> plane = ExactGeometry<mpz_class>(*geometry_).plane(corner.support);
-  if (!light_.directional) {
-    const mpz_class height = normal_dot(plane.n, light_.grid) - plane.d;
+  const ExactPlane<mpz_class> plane =
+      ExactGeometry<mpz_class>(*shared_->geometry).plane(corner.support);
+  if (!shared_->light.directional) {
+    const mpz_class height = normal_dot(plane.n, shared_->light.grid) - plane.d;
     mpq_class s(height, dot(plane.n, r));
     s.canonicalize();
-    for (int k = 0; k < 3; ++k) point[k] = light_.grid[k] - s * r[k];
+    for (int k = 0; k < 3; ++k) point[k] = shared_->light.grid[k] - s * r[k];
     return point;
   }
-  const auto [x, y, z] = axes_;
+  const auto [x, y, z] = shared_->axes;
   mpq_class u(r[0], r[2]), v(r[1], r[2]);
   u.canonicalize();
   v.canonicalize();
-  const mpz_class height = normal_dot(plane.n, light_.grid);
-  const mpz_class& dz = light_.grid[z];
+  const mpz_class height = normal_dot(plane.n, shared_->light.grid);
+  const mpz_class& dz = shared_->light.grid[z];
   point[z] = (plane.d - plane.n[x] * u - plane.n[y] * v) * dz / height;
-  point[x] = u + point[z] * light_.grid[x] / dz;
-  point[y] = v + point[z] * light_.grid[y] / dz;
+  point[x] = u + point[z] * shared_->light.grid[x] / dz;
+  point[y] = v + point[z] * shared_->light.grid[y] / dz;
   return point;
 }
 
 template <class Stats>
 std::string PlaneLightSpace<Stats>::describe(PlaneRef ref) const {
-  const Plane& plane = planes_[ref.index()];
-  if (plane.b == kExplicit) return "a plane through the light along a cut";
-  return "the shadow plane of edge " + std::to_string(plane.a) + "-" + std::to_string(plane.b);
+  if (!is_edge(ref)) return "a plane through the light along a cut";
+  const EdgeEnds ends = shared_->geometry->edges[ref.index()];
+  return "the shadow plane of edge " + std::to_string(ends.a) + "-" + std::to_string(ends.b);
 }
 
 template class PlaneLightSpace<NoStats>;

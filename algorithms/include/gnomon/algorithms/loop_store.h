@@ -26,9 +26,16 @@ class LoopStore {
     vertices_.push_back(std::move(vertex));
     edges_.push_back(edge);
   }
-  void truncate(std::uint32_t size) {
+  void truncate(std::uint32_t size) { resize(size); }
+  void resize(std::uint32_t size) {
     vertices_.resize(size);
     edges_.resize(size);
+  }
+  /// Makes room, so that views stay valid while up to `more` vertices are pushed.
+  void reserve_more(std::size_t more) {
+    if (vertices_.size() + more <= vertices_.capacity()) return;
+    vertices_.reserve(2 * (vertices_.size() + more));
+    edges_.reserve(2 * (vertices_.size() + more));
   }
   void clear() { truncate(0); }
   LoopView<Vertex> view(const LoopRange& range, PlaneId support) const {

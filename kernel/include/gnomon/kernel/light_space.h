@@ -63,6 +63,12 @@ struct ChartPoint {
   double uv_error = 0, z_error = 0;
 };
 
+/// A point of a support plane in an affine frame of that plane; `error` bounds that of x and of y.
+struct PlanarPoint {
+  double x = 0, y = 0;
+  double error = 0;
+};
+
 }  // namespace gnomon
 
 #endif  // GNOMON_KERNEL_LIGHT_SPACE_H

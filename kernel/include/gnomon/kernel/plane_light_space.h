@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The kernel `plane` in the light space of one point or directional light, where SVBSP decides: on
-// which side of a plane through the light is a vertex of a fragment?
+// The kernel `plane` in the light space of one point or directional light: on which side of a plane
+// through the light is a vertex of a fragment, and which of two polygons is nearer?
 //
-// A plane is its provenance: an input edge (q_a x q_b), or explicit integers (a trace of a scene
-// BSP split, a prefix plane, a plane of another light). A vertex is an input vertex, or the ray in
-// which the planes of its two edges meet, n_before x n_after, in that order. Both carry doubles
-// with proven error bounds for the filter; what the filter leaves open is computed again from the
-// provenance in integers.
+// A plane is its provenance: an input edge (q_a x q_b), the cut of two support planes, or explicit
+// integers (a trace of a scene BSP split, a prefix plane, a plane of another light). A vertex is an
+// input vertex, or the ray in which the planes of its two edges meet, n_before x n_after, in that
+// order. Both carry doubles with proven error bounds for the filter; what the filter leaves open
+// goes to identity, and then is computed again from the provenance in integers.
 //
-// Guarantee: every decision is exact on every input, whatever the magnitudes: a filter answers only
-// if its value and bound are finite and the bound is at least 2^-900, so that nothing that
-// underflowed can matter. Degree: 3 for input vertices, 6 for crossings, 9 / 12 / 15 with one, two,
-// three traces. Reference: Chin & Feiner 1989, sec. 4; docs/exactness.md.
+// The depth plane of a support plane n . x = d with value h at the light is n / h (for a
+// directional light: the height at which a line to the light meets it): a linear function of rays
+// that is larger where the plane is nearer. Comparing two of them decides which polygon shadows
+// which; this is the exact form of a depth buffer's 1 / z.
+//
+// Guarantee: every decision is exact on every input, whatever the magnitudes. Planes and rays are
+// scaled by powers of two so that the largest component is in [1/2, 1) (made rays: at most 2), so
+// that bounds are multiples of u that no underflow can touch; what cannot be scaled so is left to
+// integers. Degree: 3 for input vertices, 6 for crossings, 9 / 12 / 15 with one, two, three cuts.
+// Reference: Chin & Feiner 1989, sec. 4; docs/exactness.md.
 #ifndef GNOMON_KERNEL_PLANE_LIGHT_SPACE_H
 #define GNOMON_KERNEL_PLANE_LIGHT_SPACE_H
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -32,11 +40,14 @@ class PlaneLightSpace {
  public:
   using SceneSpace = PlaneSceneSpace<Stats>;
   static constexpr bool kExact = true;
+  static constexpr bool kParallel = true;
 
+  /// 32 bytes, as a vertex of three doubles and a number is.
   struct Vertex {
-    std::array<double, 3> ray{};  // positive multiple of the direction in q coordinates
-    double magnitude = 0;         // largest |ray_k|
-    double error = 0;             // of each component; infinite: the doubles say nothing
+    std::array<double, 3> ray{};  // positive multiple of the direction in q coordinates, |.| <= 2
+    /// Bound of the error of n . ray for a plane of slack 1; at least three times the error of any
+    /// component. Infinite: the doubles say nothing.
+    float bound = 0;
     VertexId source = kMadeVertex;
   };
 
@@ -64,69 +75,141 @@ class PlaneLightSpace {
 
   /// Identities: (1) the planes of the corner's edges contain it; (2) the plane of edge (a, b)
   /// contains the input vertices a and b. Exactness: always.
-  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner);
+  Side side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
+    const FilteredPlane& plane = filtered(ref);
+    const std::array<double, 3>& r = corner.vertex.ray;
+    const double value = plane.n[0] * r[0] + plane.n[1] * r[1] + plane.n[2] * r[2];
+    if (std::fabs(value) > plane.slack * static_cast<double>(corner.vertex.bound)) {
+      stats_.count(Stage::kFilter);
+      return (value > 0) != ref.flipped() ? Side::kFront : Side::kBack;
+    }
+    return undecided_side(ref, corner);
+  }
   /// Where the edge `edge`, leaving the front of `plane` (kFront first) or entering it, meets it.
   Vertex crossing(PlaneRef plane, PlaneRef edge, bool leaving, const Corner<Vertex>& from,
                   const Corner<Vertex>& to) const;
 
+  /// Side of the corner's point, on the support plane of its loop, of another support plane.
+  /// Identities: the corner lies on a cut of the two; it is one of the three vertices that define
+  /// the plane. Degree 3 and 9.
+  Side side_of_support(PlaneId plane, const Corner<Vertex>& corner);
+  /// The front is the part of `first` in front of `second`. Degree 5.
+  PlaneRef cut_of_supports(PlaneId first, PlaneId second);
+
+  /// See the concept SectorSpaceModel.
+  PlaneLightSpace fork() const;
+  void make_edge_planes(EdgeId begin, EdgeId end);
+  std::uint32_t plane_mark() const { return static_cast<std::uint32_t>(own_.size()); }
+  void release_planes(std::uint32_t mark);
+
+  /// Certified for every vertex whose doubles say something.
+  ChartPoint chart_point(const LightChart& chart, const Corner<Vertex>& corner) const;
+  /// The corner's point in a frame of its support plane: two components of q, scaled; for a
+  /// directional light the chart's, which is an affine map of the plane.
+  PlanarPoint planar_point(const Corner<Vertex>& corner) const;
+  /// The same, computed from integers: relative error 16u whatever meets there at what angle.
+  PlanarPoint accurate_planar_point(const Corner<Vertex>& corner) const;
   /// Enclosure of the corner's position on its support plane, in grid units times 2^-b.
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   /// The same, exactly, in scene units.
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
-  /// In words, for explanations: "edge 12 (4-7)", "trace", ...
+  /// In words, for explanations: "the shadow plane of edge 4-7", ...
   std::string describe(PlaneRef plane) const;
   StageCounts stage_counts() const { return stats_.counts(); }
 
  private:
-  static constexpr std::uint32_t kExplicit = 0xffffffffu;
-  struct Plane {
+  /// Doubles of a plane: largest |n_k| in [1/2, 1), each off by at most 2u * slack, slack >= 1.
+  struct FilteredPlane {
     std::array<double, 3> n{};
-    double magnitude = 0;
-    double error = 0;
-    std::uint32_t a = 0;
-    std::uint32_t b = kExplicit;  // edge a-b, or explicit_[a] if b is kExplicit
+    double slack = kNotMade;  // infinite: the doubles say nothing
+  };
+  static constexpr double kNotMade = 0;
+  /// Where a plane that is no edge's comes from: a and b are support planes, or b is kExplicit and
+  /// a an index into explicit_.
+  struct Source {
+    std::uint32_t a = 0, b = kExplicit;
+  };
+  static constexpr std::uint32_t kExplicit = 0xffffffffu;
+  struct Explicit {
+    Vector3<mpz_class> n;
+    unsigned bits = 0;  // of the largest component's magnitude
+  };
+  /// n / h of a support plane, in the units of stretched rays; see the head of the file.
+  struct DepthPlane {
+    std::array<double, 3> n{};  // each off by at most 8u |n_k|
+    double magnitude = 0;       // largest |n_k|; infinite: the doubles say nothing
+    Sign at_light = Sign::kZero;
+  };
+  /// What forks have in common.
+  struct Shared {
+    const Geometry* geometry = nullptr;
+    SceneSpace* scene = nullptr;
+    LightPoint light;
+    LightAxes axes;
+    unsigned q_bits = 0;     // magnitude bits of q
+    unsigned edge_bits = 0;  // magnitude bits of an edge plane
+    unsigned cut_bits = 0;   // magnitude bits of a cut of two support planes
+    int stretch = 0;         // z of the doubles is scaled by 2^stretch (directional lights)
+    bool narrow = false;     // grid, light and q fit into 64 bits
+    std::array<std::int64_t, 3> narrow_light{};
+    std::array<Ball, 3> light_enclosure;  // position times 2^-b, or direction times a power of two
+    std::vector<FilteredPlane> edges;     // by EdgeId
+    std::vector<DepthPlane> depths;       // by PlaneId
   };
 
-  std::array<mpq_class, 3> exact_grid_position(const Corner<Vertex>& corner) const;
+  Side undecided_side(PlaneRef plane, const Corner<Vertex>& corner);
+  /// The two axes that remain when that of the normal's largest component is dropped.
+  static std::array<int, 2> kept_axes(const DepthPlane& plane) {
+    const double x = std::fabs(plane.n[0]), y = std::fabs(plane.n[1]), z = std::fabs(plane.n[2]);
+    if (z >= x && z >= y) return {0, 1};
+    return y >= x ? std::array{2, 0} : std::array{1, 2};
+  }
+  std::uint32_t edge_count() const { return static_cast<std::uint32_t>(shared_->edges.size()); }
+  bool is_edge(PlaneRef plane) const { return plane.index() < edge_count(); }
+  const FilteredPlane& filtered(PlaneRef plane) const {
+    const std::uint32_t index = plane.index();
+    return index < edge_count() ? shared_->edges[index] : own_[index - edge_count()];
+  }
+  const Source& source(PlaneRef plane) const { return sources_[plane.index() - edge_count()]; }
+  bool is_cut_of(PlaneRef plane, PlaneId first, PlaneId second) const;
+
+  Vertex made_vertex(PlaneRef before, PlaneRef after) const;
   template <class Int>
   Vector3<Int> q(VertexId v) const;
   template <class Int>
-  Vector3<Int> exact_normal(PlaneRef plane) const;
+  Vector3<Int> light() const;
   template <class Int>
-  Sign exact_side(PlaneRef plane, const Corner<Vertex>& corner) const;
-  unsigned bits_of(PlaneRef plane) const {
-    const Plane& p = planes_[plane.index()];
-    return p.b == kExplicit ? explicit_bits_[p.a] : edge_bits_;
-  }
-  bool is_small(PlaneRef plane) const {
-    const Plane& p = planes_[plane.index()];
-    return p.b != kExplicit || explicit_bits_[p.a] <= 63;
-  }
-  std::array<double, 3> scaled(const Vector3<mpz_class>& v, bool is_normal,
-                               unsigned magnitude_bits) const;
-  std::array<double, 3> scaled(const Vector3<Int128>& v, bool is_normal,
-                               unsigned magnitude_bits) const;
+  Vector3<Int> cut_normal(const ExactPlane<Int>& i, const ExactPlane<Int>& j) const;
+  template <class Int>
+  Vector3<Int> exact_normal(PlaneRef plane) const;
+  Side undecided_depth(PlaneId plane, const Corner<Vertex>& corner);
+  Sign input_depth(PlaneId plane, VertexId vertex);
+  Sign exact_sign(PlaneRef plane, const Corner<Vertex>& corner);
+  /// Calls predicate.operator()<Int>() with the narrowest integers that hold `width_bits`, or with
+  /// GMP's if not `narrow`.
+  template <class Predicate>
+  Sign decide(bool narrow, unsigned width_bits, const Predicate& predicate);
+  unsigned bits_of(PlaneRef plane) const;
+  bool is_narrow(PlaneRef plane) const;
+  template <class Int>
+  FilteredPlane filtered_from(const Vector3<Int>& normal) const;
+  void make_depth_planes();
+  template <class Int>
+  DepthPlane depth_plane(PlaneId id) const;
+  PlaneRef add(const FilteredPlane& plane, Source source);
   PlaneRef add_explicit(Vector3<mpz_class> normal);
   PlaneRef trace(PlaneId support, const ExactPlane<mpz_class>& cut);
   ExactPlane<mpz_class> in_scene(PlaneRef plane) const;
+  std::array<mpq_class, 3> exact_grid_position(const Corner<Vertex>& corner) const;
 
-  const Geometry* geometry_;
-  SceneSpace* scene_;
-  LightPoint light_;
-  LightAxes axes_;
-  unsigned q_bits_;     // magnitude bits of q
-  unsigned edge_bits_;  // magnitude bits of an edge plane
-  int stretch_ = 0;     // z of the doubles is scaled by 2^stretch (directional lights)
-  bool narrow_;         // q fits into 64 bits
-  std::array<std::int64_t, 3> narrow_light_{};
-  std::array<Ball, 3> light_enclosure_;  // position times 2^-b, or direction times a power of two
-  std::vector<Plane> planes_;
-  std::vector<std::uint32_t> plane_of_edge_;  // edge -> plane, kExplicit if not made yet
-  std::vector<Vector3<mpz_class>> explicit_;
-  std::vector<unsigned> explicit_bits_;
+  std::shared_ptr<Shared> shared_;
+  // Planes after those of the edges; a stack.
+  std::vector<FilteredPlane> own_;
+  std::vector<Source> sources_;
+  std::vector<Explicit> explicit_;
   std::unordered_map<std::uint64_t, PlaneRef> traces_;     // (support plane, cutting plane)
   std::map<std::array<std::uint64_t, 3>, PlaneRef> cuts_;  // (other light, its plane, support)
-  Stats stats_;
+  [[no_unique_address]] Stats stats_;
 };
 
 extern template class PlaneLightSpace<NoStats>;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "area_sums.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gnomon {
+
+void AreaSums::add_enclosure(std::uint32_t part, const Ball& fraction) {
+  // lower() and upper() round outwards, ldexp is exact, and so are floor and ceil.
+  const double low = std::floor(std::ldexp(fraction.lower(), kBits));
+  const double high = std::ceil(std::ldexp(fraction.upper(), kBits));
+  first_[part].fetch_add(static_cast<std::int64_t>(low), std::memory_order_relaxed);
+  second_[part].fetch_add(static_cast<std::int64_t>(high), std::memory_order_relaxed);
+}
+
+Interval AreaSums::enclosure(std::uint32_t part) const {
+  // Conversion of 62 bits to a double rounds: the next double outwards is safe.
+  const double low = static_cast<double>(first_[part].load(std::memory_order_relaxed));
+  const double high = static_cast<double>(second_[part].load(std::memory_order_relaxed));
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {std::clamp(std::ldexp(std::nextafter(low, -kInfinity), -kBits), 0.0, 1.0),
+          std::clamp(std::ldexp(std::nextafter(high, kInfinity), -kBits), 0.0, 1.0)};
+}
+
+void AreaSums::add_rounded(std::uint32_t part, bool lit, double fraction) {
+  std::atomic<std::int64_t>& sum = lit ? first_[part] : second_[part];
+  if (!(std::fabs(fraction) < 2)) {
+    sum.store(kPoison, std::memory_order_relaxed);
+    return;
+  }
+  const auto units = static_cast<std::int64_t>(std::ldexp(fraction, kBits));
+  std::int64_t old = sum.load(std::memory_order_relaxed);
+  while (old != kPoison &&
+         !sum.compare_exchange_weak(old, std::abs(old + units) < kPoison ? old + units : kPoison,
+                                    std::memory_order_relaxed)) {
+  }
+}
+
+double AreaSums::rounded(std::uint32_t part, bool lit) const {
+  const std::int64_t sum = (lit ? first_ : second_)[part].load(std::memory_order_relaxed);
+  if (sum == kPoison) return std::numeric_limits<double>::quiet_NaN();
+  return std::ldexp(static_cast<double>(sum), -kBits);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Areas of pieces of a part, in some affine frame of its support plane: enclosed in doubles with
+// one error bound a vertex, and exactly.
+#ifndef GNOMON_ALGORITHMS_SRC_PIECE_AREA_H
+#define GNOMON_ALGORITHMS_SRC_PIECE_AREA_H
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "fractions.h"
+#include "gnomon/kernel/kernel_concept.h"
+#include "gnomon/scene/prepare.h"
+
+namespace gnomon {
+
+/// The chart of every support plane: which axis to drop.
+class PlaneCharts {
+ public:
+  explicit PlaneCharts(const Geometry& geometry);
+  Chart operator[](PlaneId plane) const {
+    const int dropped = dropped_[plane];
+    return {(dropped + 1) % 3, (dropped + 2) % 3};
+  }
+
+ private:
+  std::vector<std::uint8_t> dropped_;
+};
+
+/// Coordinates of a corner in an affine frame of the support plane of its loop, the same frame for
+/// all loops of that plane.
+template <LightSpaceModel Space>
+PlanarPoint planar_point(const Space& space, const PlaneCharts& charts,
+                         const Corner<typename Space::Vertex>& corner) {
+  if constexpr (requires { space.planar_point(corner); }) {
+    return space.planar_point(corner);
+  } else {
+    const std::array<Ball, 3> point = space.position(corner);
+    const auto [u, v] = charts[corner.support];
+    return {point[u].middle, point[v].middle, std::max(point[u].radius, point[v].radius)};
+  }
+}
+
+/// Twice the signed area of a loop whose corners are at point_of(corner). With D the largest
+/// difference of coordinates from the first vertex and d >= 2e + uD its error, each of 2 (n - 2)
+/// products errs by d (2D + d), and roundings are at most u (n + 3) times the sum of products of at
+/// most D^2. The radius is infinite or not a number where nothing is known.
+template <class Loop, class PointOf>
+Ball twice_area(const Loop& loop, const PointOf& point_of) {
+  const PlanarPoint origin = point_of(loop.corner(0));
+  double x = 0, y = 0, sum = 0, most = 0, error = origin.error;
+  for (std::uint32_t i = 1; i < loop.size(); ++i) {
+    const PlanarPoint p = point_of(loop.corner(i));
+    const double next_x = p.x - origin.x, next_y = p.y - origin.y;
+    sum += x * next_y - y * next_x;
+    most = std::max({most, std::fabs(next_x), std::fabs(next_y)});
+    error = std::max(error, p.error);
+    x = next_x;
+    y = next_y;
+  }
+  const auto n = static_cast<double>(loop.size());
+  const double d = 2 * error + Ball::kUnit * most;
+  const double radius = 2 * n * d * (2 * most + d) + 2 * n * (n + 4) * Ball::kUnit * most * most;
+  return {sum, radius * 1.001 + Ball::kTiny};
+}
+
+/// The same for a loop in light space. Where the bounds of the doubles leave more than `widest`,
+/// a kernel that can computes the corners from its integers.
+template <LightSpaceModel Space>
+Ball twice_area(const Space& space, const PlaneCharts& charts,
+                const LoopView<typename Space::Vertex>& loop, double widest) {
+  const Ball area =
+      twice_area(loop, [&](const auto& corner) { return planar_point(space, charts, corner); });
+  if constexpr (requires { space.accurate_planar_point(loop.corner(0)); }) {
+    if (!(area.radius < widest)) {
+      return twice_area(loop,
+                        [&](const auto& corner) { return space.accurate_planar_point(corner); });
+    }
+  }
+  return area;
+}
+
+/// Twice the area of a part and of one of its pieces in scene units, in the chart of its plane.
+mpq_class twice_exact_area(const PreparedScene& scene, const Part& part);
+template <LightSpaceModel Space>
+mpq_class twice_exact_area(const Space& space, const Chart& chart,
+                           const LoopView<typename Space::Vertex>& loop) {
+  mpq_class sum = 0;
+  const auto first = space.exact_position(loop.corner(0));
+  auto previous = space.exact_position(loop.corner(1));
+  for (std::uint32_t i = 2; i < loop.size(); ++i) {
+    auto next = space.exact_position(loop.corner(i));
+    sum += (previous[chart.u] - first[chart.u]) * (next[chart.v] - first[chart.v]) -
+           (previous[chart.v] - first[chart.v]) * (next[chart.u] - first[chart.u]);
+    previous = std::move(next);
+  }
+  return abs(sum);
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SRC_PIECE_AREA_H
