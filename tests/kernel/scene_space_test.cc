@@ -135,7 +135,7 @@ TEST_P(SceneSpace, EverySideIsTrue) {
   Random random(bits);
   StageCounts counts;
   for (const SoupKind kind : kSoupKinds) {
-    const int rounds = bits > 200 ? 4 : 40;
+    const int rounds = bits > 200 ? 4 : 20;
     for (int round = 0; round < rounds; ++round) {
       const int exponent = static_cast<int>(random.between(-1000, 1000));
       const TriangleSoup soup = random_soup(random, kind, bits, 6, exponent);
