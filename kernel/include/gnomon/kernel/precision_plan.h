@@ -30,11 +30,6 @@ constexpr IntegerWidth narrowest_width(unsigned signed_bits) {
          : signed_bits <= 1024 ? IntegerWidth::k1024
                                : IntegerWidth::kUnbounded;
 }
-constexpr IntegerWidth width_for(unsigned signed_bits) {
-  return signed_bits <= 128   ? IntegerWidth::k128
-         : signed_bits <= 512 ? IntegerWidth::k512
-                              : IntegerWidth::kUnbounded;
-}
 /// "64", "128", ..., "GMP".
 std::string_view width_name(IntegerWidth width);
 
