@@ -8,11 +8,12 @@
 namespace gnomon {
 
 void AreaSums::add_enclosure(std::uint32_t part, const Ball& fraction) {
-  // lower() and upper() round outwards, ldexp is exact, and so are floor and ceil.
-  const double low = std::floor(std::ldexp(fraction.lower(), kBits));
-  const double high = std::ceil(std::ldexp(fraction.upper(), kBits));
-  first_[part].fetch_add(static_cast<std::int64_t>(low), std::memory_order_relaxed);
-  second_[part].fetch_add(static_cast<std::int64_t>(high), std::memory_order_relaxed);
+  // Scaling by 2^60 is exact; conversion truncates, so that one more unit is outwards.
+  constexpr double kScale = static_cast<double>(std::int64_t{1} << kBits);
+  const auto middle = static_cast<std::int64_t>(fraction.middle * kScale);
+  const auto radius = static_cast<std::int64_t>(fraction.radius * kScale) + 2;
+  first_[part].fetch_add(middle - radius, std::memory_order_relaxed);
+  second_[part].fetch_add(middle + radius, std::memory_order_relaxed);
 }
 
 Interval AreaSums::enclosure(std::uint32_t part) const {

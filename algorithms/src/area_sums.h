@@ -3,7 +3,7 @@
 // which they are added: fixed-point integers of 2^-60, whose addition is associative.
 //
 // Exactness: an enclosure is rounded outwards, so a certified sum encloses the true one; each
-// summand costs at most 2^-59 of width. 16 bytes a part.
+// summand costs at most 2^-57 of width. 16 bytes a part.
 #ifndef GNOMON_ALGORITHMS_SRC_AREA_SUMS_H
 #define GNOMON_ALGORITHMS_SRC_AREA_SUMS_H
 

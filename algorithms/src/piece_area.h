@@ -41,26 +41,29 @@ PlanarPoint planar_point(const Space& space, const PlaneCharts& charts,
   }
 }
 
-/// Twice the signed area of a loop whose corners are at point_of(corner). With D the largest
-/// difference of coordinates from the first vertex and d >= 2e + uD its error, each of 2 (n - 2)
-/// products errs by d (2D + d), and roundings are at most u (n + 3) times the sum of products of at
-/// most D^2. The radius is infinite or not a number where nothing is known.
+/// Twice the signed area of a loop whose corners are at point_of(corner). Differences from the
+/// first vertex err by d = 2e + uD, D the largest of them, so each of the products of neighbours
+/// errs by d (|x| + |y|) of both and d^2; a difference is in two of them. Roundings are at most u
+/// (n + 3) times the sum of 2 (n - 2) products of at most D^2. The radius is infinite or not a
+/// number where nothing is known.
 template <class Loop, class PointOf>
 Ball twice_area(const Loop& loop, const PointOf& point_of) {
   const PlanarPoint origin = point_of(loop.corner(0));
-  double x = 0, y = 0, sum = 0, most = 0, error = origin.error;
+  double x = 0, y = 0, sum = 0, spread = 0, most = 0, error = origin.error;
   for (std::uint32_t i = 1; i < loop.size(); ++i) {
     const PlanarPoint p = point_of(loop.corner(i));
     const double next_x = p.x - origin.x, next_y = p.y - origin.y;
     sum += x * next_y - y * next_x;
-    most = std::max({most, std::fabs(next_x), std::fabs(next_y)});
+    const double size = std::fabs(next_x) + std::fabs(next_y);
+    spread += size;
+    most = std::max(most, size);
     error = std::max(error, p.error);
     x = next_x;
     y = next_y;
   }
   const auto n = static_cast<double>(loop.size());
   const double d = 2 * error + Ball::kUnit * most;
-  const double radius = 2 * n * d * (2 * most + d) + 2 * n * (n + 4) * Ball::kUnit * most * most;
+  const double radius = 2 * d * (spread + n * d) + 2 * n * (n + 4) * Ball::kUnit * most * most;
   return {sum, radius * 1.001 + Ball::kTiny};
 }
 

@@ -16,12 +16,21 @@
 
 namespace gnomon {
 
+/// A box in the chart of a sector; by default everything.
+struct ChartBox {
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  std::array<float, 2> low{-kInfinity, -kInfinity}, high{kInfinity, kInfinity};
+
+  bool overlaps(const ChartBox& other) const {
+    return low[0] < other.high[0] && other.low[0] < high[0] && low[1] < other.high[1] &&
+           other.low[1] < high[1];
+  }
+};
+
 /// A polygon, clipped to a cell, as the tree sees it. The box and the depths are certified: the
 /// polygon's directions are within [low, high] and its z within [z_low, z_high] (infinite where
 /// nothing is known, or the kernel rounds: as its coordinates say).
-struct SectorItem {
-  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  std::array<float, 2> low{-kInfinity, -kInfinity}, high{kInfinity, kInfinity};
+struct SectorItem : ChartBox {
   float z_low = -kInfinity, z_high = kInfinity;
   std::uint32_t first = 0;  // its loop
   std::uint32_t count : 31 = 0;

@@ -140,6 +140,12 @@ class SectorTree {
   struct Range {
     std::uint32_t begin, end;
   };
+  /// A piece of a receiver that is lit so far, and its box in the chart once one was asked for.
+  struct LitPiece {
+    LoopRange loop;
+    bool located = false;
+    ChartBox box;
+  };
   enum class Relation : std::uint8_t { kNone, kBehind, kCrossing };
 
   void descend(std::uint32_t task_size, std::vector<Task>* tasks);
@@ -153,6 +159,7 @@ class SectorTree {
   bool is_cell_plane(PlaneRef edge) const { return edge.index() >= first_cell_plane_; }
 
   void locate(const LightChart& chart, SectorItem& item) const;
+  ChartBox box_of(const LightChart& chart, const LoopView<Vertex>& loop) const;
   std::uint32_t cull(std::uint32_t begin, std::uint32_t end);
   std::uint32_t move_decided_last(std::uint32_t begin, std::uint32_t end);
   bool covers(const SectorItem& item) const;
@@ -164,9 +171,11 @@ class SectorTree {
   PlaneRef choose_edge_plane(std::uint32_t begin, std::uint32_t end);
   void partition(Frame& frame, std::uint32_t open_end, PlaneRef plane, const SectorSplit* split);
   Task make_task(const Frame& frame, std::uint32_t open_end) const;
-  void leaf(std::uint32_t begin, std::uint32_t end);
-  void subtract_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters);
-  bool clip(const LoopRange& fragment, LoopRange& inside);
+  /// `chart`: of the cell; null if it has none.
+  void leaf(std::uint32_t begin, std::uint32_t end, const LightChart* chart);
+  void subtract_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters,
+                        const LightChart* chart);
+  bool clip(const LitPiece& piece, LoopRange& inside);
   void join(Range children);
   void emit(const LoopRange& loop, SectorState state);
   void emit_area(const LoopRange& loop, bool lit);
@@ -185,12 +194,12 @@ class SectorTree {
   SplitChooser chooser_;
   std::unordered_map<std::uint32_t, mpq_class> exact_areas_;  // of parts, as needed
   // Scratch, kept to save allocations.
-  SplitRecord record_;
+  SplitRecord record_, first_record_;
   std::vector<Vertex> crossings_;
   std::vector<Placement> placements_;
   std::vector<SectorItem> front_items_;
   std::vector<std::uint32_t> order_;
-  std::vector<LoopRange> lit_, still_lit_;
+  std::vector<LitPiece> lit_, still_lit_;
   std::vector<PlaneRef> caster_planes_, spanning_;
 };
 

@@ -113,7 +113,7 @@ void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* task
         continue;
       }
       if (open == 0 || (open <= kLeafSize && tasks == nullptr) || !split(frame, open_end)) {
-        leaf(frame.begin, open_end);
+        leaf(frame.begin, open_end, frame.located ? &frame.cell.chart : nullptr);
         stack_.pop_back();
         continue;
       }
@@ -468,7 +468,27 @@ void SectorTree<Space>::partition(Frame& frame, std::uint32_t open_end, PlaneRef
 }
 
 template <SectorSpaceModel Space>
-void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end) {
+ChartBox SectorTree<Space>::box_of(const LightChart& chart, const LoopView<Vertex>& loop) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double low_u = kInfinity, low_v = kInfinity, high_u = -kInfinity, high_v = -kInfinity;
+  double error = 0;
+  for (std::uint32_t i = 0; i < loop.size(); ++i) {
+    const ChartPoint p = space_.chart_point(chart, loop.corner(i));
+    low_u = std::min(low_u, p.u);
+    low_v = std::min(low_v, p.v);
+    high_u = std::max(high_u, p.u);
+    high_v = std::max(high_v, p.v);
+    error = std::max(error, p.uv_error);
+  }
+  if (!(error < kInfinity)) return {};
+  ChartBox box;
+  box.low = {float_below(low_u - error), float_below(low_v - error)};
+  box.high = {float_above(high_u + error), float_above(high_v + error)};
+  return box;
+}
+
+template <SectorSpaceModel Space>
+void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end, const LightChart* chart) {
   order_.clear();
   for (std::uint32_t i = begin; i < end; ++i) {
     if (context_->scene.parts[items_[i].part].casts) order_.push_back(i);
@@ -478,25 +498,23 @@ void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end) {
     if (items_[a].z_high != items_[b].z_high) return items_[a].z_high > items_[b].z_high;
     return items_[a].part < items_[b].part;
   });
-  for (std::uint32_t i = begin; i < end && !stopped(); ++i) subtract_casters(i, order_);
+  for (std::uint32_t i = begin; i < end && !stopped(); ++i) subtract_casters(i, order_, chart);
 }
 
 template <SectorSpaceModel Space>
 void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
-                                         std::span<const std::uint32_t> casters) {
+                                         std::span<const std::uint32_t> casters,
+                                         const LightChart* chart) {
   const SectorItem& item = items_[receiver];
   const std::uint32_t loops_mark = loops_.size(), planes_mark = space_.plane_mark();
   const LoopRange whole{item.first, item.count, item.part};
-  lit_.assign(1, whole);
+  lit_.assign(1, {whole, true, item});
   bool cut = false;
   SectorState state = kAllLit;
   for (const std::uint32_t c : casters) {
     const SectorItem& caster = items_[c];
     if (caster.z_high <= item.z_low) break;  // and so are all that follow
-    if (c == receiver || caster.low[0] >= item.high[0] || item.low[0] >= caster.high[0] ||
-        caster.low[1] >= item.high[1] || item.low[1] >= caster.high[1]) {
-      continue;
-    }
+    if (c == receiver || !caster.overlaps(item)) continue;
     const Relation how = relation(item, caster);
     if (how == Relation::kNone) continue;
     caster_planes_.clear();
@@ -512,14 +530,16 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
       caster_planes_.push_back(faces ? -front : front);  // behind the caster
     }
     still_lit_.clear();
-    bool changed = false;
-    for (const LoopRange& fragment : lit_) {
+    for (LitPiece& piece : lit_) {
+      if (chart != nullptr && !piece.located) {
+        piece.box = box_of(*chart, view(piece.loop));
+        piece.located = true;
+      }
       LoopRange inside;
-      if (!clip(fragment, inside)) {
-        still_lit_.push_back(fragment);
+      if (!piece.box.overlaps(caster) || !clip(piece, inside)) {
+        still_lit_.push_back(piece);
         continue;
       }
-      changed = true;
       if (inside.first == whole.first) {
         state = caster.part;  // one caster has it all
       } else {
@@ -527,12 +547,11 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
         if (inside.count >= 3) emit(inside, caster.part);
       }
     }
-    if (!changed) continue;
     lit_.swap(still_lit_);
     if (lit_.empty()) break;
   }
   if (cut) {
-    for (const LoopRange& fragment : lit_) emit(fragment, kAllLit);
+    for (const LitPiece& piece : lit_) emit(piece.loop, kAllLit);
     state = kMixed;
   }
   states_[receiver] = state;
@@ -540,13 +559,14 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
   space_.release_planes(planes_mark);
 }
 
-// The part of a fragment that is inside all caster_planes_; what is outside goes to still_lit_.
-// False: it is all outside, and untouched. `inside` is the fragment itself if nothing was cut.
+// The part of a piece that is inside all caster_planes_; what is outside goes to still_lit_. False:
+// it is all outside, and untouched. `inside` is the piece itself if nothing was cut.
 template <SectorSpaceModel Space>
-bool SectorTree<Space>::clip(const LoopRange& fragment, LoopRange& inside) {
+bool SectorTree<Space>::clip(const LitPiece& piece, LoopRange& inside) {
   spanning_.clear();
   for (const PlaneRef plane : caster_planes_) {
-    switch (record_.decide(space_, plane, view(fragment))) {
+    SplitRecord& record = spanning_.empty() ? first_record_ : record_;
+    switch (record.decide(space_, plane, view(piece.loop))) {
       case Placement::kFront:
         break;
       case Placement::kSpanning:
@@ -557,22 +577,26 @@ bool SectorTree<Space>::clip(const LoopRange& fragment, LoopRange& inside) {
         return false;
     }
   }
-  inside = fragment;
+  inside = piece.loop;
   const std::uint32_t loops_mark = loops_.size();
   const std::size_t lit_mark = still_lit_.size();
-  for (const PlaneRef plane : spanning_) {
-    const Placement placement = record_.decide(space_, plane, view(inside));
-    if (placement == Placement::kFront) continue;
-    if (placement != Placement::kSpanning) {  // inside each plane somewhere, but nowhere of all
-      loops_.truncate(loops_mark);
-      still_lit_.resize(lit_mark);
-      return false;
+  for (std::size_t i = 0; i < spanning_.size(); ++i) {
+    const PlaneRef plane = spanning_[i];
+    const SplitRecord& record = i == 0 ? first_record_ : record_;
+    if (i > 0) {
+      const Placement placement = record_.decide(space_, plane, view(inside));
+      if (placement == Placement::kFront) continue;
+      if (placement != Placement::kSpanning) {  // inside each plane somewhere, but nowhere of all
+        loops_.truncate(loops_mark);
+        still_lit_.resize(lit_mark);
+        return false;
+      }
     }
     loops_.reserve_more(2 * std::size_t{inside.count} + 4);
     const SplitChildren pieces =
-        make_children(space_, plane, view(inside), record_, crossings_, loops_);
+        make_children(space_, plane, view(inside), record, crossings_, loops_);
     if (pieces.back.count >= 3) {
-      still_lit_.push_back(pieces.back);
+      still_lit_.push_back({pieces.back, false, {}});
     } else {
       ++output_.vanished;
     }

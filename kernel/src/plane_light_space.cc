@@ -38,19 +38,7 @@ double to_double(const Int& value) {
   }
 }
 
-/// A bound as a float that is not smaller.
-float rounded_up(double bound) { return static_cast<float>(bound * (1 + 0x1p-22)); }
-
-// The error of n . r for |n_k| <= 1, |r_k| <= m, errors 2u f of n and e of r is at most
-//   3 e + 6 u f (m + e) from the operands, and 8 u m from three products and two sums,
-// and so at most f (3.01 e + 14.1 u m) for 1 <= f <= 2^40: the slack of the plane times a bound of
-// the ray. docs/exactness.md has the derivation.
-constexpr double ray_bound(double error, double magnitude) {
-  return 3.01 * error + 14.1 * kUnit * magnitude;
-}
-/// A ray of an input vertex: normalized, one conversion a component.
-const float kInputBound = rounded_up(ray_bound(2 * kUnit, 1));
-/// The largest slack for which the bound above holds.
+/// The largest slack for which the bound of a ray (ray_bound) holds.
 constexpr double kMostSlack = 0x1p40;
 
 unsigned bits(const Vector3<mpz_class>& v) {
@@ -105,8 +93,9 @@ PlaneLightSpace<Stats>::PlaneLightSpace(SceneSpace& scene, const LightPoint& lig
   // The grid's bits are those of the vertices; a lamp may stand far outside.
   const unsigned b = light.directional ? grid_bits : std::max(grid_bits, light_bits);
   shared.q_bits = light_space_bits(light.directional, b, light_bits);
-  shared.edge_bits = shadow_plane_bits(shared.q_bits);
-  shared.cut_bits = light.directional ? 5 * grid_bits + light_bits + 7 : 5 * b + 5;
+  shared.edge_bits =
+      light.directional ? shadow_plane_bits(shared.q_bits) : edge_plane_bits(false, b, 0).largest();
+  shared.cut_bits = cut_plane_bits(light.directional, b, light_bits).largest();
   shared.stretch = light.directional ? static_cast<int>(b) : 0;
   shared.narrow = shared.geometry->grid.is_narrow() && shared.q_bits <= 62 && light_bits <= 62;
   if (shared.narrow) {
@@ -411,34 +400,9 @@ typename PlaneLightSpace<Stats>::Vertex PlaneLightSpace<Stats>::import_vertex(
   return result;
 }
 
-// Components are two products of factors below 1 that err by 2u times their slack, so by
-// 2 (2u f_m + 2u f_n (1 + 2u f_m)), and roundings of 4u; the ray is below 2.
-template <class Stats>
-typename PlaneLightSpace<Stats>::Vertex PlaneLightSpace<Stats>::made_vertex(PlaneRef before,
-                                                                            PlaneRef after) const {
-  const FilteredPlane& m = filtered(before);
-  const FilteredPlane& n = filtered(after);
-  const double sign = before.flipped() != after.flipped() ? -1 : 1;
-  Vertex vertex;
-  vertex.ray = {sign * (m.n[1] * n.n[2] - m.n[2] * n.n[1]),
-                sign * (m.n[2] * n.n[0] - m.n[0] * n.n[2]),
-                sign * (m.n[0] * n.n[1] - m.n[1] * n.n[0])};
-  const double error = 4.01 * kUnit * (m.slack + n.slack) + 4.01 * kUnit;
-  vertex.bound = rounded_up(ray_bound(error, 2));
-  return vertex;
-}
-
 template <class Stats>
 void PlaneLightSpace<Stats>::finish_vertex(Vertex& vertex, PlaneRef before, PlaneRef after) const {
   vertex = made_vertex(before, after);
-}
-
-template <class Stats>
-typename PlaneLightSpace<Stats>::Vertex PlaneLightSpace<Stats>::crossing(
-    PlaneRef plane, PlaneRef edge, bool leaving, const Corner<Vertex>&,
-    const Corner<Vertex>&) const {
-  // Counter-clockwise and inside positive: leaving the front, the cut edge follows the edge.
-  return leaving ? made_vertex(edge, plane) : made_vertex(plane, edge);
 }
 
 template <class Stats>
@@ -504,13 +468,14 @@ Side PlaneLightSpace<Stats>::undecided_depth(PlaneId plane, const Corner<Vertex>
   }
   const Shared& shared = *shared_;
   const bool narrow = shared.narrow && is_narrow(corner.before) && is_narrow(corner.after);
-  const unsigned width =
-      side_of_crossing_bits(shared.cut_bits, bits_of(corner.before), bits_of(corner.after));
-  const Sign sign = decide(narrow, width, [&]<class Int>() {
-    const ExactGeometry<Int> exact(*shared.geometry);
-    return sign_of_determinant(cut_normal(exact.plane(corner.support), exact.plane(plane)),
-                               exact_normal<Int>(corner.before), exact_normal<Int>(corner.after));
-  });
+  const unsigned n = shared.cut_bits, m = bits_of(corner.before), l = bits_of(corner.after);
+  const Sign sign = decide(
+      narrow, std::max({n, m, l}), side_of_crossing_bits(n, m, l), [&]<class Factor, class Int>() {
+        const ExactGeometry<Factor> exact(*shared.geometry);
+        return sign_of_determinant<Int>(cut_normal(exact.plane(corner.support), exact.plane(plane)),
+                                        exact_normal<Factor>(corner.before),
+                                        exact_normal<Factor>(corner.after));
+      });
   return side_of(sign);
 }
 
@@ -522,10 +487,9 @@ Sign PlaneLightSpace<Stats>::input_depth(PlaneId plane, VertexId vertex) {
     stats_.count(Stage::kIdentity);
     return Sign::kZero;
   }
-  return decide(geometry.grid.is_narrow(), 3 * geometry.grid.bits() + 5, [&]<class Int>() {
-    const ExactGeometry<Int> exact(geometry);
-    const ExactPlane<Int> support = exact.plane(plane);
-    return sign_of(Int(dot(support.n, exact.position(vertex)) - support.d));
+  const unsigned b = geometry.grid.bits();
+  return decide(true, b, side_of_support_bits(b), [&]<class, class Int>() {
+    return sign_of(ExactGeometry<Int>(geometry).value(plane, vertex));
   });
 }
 
@@ -534,26 +498,30 @@ Sign PlaneLightSpace<Stats>::exact_sign(PlaneRef ref, const Corner<Vertex>& corn
   const Shared& shared = *shared_;
   const VertexId input = corner.vertex.source;
   if (input != kMadeVertex) {
-    return decide(shared.narrow && is_narrow(ref),
+    return decide(shared.narrow && is_narrow(ref), std::max(bits_of(ref), shared.q_bits),
                   side_of_input_vertex_bits(bits_of(ref), shared.q_bits),
-                  [&]<class Int>() { return sign_of(dot(exact_normal<Int>(ref), q<Int>(input))); });
+                  [&]<class Factor, class Int>() {
+                    return sign_of(dot<Int>(exact_normal<Factor>(ref), q<Factor>(input)));
+                  });
   }
   const bool narrow =
       shared.narrow && is_narrow(ref) && is_narrow(corner.before) && is_narrow(corner.after);
-  const unsigned width =
-      side_of_crossing_bits(bits_of(ref), bits_of(corner.before), bits_of(corner.after));
-  return decide(narrow, width, [&]<class Int>() {
-    return sign_of_determinant(exact_normal<Int>(ref), exact_normal<Int>(corner.before),
-                               exact_normal<Int>(corner.after));
-  });
+  const unsigned n = bits_of(ref), m = bits_of(corner.before), l = bits_of(corner.after);
+  return decide(narrow, std::max({n, m, l}), side_of_crossing_bits(n, m, l),
+                [&]<class Factor, class Int>() {
+                  return sign_of_determinant<Int>(exact_normal<Factor>(ref),
+                                                  exact_normal<Factor>(corner.before),
+                                                  exact_normal<Factor>(corner.after));
+                });
 }
 
 template <class Stats>
 template <class Predicate>
-Sign PlaneLightSpace<Stats>::decide(bool narrow, unsigned width_bits, const Predicate& predicate) {
+Sign PlaneLightSpace<Stats>::decide(bool narrow, unsigned factor_bits, unsigned width_bits,
+                                    const Predicate& predicate) {
   const IntegerWidth width = narrow ? narrowest_width(width_bits) : IntegerWidth::kUnbounded;
   stats_.count(exact_stage(width));
-  const Sign sign = with_width(width, predicate);
+  const Sign sign = with_widths(width, factor_bits, predicate);
   if (sign == Sign::kZero) stats_.count_zero();
   return sign;
 }
@@ -578,7 +546,11 @@ Vector3<Int> PlaneLightSpace<Stats>::exact_normal(PlaneRef ref) const {
   Vector3<Int> n;
   if (is_edge(ref)) {
     const EdgeEnds ends = shared_->geometry->edges[ref.index()];
-    n = cross(q<Int>(ends.a), q<Int>(ends.b));
+    if constexpr (std::is_same_v<Int, mpz_class>) {
+      n = cross(q<Int>(ends.a), q<Int>(ends.b));
+    } else {  // q fits 64 bits wherever fixed widths are used
+      n = cross<Int>(q<std::int64_t>(ends.a), q<std::int64_t>(ends.b));
+    }
   } else if (const Source& from = source(ref); from.b == kExplicit) {
     for (int k = 0; k < 3; ++k) n[k] = integer_from<Int>(explicit_[from.a].n[k]);
   } else {
@@ -589,60 +561,6 @@ Vector3<Int> PlaneLightSpace<Stats>::exact_normal(PlaneRef ref) const {
     for (Int& x : n) x = -x;
   }
   return n;
-}
-
-// In the chart a direction is (r_u, r_v) / |r_w|, and the depth plane gives z. With e the error of
-// a component and w = |r_w|, e / w <= 2^-10, quotients err by (1 + |u|) e / w (1 + 2^-9) and a
-// rounding.
-template <class Stats>
-ChartPoint PlaneLightSpace<Stats>::chart_point(const LightChart& chart,
-                                               const Corner<Vertex>& corner) const {
-  const Vertex& vertex = corner.vertex;
-  const std::array<double, 3>& r = vertex.ray;
-  const DepthPlane& depth = shared_->depths[corner.support];
-  const double error = static_cast<double>(vertex.bound) * (1 / 3.0);
-  const double w = chart.sign * r[chart.w];
-  ChartPoint point;
-  point.uv_error = point.z_error = kInfinity;
-  if (!(error < w * 0x1p-10)) return point;
-  const double inverse = 1 / w, relative = error * inverse;
-  point.u = chart.sign * r[chart.u] * inverse;
-  point.v = chart.sign * r[chart.v] * inverse;
-  point.z = (depth.n[0] * r[0] + depth.n[1] * r[1] + depth.n[2] * r[2]) * inverse;
-  const double most = std::max(std::fabs(point.u), std::fabs(point.v));
-  point.uv_error = 1.01 * (1 + most) * relative + 3 * kUnit * most;
-  // The sum errs by 3 |depth| (e + 8u (2 + e)) and roundings of 16u |depth|.
-  point.z_error = depth.magnitude * inverse * (3.01 * error + 66 * kUnit) +
-                  std::fabs(point.z) * (1.01 * relative + 3 * kUnit);
-  return point;
-}
-
-// On the ray r the plane is met in q = r / (depth . r); errors as in chart_point.
-template <class Stats>
-PlanarPoint PlaneLightSpace<Stats>::planar_point(const Corner<Vertex>& corner) const {
-  const Vertex& vertex = corner.vertex;
-  const std::array<double, 3>& r = vertex.ray;
-  const double error = static_cast<double>(vertex.bound) * (1 / 3.0);
-  PlanarPoint point;
-  point.error = kInfinity;
-  double inverse, relative;
-  if (shared_->light.directional) {
-    inverse = 1 / r[2];
-    relative = error * std::fabs(inverse);
-    point.x = r[0] * inverse;
-    point.y = r[1] * inverse;
-  } else {
-    const DepthPlane& depth = shared_->depths[corner.support];
-    inverse = 1 / (depth.n[0] * r[0] + depth.n[1] * r[1] + depth.n[2] * r[2]);
-    relative = depth.magnitude * (3.01 * error + 66 * kUnit) * std::fabs(inverse);
-    const auto [u, v] = kept_axes(depth);
-    point.x = r[u] * inverse;
-    point.y = r[v] * inverse;
-  }
-  if (!(relative < 0x1p-10)) return point;
-  const double most = std::max(std::fabs(point.x), std::fabs(point.y));
-  point.error = 1.01 * (error * std::fabs(inverse) + most * relative) + 3 * kUnit * most;
-  return point;
 }
 
 // The same from integers: q = h r / (n . r), each factor rounded once, so that nothing cancels.

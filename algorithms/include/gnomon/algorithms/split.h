@@ -28,12 +28,20 @@ class SplitRecord {
   /// Asks the kernel for the side of every vertex.
   template <DecisionSpace Space>
   Placement decide(Space& space, PlaneRef plane, const LoopView<typename Space::Vertex>& loop) {
-    sides_.resize(loop.size());
+    const std::uint32_t n = loop.size();
+    if (sides_.size() < n) sides_.resize(n);
+    // A kernel that keeps its planes elsewhere reads this one once.
+    const auto loaded = load(space, plane);
     bool front = false, back = false;
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      sides_[i] = space.side_of_plane(plane, loop.corner(i));
-      front |= sides_[i] == Side::kFront;
-      back |= sides_[i] == Side::kBack;
+    PlaneRef before = loop.edges[n - 1];
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const PlaneRef after = loop.edges[i];
+      const Side side = space.side_of_plane(
+          loaded, Corner<typename Space::Vertex>{before, loop.vertices[i], after, loop.support});
+      sides_[i] = side;
+      front |= side == Side::kFront;
+      back |= side == Side::kBack;
+      before = after;
     }
     if (front && back) return Placement::kSpanning;
     return front ? Placement::kFront : back ? Placement::kBack : Placement::kOn;
@@ -41,7 +49,16 @@ class SplitRecord {
   Side side(std::uint32_t i) const { return sides_[i]; }
 
  private:
-  std::vector<Side> sides_;
+  template <class Space>
+  static auto load(const Space& space, PlaneRef plane) {
+    if constexpr (requires { space.load(plane); }) {
+      return space.load(plane);
+    } else {
+      return plane;
+    }
+  }
+
+  std::vector<Side> sides_;  // at least as many as the last loop had vertices
 };
 
 struct SplitChildren {

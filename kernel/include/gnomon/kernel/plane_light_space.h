@@ -21,9 +21,11 @@
 #ifndef GNOMON_KERNEL_PLANE_LIGHT_SPACE_H
 #define GNOMON_KERNEL_PLANE_LIGHT_SPACE_H
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -73,21 +75,36 @@ class PlaneLightSpace {
   PlaneRef shadow_plane(PlaneRef edge, const Vertex&, const Vertex&) { return edge; }
   PlaneRef add_prefix_plane(const PrefixPlane& plane);
 
+  /// A plane and its doubles, to test many vertices against.
+  struct LoadedPlane {
+    std::array<double, 3> n;
+    double slack;
+    PlaneRef plane;
+  };
+  LoadedPlane load(PlaneRef ref) const {
+    const FilteredPlane& plane = filtered(ref);
+    return {plane.n, plane.slack, ref};
+  }
   /// Identities: (1) the planes of the corner's edges contain it; (2) the plane of edge (a, b)
   /// contains the input vertices a and b. Exactness: always.
-  Side side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) {
-    const FilteredPlane& plane = filtered(ref);
+  Side side_of_plane(const LoadedPlane& plane, const Corner<Vertex>& corner) {
     const std::array<double, 3>& r = corner.vertex.ray;
     const double value = plane.n[0] * r[0] + plane.n[1] * r[1] + plane.n[2] * r[2];
     if (std::fabs(value) > plane.slack * static_cast<double>(corner.vertex.bound)) {
       stats_.count(Stage::kFilter);
-      return (value > 0) != ref.flipped() ? Side::kFront : Side::kBack;
+      return (value > 0) != plane.plane.flipped() ? Side::kFront : Side::kBack;
     }
-    return undecided_side(ref, corner);
+    return undecided_side(plane.plane, corner);
+  }
+  Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner) {
+    return side_of_plane(load(plane), corner);
   }
   /// Where the edge `edge`, leaving the front of `plane` (kFront first) or entering it, meets it.
-  Vertex crossing(PlaneRef plane, PlaneRef edge, bool leaving, const Corner<Vertex>& from,
-                  const Corner<Vertex>& to) const;
+  Vertex crossing(PlaneRef plane, PlaneRef edge, bool leaving, const Corner<Vertex>&,
+                  const Corner<Vertex>&) const {
+    // Counter-clockwise and inside positive: leaving the front, the cut edge follows the edge.
+    return leaving ? made_vertex(edge, plane) : made_vertex(plane, edge);
+  }
 
   /// Side of the corner's point, on the support plane of its loop, of another support plane.
   /// Identities: the corner lies on a cut of the two; it is one of the three vertices that define
@@ -173,7 +190,44 @@ class PlaneLightSpace {
   const Source& source(PlaneRef plane) const { return sources_[plane.index() - edge_count()]; }
   bool is_cut_of(PlaneRef plane, PlaneId first, PlaneId second) const;
 
-  Vertex made_vertex(PlaneRef before, PlaneRef after) const;
+  /// Components are two products of factors below 1 that err by 2u times their slack, so by
+  /// 2 (2u f_m + 2u f_n (1 + 2u f_m)), and roundings of 4u; the ray is below 2.
+  Vertex made_vertex(PlaneRef before, PlaneRef after) const {
+    const FilteredPlane& m = filtered(before);
+    const FilteredPlane& n = filtered(after);
+    const double sign = before.flipped() != after.flipped() ? -1 : 1;
+    Vertex vertex;
+    vertex.ray = {sign * (m.n[1] * n.n[2] - m.n[2] * n.n[1]),
+                  sign * (m.n[2] * n.n[0] - m.n[0] * n.n[2]),
+                  sign * (m.n[0] * n.n[1] - m.n[1] * n.n[0])};
+    constexpr double kSlack = ray_bound(4.01 * Ball::kUnit, 0);
+    constexpr double kRest = ray_bound(4.01 * Ball::kUnit, 2);
+    vertex.bound = rounded_up(kSlack * (m.slack + n.slack) + kRest);
+    return vertex;
+  }
+  /// The error of n . r for |n_k| <= 1, |r_k| <= m, errors 2u f of n and e of r is at most
+  ///   3 e + 6 u f (m + e) from the operands, and 8 u m from three products and two sums,
+  /// and so at most f (3.01 e + 14.1 u m) for 1 <= f <= 2^40: the slack of the plane times this
+  /// bound of the ray.
+  static constexpr double ray_bound(double error, double magnitude) {
+    return 3.01 * error + 14.1 * Ball::kUnit * magnitude;
+  }
+  /// A float that is not smaller.
+  static constexpr float rounded_up(double bound) {
+    return static_cast<float>(bound * (1 + 0x1p-22));
+  }
+  /// The error of a component that a bound was made from.
+  static double error_of(const Vertex& vertex) {
+    const double magnitude = vertex.source == kMadeVertex ? 2 : 1;
+    return (static_cast<double>(vertex.bound) - ray_bound(0, magnitude)) * (1 / 3.0);
+  }
+  /// Bound of depth . r for a ray of error e and magnitude m: 3 e |depth| and 24u |depth| (m + e)
+  /// from the operands, 8u |depth| m from roundings.
+  static double depth_error(const DepthPlane& depth, double error, double magnitude) {
+    return depth.magnitude * (3.01 * error + 33 * Ball::kUnit * magnitude);
+  }
+  /// Bound of a ray of an input vertex: normalized, one conversion a component.
+  static constexpr float kInputBound = rounded_up(ray_bound(2 * Ball::kUnit, 1));
   template <class Int>
   Vector3<Int> q(VertexId v) const;
   template <class Int>
@@ -185,10 +239,10 @@ class PlaneLightSpace {
   Side undecided_depth(PlaneId plane, const Corner<Vertex>& corner);
   Sign input_depth(PlaneId plane, VertexId vertex);
   Sign exact_sign(PlaneRef plane, const Corner<Vertex>& corner);
-  /// Calls predicate.operator()<Int>() with the narrowest integers that hold `width_bits`, or with
-  /// GMP's if not `narrow`.
+  /// Calls predicate.operator()<Factor, Int>() with the narrowest integers for vectors of
+  /// `factor_bits` and a value of `width_bits`, or with GMP's if not `narrow`.
   template <class Predicate>
-  Sign decide(bool narrow, unsigned width_bits, const Predicate& predicate);
+  Sign decide(bool narrow, unsigned factor_bits, unsigned width_bits, const Predicate& predicate);
   unsigned bits_of(PlaneRef plane) const;
   bool is_narrow(PlaneRef plane) const;
   template <class Int>
@@ -211,6 +265,59 @@ class PlaneLightSpace {
   std::map<std::array<std::uint64_t, 3>, PlaneRef> cuts_;  // (other light, its plane, support)
   [[no_unique_address]] Stats stats_;
 };
+
+// In the chart a direction is (r_u, r_v) / |r_w|, and the depth plane gives z. With e the error of
+// a component and w = |r_w|, e / w <= 2^-10, quotients err by (1 + |u|) e / w (1 + 2^-9) and three
+// roundings.
+template <class Stats>
+inline ChartPoint PlaneLightSpace<Stats>::chart_point(const LightChart& chart,
+                                                      const Corner<Vertex>& corner) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::array<double, 3>& r = corner.vertex.ray;
+  const DepthPlane& depth = shared_->depths[corner.support];
+  const double error = error_of(corner.vertex);
+  const double w = chart.sign * r[chart.w];
+  ChartPoint point;
+  point.uv_error = point.z_error = kInfinity;
+  if (!(error < w * 0x1p-10)) return point;
+  const double inverse = 1 / w, relative = error * inverse;
+  point.u = chart.sign * r[chart.u] * inverse;
+  point.v = chart.sign * r[chart.v] * inverse;
+  point.z = (depth.n[0] * r[0] + depth.n[1] * r[1] + depth.n[2] * r[2]) * inverse;
+  const double most = std::max(std::fabs(point.u), std::fabs(point.v));
+  point.uv_error = 1.01 * (1 + most) * relative + 3 * Ball::kUnit * most;
+  point.z_error = 1.01 * depth_error(depth, error, 2) * inverse +
+                  std::fabs(point.z) * (1.01 * relative + 3 * Ball::kUnit);
+  return point;
+}
+
+// On the ray r the plane is met in q = r / (depth . r); errors as in chart_point.
+template <class Stats>
+inline PlanarPoint PlaneLightSpace<Stats>::planar_point(const Corner<Vertex>& corner) const {
+  const std::array<double, 3>& r = corner.vertex.ray;
+  const double error = error_of(corner.vertex);
+  PlanarPoint point;
+  point.error = std::numeric_limits<double>::infinity();
+  double inverse, relative;
+  if (shared_->light.directional) {
+    inverse = 1 / r[2];
+    relative = error * std::fabs(inverse);
+    point.x = r[0] * inverse;
+    point.y = r[1] * inverse;
+  } else {
+    const DepthPlane& depth = shared_->depths[corner.support];
+    const double magnitude = std::max({std::fabs(r[0]), std::fabs(r[1]), std::fabs(r[2])});
+    inverse = 1 / (depth.n[0] * r[0] + depth.n[1] * r[1] + depth.n[2] * r[2]);
+    relative = depth_error(depth, error, magnitude) * std::fabs(inverse);
+    const auto [u, v] = kept_axes(depth);
+    point.x = r[u] * inverse;
+    point.y = r[v] * inverse;
+  }
+  if (!(relative < 0x1p-10)) return point;
+  const double most = std::max(std::fabs(point.x), std::fabs(point.y));
+  point.error = 1.01 * (error * std::fabs(inverse) + most * relative) + 3 * Ball::kUnit * most;
+  return point;
+}
 
 extern template class PlaneLightSpace<NoStats>;
 extern template class PlaneLightSpace<CountStats>;
