@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "algorithm_choice.h"
 #include "certify_report.h"
 #include "commands.h"
 #include "gnomon/algorithms/explain.h"
@@ -17,6 +18,7 @@
 #include "gnomon/report/polygon_sides.h"
 #include "gnomon/scene/digest.h"
 #include "interrupt.h"
+#include "jobs.h"
 #include "kernel_choice.h"
 #include "messages.h"
 #include "output.h"
@@ -29,10 +31,13 @@ namespace {
 
 /// Up to so many parts the slow exact kernels run without being asked for.
 constexpr std::size_t kSmallScene = 200;
+/// --algorithm: every kernel by each of them.
+constexpr std::string_view kBothName = "both";
 
 struct CertifyCommandOptions {
   SceneOptions scene;
   std::vector<std::string> kernels;
+  std::string algorithm{kAutomaticName};
   std::vector<std::string> candidates;
   double tolerance = 1e-9;
   std::optional<double> width;
@@ -64,6 +69,14 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
   }
   kernels.push_back({.kernel = KernelId::kPlane});
   return kernels;
+}
+
+Expected<std::vector<Algorithm>> chosen_algorithms(const CertifyCommandOptions& options) {
+  if (options.algorithm == kBothName) return std::vector{Algorithm::kSectors, Algorithm::kSvbsp};
+  const auto algorithm =
+      parse_algorithm_choice(options.algorithm, {{"--explain", options.explain}}, kBothName);
+  if (!algorithm) return tl::unexpected(algorithm.error());
+  return std::vector{*algorithm};
 }
 
 class CertifyRun {
@@ -105,16 +118,19 @@ class CertifyRun {
     return judge(std::move(run), std::move(*read));
   }
 
-  Expected<void> run_kernel(const KernelChoice& kernel) {
+  /// `full_name`: the run is named after its algorithm too.
+  Expected<void> run_kernel(const KernelChoice& kernel, Algorithm algorithm, bool full_name) {
     report::JudgedRun run;
-    run.name = kernel.name();
+    run.kernel = kernel.name();
+    run.algorithm = algorithm == Algorithm::kSvbsp ? kSvbspName : kSectorsName;
+    run.name = full_name ? run.kernel + '/' + run.algorithm : run.kernel;
     run.exact = kernel.exact();
     run.identity = kernel.identity;
     run.exact_decisions = kernel.exact() || kernel.kernel == KernelId::kEpick;
     run.thickness = run.exact_decisions || kernel.thin ? 0 : options_.thickness;
 
     progress_.set_label("kernel " + run.name);
-    ShadowOptions shadow_options = options_of(kernel);
+    ShadowOptions shadow_options = options_of(kernel, algorithm);
     const auto seconds = cpu_time(shadow_options);
     shadow_options.keep_exact_points = true;
     auto result = seconds ? compute_shadows(loaded_.prepared, shadow_options)
@@ -135,7 +151,9 @@ class CertifyRun {
     }
     auto candidate =
         report::candidate_from_result(loaded_.scene, loaded_.prepared, *result, run.name, false);
-    return judge(std::move(run), std::move(candidate), kernel);
+    const bool explained = options_.explain && !kernel.exact() && algorithm == Algorithm::kSvbsp;
+    return judge(std::move(run), std::move(candidate),
+                 explained ? std::optional(kernel) : std::nullopt);
   }
 
   void set_interrupted() { certificate_.interrupted = true; }
@@ -162,8 +180,10 @@ class CertifyRun {
   }
 
  private:
-  ShadowOptions options_of(const KernelChoice& kernel) {
+  ShadowOptions options_of(const KernelChoice& kernel, Algorithm algorithm) {
     ShadowOptions shadow_options;
+    shadow_options.algorithm = algorithm;
+    shadow_options.jobs = options_.scene.jobs;
     shadow_options.kernel = kernel.kernel;
     shadow_options.identity = kernel.identity;
     shadow_options.thickness = kernel.thin ? 0 : options_.thickness;
@@ -173,9 +193,10 @@ class CertifyRun {
     return shadow_options;
   }
 
-  /// CPU seconds of the classification alone, without points for the oracle: the median of a few
-  /// runs where one is short.
-  Expected<double> cpu_time(const ShadowOptions& shadow_options) {
+  /// CPU seconds of the classification alone on one thread, without points for the oracle: the
+  /// median of a few runs where one is short.
+  Expected<double> cpu_time(ShadowOptions shadow_options) {
+    shadow_options.jobs = 1;
     constexpr std::size_t kMostRuns = 5;
     constexpr double kEnough = 0.05;
     std::vector<double> seconds;
@@ -190,8 +211,9 @@ class CertifyRun {
     return seconds[seconds.size() / 2];
   }
 
+  /// `explained`: the kernel to explain, unless it is right.
   Expected<void> judge(report::JudgedRun run, oracle::Candidate candidate,
-                       std::optional<KernelChoice> kernel = std::nullopt) {
+                       const std::optional<KernelChoice>& explained = std::nullopt) {
     oracle::CertifyOptions certify_options;
     certify_options.tolerance = options_.tolerance;
     certify_options.width = options_.width;
@@ -208,9 +230,8 @@ class CertifyRun {
     if (!report) return tl::unexpected(report.error());
     const bool stopped = report->interrupted;
     run.report = std::move(*report);
-    if (options_.explain && kernel && !kernel->exact() &&
-        run.report->verdict != oracle::Verdict::kIdentical) {
-      run.explanation = first_difference(*kernel);
+    if (explained && run.report->verdict != oracle::Verdict::kIdentical) {
+      run.explanation = first_difference(*explained);
     }
     certificate_.runs.push_back(std::move(run));
     if (!options_.report_directory.empty()) kept_.push_back(std::move(candidate));
@@ -220,7 +241,7 @@ class CertifyRun {
 
   std::string first_difference(const KernelChoice& kernel) {
     progress_.set_label("explaining " + kernel.name());
-    const auto difference = explain(loaded_.prepared, options_of(kernel));
+    const auto difference = explain(loaded_.prepared, options_of(kernel, Algorithm::kSvbsp));
     progress_.clear();
     if (!difference) return to_string(difference.error());
     if (!*difference) return "none: every decision was right, only vertices were rounded";
@@ -239,6 +260,9 @@ class CertifyRun {
 };
 
 int run_certify(const CertifyCommandOptions& options) {
+  const auto algorithms = chosen_algorithms(options);
+  if (!algorithms) return report_error(algorithms.error());
+  const ThreadLimit threads(options.scene.jobs);
   auto loaded = load_scene(options.scene, true);
   if (!loaded) return report_error(loaded.error());
   const auto kernels = chosen_kernels(options, loaded->prepared.parts.size());
@@ -252,12 +276,14 @@ int run_certify(const CertifyCommandOptions& options) {
       break;
     }
   }
-  for (const KernelChoice& kernel : *kernels) {
-    if (interrupted()) run.set_interrupted();
-    if (run.certificate().interrupted) break;
-    if (auto done = run.run_kernel(kernel); !done) {
-      if (done.error().code != ErrorCode::kInterrupted) return report_error(done.error());
-      run.set_interrupted();
+  for (const Algorithm algorithm : *algorithms) {
+    for (const KernelChoice& kernel : *kernels) {
+      if (interrupted()) run.set_interrupted();
+      if (run.certificate().interrupted) break;
+      if (auto done = run.run_kernel(kernel, algorithm, algorithms->size() > 1); !done) {
+        if (done.error().code != ErrorCode::kInterrupted) return report_error(done.error());
+        run.set_interrupted();
+      }
     }
   }
 
@@ -291,6 +317,7 @@ void add_certify_command(CLI::App& app, Action& action) {
       "Examples:\n"
       "  gnomon certify room.json\n"
       "  gnomon certify room.json --kernel double --kernel double+identity --explain\n"
+      "  gnomon certify room.json --kernel plane --algorithm both\n"
       "  gnomon certify room.json --candidate other.result.json --tolerance 1e-6 --report out");
   add_scene_options(command, options->scene);
   repeatable(command.add_option(
@@ -298,6 +325,10 @@ void add_certify_command(CLI::App& app, Action& action) {
                  "A kernel to run, such as double, double+identity or double+thin (thickness 0)\n"
                  "(repeatable)"))
       ->type_name("K");
+  add_algorithm_option(command, options->algorithm)
+      ->description(
+          "How kernels find shadows: sectors, svbsp, both one after the other, or auto:\n"
+          "sectors, or svbsp with --explain");
   repeatable(command.add_option("--candidate", options->candidates,
                                 "A result file to judge instead (repeatable)"))
       ->type_name("RESULT");
@@ -331,7 +362,8 @@ void add_certify_command(CLI::App& app, Action& action) {
       ->type_name("F")
       ->default_str(report::shortest(kDefaultThickness));
   command.add_flag("--explain", options->explain,
-                   "Name the first decision in which a failing kernel differs from the exact one");
+                   "Name the first decision in which a failing kernel differs from the exact one\n"
+                   "(svbsp)");
   command
       .add_option("--report", options->report_directory,
                   "Write verdict.json, table.txt and pictures to this directory")

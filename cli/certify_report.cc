@@ -5,7 +5,6 @@
 #include <system_error>
 
 #include "gnomon/algorithms/painters_order.h"
-#include "gnomon/algorithms/shadows.h"
 #include "gnomon/report/candidate_from_result.h"
 #include "gnomon/report/picture.h"
 #include "interrupt.h"
@@ -115,8 +114,9 @@ class Pictures {
 
 }  // namespace
 
-Expected<oracle::Candidate> exact_fragments(const LoadedScene& loaded) {
+Expected<oracle::Candidate> exact_fragments(const LoadedScene& loaded, Algorithm algorithm) {
   ShadowOptions options;
+  options.algorithm = algorithm;
   options.lights = loaded.lights;
   options.keep_points = true;
   options.interrupted = &interrupted();

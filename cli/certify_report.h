@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "gnomon/algorithms/shadows.h"
 #include "gnomon/oracle/candidate.h"
 #include "gnomon/report/certificate.h"
 #include "scene_options.h"
@@ -22,8 +23,10 @@ Expected<void> write_certificate_report(const std::filesystem::path& directory,
                                         const std::vector<oracle::Candidate>& candidates,
                                         bool times);
 
-/// The exact answer of the chosen lights as the kernel `plane` has it, for pictures.
-Expected<oracle::Candidate> exact_fragments(const LoadedScene& loaded);
+/// The exact answer of the chosen lights as the kernel `plane` has it, for pictures. Errors:
+/// kInterrupted, kLimit.
+Expected<oracle::Candidate> exact_fragments(const LoadedScene& loaded,
+                                            Algorithm algorithm = Algorithm::kAutomatic);
 
 }  // namespace gnomon::cli
 

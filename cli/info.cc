@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "gnomon/report/scene_facts.h"
+#include "jobs.h"
 #include "messages.h"
 #include "output.h"
 #include "scene_options.h"
@@ -19,6 +20,7 @@ struct InfoOptions {
 };
 
 int run_info(const InfoOptions& options) {
+  const ThreadLimit threads(options.scene.jobs);
   const auto loaded = load_scene(options.scene, false);
   if (!loaded) return report_error(loaded.error());
   const report::SceneFacts facts = report::scene_facts(loaded->scene, loaded->prepared);

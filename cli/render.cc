@@ -5,11 +5,13 @@
 #include <cmath>
 #include <memory>
 
+#include "algorithm_choice.h"
 #include "certify_report.h"
 #include "commands.h"
 #include "gnomon/algorithms/painters_order.h"
 #include "gnomon/oracle/read_candidate.h"
 #include "gnomon/report/picture.h"
+#include "jobs.h"
 #include "messages.h"
 #include "output.h"
 #include "scene_options.h"
@@ -22,6 +24,7 @@ struct RenderOptions {
   SceneOptions scene;
   std::string result;
   std::string candidate;
+  std::string algorithm{kAutomaticName};
   std::string eye, look_at, up;
   double field_of_view = 0;
   unsigned width = 960, height = 720;
@@ -80,6 +83,9 @@ tl::unexpected<Error> missing_light(const std::string& file, const std::string& 
 }
 
 Expected<void> render(const RenderOptions& options) {
+  const auto algorithm = parse_algorithm_choice(options.algorithm);
+  if (!algorithm) return tl::unexpected(algorithm.error());
+  const ThreadLimit threads(options.scene.jobs);
   auto loaded = load_scene(options.scene, true);
   if (!loaded) return tl::unexpected(loaded.error());
   const auto camera = camera_of(options, loaded->prepared);
@@ -107,7 +113,7 @@ Expected<void> render(const RenderOptions& options) {
     panel.shown = find_light(*result, id);
     if (panel.shown == nullptr) return missing_light(options.result, id);
   } else {
-    auto computed = exact_fragments(*loaded);
+    auto computed = exact_fragments(*loaded, *algorithm);
     if (!computed) return tl::unexpected(computed.error());
     exact = std::move(*computed);
     panel.shown = find_light(*exact, id);
@@ -142,6 +148,7 @@ void add_render_command(CLI::App& app, Action& action) {
   add_scene_options(command, options->scene);
   command.add_option("RESULT", options->result, "A result to show, with fragments")
       ->type_name("FILE");
+  add_algorithm_option(command, options->algorithm);
   command.add_option("--eye", options->eye, "Where the eye is [above a corner of the scene]")
       ->type_name("x,y,z");
   command.add_option("--look-at", options->look_at, "What it looks at [the middle of the scene]")

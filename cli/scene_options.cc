@@ -7,6 +7,7 @@
 #include "gnomon/scene/light_arguments.h"
 #include "gnomon/scene/read.h"
 #include "interrupt.h"
+#include "jobs.h"
 #include "messages.h"
 
 namespace gnomon::cli {
@@ -58,6 +59,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
   repeatable(
       command.add_option("--light", options.lights, "Only the light with this id (repeatable)"))
       ->type_name("ID");
+  add_jobs_option(command, options.jobs);
 }
 
 std::optional<NumberMeaning> numbers_asked(const std::string& numbers) {
@@ -94,12 +96,15 @@ Expected<Scene> read_scene_with_lights(const SceneOptions& options) {
 
 Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) {
   LoadedScene loaded;
+  Stopwatch stopwatch;
   auto scene = read_scene_with_lights(options);
   if (!scene) return tl::unexpected(scene.error());
   loaded.scene = std::move(*scene);
+  loaded.reading = stopwatch.lap();
   auto prepared = prepare(loaded.scene);
   if (!prepared) return tl::unexpected(prepared.error());
   loaded.prepared = std::move(*prepared);
+  loaded.preparation = stopwatch.lap();
   if (interrupted()) return fail(ErrorCode::kInterrupted, "interrupted");
   for (const PreparationNote& note : loaded.prepared.notes) {
     if (note.repair != Repair::kZeroArea) continue;

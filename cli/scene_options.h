@@ -11,6 +11,7 @@
 #include "gnomon/kernel/error.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
+#include "stopwatch.h"
 
 namespace gnomon::cli {
 
@@ -20,8 +21,10 @@ struct SceneOptions {
   std::vector<std::string> points, suns, areas;
   std::string lights_file;
   std::vector<std::string> lights;  // ids; empty: all
+  unsigned jobs = 0;                // threads; 0: one a processor
 };
 
+/// Also --jobs, since preparation takes all processors.
 void add_scene_options(CLI::App& command, SceneOptions& options);
 /// --numbers alone, for commands that take no lights.
 void add_numbers_option(CLI::App& command, std::string& numbers);
@@ -32,6 +35,7 @@ struct LoadedScene {
   std::vector<std::uint32_t> lights;     // point and directional lights asked for, in file order:
                                          // indices into both scenes' lights
   std::vector<std::string> area_lights;  // ids of area lights that were left out
+  Seconds reading, preparation;
 };
 
 /// The number meaning that was asked for, if any.

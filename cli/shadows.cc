@@ -4,17 +4,19 @@
 
 #include <memory>
 
+#include "algorithm_choice.h"
 #include "commands.h"
 #include "gnomon/report/number_text.h"
-#include "gnomon/report/polygon_sides.h"
 #include "gnomon/report/result_json.h"
 #include "gnomon/scene/digest.h"
 #include "interrupt.h"
+#include "jobs.h"
 #include "kernel_choice.h"
 #include "messages.h"
 #include "output.h"
 #include "progress.h"
 #include "scene_options.h"
+#include "statistics.h"
 
 namespace gnomon::cli {
 
@@ -23,7 +25,7 @@ namespace {
 struct ShadowsOptions {
   SceneOptions scene;
   std::string kernel{"plane"};
-  std::string algorithm = "svbsp";
+  std::string algorithm{kAutomaticName};
   bool identity = false;
   double thickness = kDefaultThickness;
   bool fragments = false, exact_fractions = false, exact_loops = false;
@@ -34,44 +36,28 @@ struct ShadowsOptions {
   std::string output;
 };
 
-void print_stats(const LoadedScene& loaded, const ShadowResult& result) {
-  using report::grouped;
-  std::string text = "kernel " + result.kernel + ": scene BSP " + grouped(result.bsp_nodes) +
-                     " nodes, depth " + grouped(result.bsp_depth) + ", " +
-                     grouped(result.bsp_fragments) + " fragments, " +
-                     report::rounded(result.scene_bsp_seconds, 3) + " s; shadows " +
-                     report::rounded(result.shadow_seconds, 3) + " s\n";
-  for (const LightResult& light : result.lights) {
-    text += "light " + loaded.scene.lights[loaded.prepared.lights[light.light].light].id + ": " +
-            grouped(light.facing_parts) + " parts and " + grouped(light.facing_edges) +
-            " edges face it, " + grouped(light.tree_nodes) + " tree nodes, " +
-            grouped(light.fragment_total) + " fragments\n";
-  }
-  const StageCounts& stages = result.stages;
-  if (stages.total() > 0) {
-    text += "decisions: " + grouped(stages.total()) + "; by identity " + grouped(stages.identity) +
-            ", by the filter " + grouped(stages.filter) + ", exactly " + grouped(stages.exact()) +
-            " (128 bits " + grouped(stages.exact128) + ", 512 bits " + grouped(stages.exact512) +
-            ", GMP " + grouped(stages.unbounded) + "), of these exactly zero " +
-            grouped(stages.exactly_zero) + "\n";
-  }
-  std::fwrite(text.data(), 1, text.size(), stderr);
-}
-
 int run_shadows(const ShadowsOptions& options) {
   auto kernel = parse_kernel_choice(options.kernel);
   if (!kernel) return report_error(kernel.error());
+  const auto algorithm =
+      parse_algorithm_choice(options.algorithm, {{"--combined", options.combined},
+                                                 {"--no-merge", options.no_merge},
+                                                 {"--no-prefix", options.no_prefix}});
+  if (!algorithm) return report_error(algorithm.error());
   if ((options.exact_fractions || options.exact_loops) && !kernel->exact()) {
     const std::string option = options.exact_fractions ? "--exact-fractions" : "--exact-loops";
     return report_usage(option + ": kernel " + kernel->name() + " rounds",
                         "an exact kernel: plane, rational or epeck");
   }
+  const ThreadLimit threads(options.scene.jobs);
   auto loaded = load_scene(options.scene, true);
   if (!loaded) return report_error(loaded.error());
 
   ProgressBar progress("shadows");
   ShadowOptions shadow_options;
   shadow_options.kernel = kernel->kernel;
+  shadow_options.algorithm = *algorithm;
+  shadow_options.jobs = options.scene.jobs;
   shadow_options.identity = options.identity || kernel->identity;
   shadow_options.thickness = kernel->thin ? 0 : options.thickness;
   shadow_options.lights = loaded->lights;
@@ -84,7 +70,10 @@ int run_shadows(const ShadowsOptions& options) {
   shadow_options.prefix = !options.no_prefix;
   shadow_options.progress = progress.callback();
   shadow_options.interrupted = &interrupted();
+  PhaseTimes times;
+  Stopwatch stopwatch;
   const auto result = compute_shadows(loaded->prepared, shadow_options);
+  times.shadows = stopwatch.lap();
   progress.clear();
   if (!result) return report_error(result.error());
 
@@ -101,7 +90,11 @@ int run_shadows(const ShadowsOptions& options) {
   output->give_up_if(interrupted());
   report::write_result_json(*output, loaded->scene, loaded->prepared, *result, json_options);
   if (auto done = output->finish(); !done) return report_error(done.error());
-  if (options.stats) print_stats(*loaded, *result);
+  times.output = stopwatch.lap();
+  if (options.stats) {
+    const std::string text = statistics_text(*loaded, *result, times);
+    std::fwrite(text.data(), 1, text.size(), stderr);
+  }
   return kDone;
 }
 
@@ -120,10 +113,7 @@ void add_shadows_command(CLI::App& app, Action& action) {
                   "float, double, longdouble, epick, epeck, rational, plane, or exact (= plane)")
       ->type_name("K")
       ->capture_default_str();
-  command.add_option("--algorithm", options->algorithm, "How shadows are found: svbsp")
-      ->check(CLI::IsMember({"svbsp"}))
-      ->type_name("A")
-      ->capture_default_str();
+  add_algorithm_option(command, options->algorithm);
   command.add_flag("--identity", options->identity,
                    "Rounded kernels: a vertex made by a plane is on it, whatever its numbers say");
   command
@@ -139,15 +129,16 @@ void add_shadows_command(CLI::App& app, Action& action) {
   command.add_flag("--exact-loops", options->exact_loops,
                    "Write fragments with exact rational coordinates (exact kernels)");
   command.add_flag("--combined", options->combined,
-                   "Also write fragments with the set of lights that reach each of them");
+                   "Also write fragments with the set of lights that reach each of them (svbsp)");
   auto* lit_only = command.add_flag("--lit-only", options->lit_only, "List lit fragments only");
   command.add_flag("--shadow-only", options->shadow_only, "List shadow fragments only")
       ->excludes(lit_only);
-  command.add_flag("--no-merge", options->no_merge, "Leave sibling fragments as the tree cut them");
+  command.add_flag("--no-merge", options->no_merge,
+                   "Leave sibling fragments as the tree cut them (svbsp)");
   command.add_flag("--no-prefix", options->no_prefix,
-                   "Without the balanced prefix: the tree of the 1989 paper");
+                   "Without the balanced prefix: the tree of the 1989 paper (svbsp)");
   command.add_flag("--stats", options->stats,
-                   "Print counts, CPU times and, for plane, who decided, to standard error");
+                   "Print counts, times, memory and, for plane, who decided, to standard error");
   command.add_option("-o,--output", options->output, "Result file; standard output if absent")
       ->type_name("FILE");
   command.callback([options, &action] { action = [options] { return run_shadows(*options); }; });

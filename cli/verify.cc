@@ -10,6 +10,7 @@
 #include "gnomon/report/number_text.h"
 #include "gnomon/report/table.h"
 #include "interrupt.h"
+#include "jobs.h"
 #include "messages.h"
 #include "output.h"
 #include "progress.h"
@@ -89,6 +90,7 @@ void write_findings_json(report::TextSink& sink, const oracle::WitnessReport& re
 }
 
 int run_verify(const VerifyOptions& options) {
+  const ThreadLimit threads(options.scene.jobs);
   const auto loaded = load_scene(options.scene, true);
   if (!loaded) return report_error(loaded.error());
   const auto candidate = oracle::read_candidate(options.result, loaded->scene);

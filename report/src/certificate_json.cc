@@ -132,8 +132,11 @@ void write_wrong_polygons(JsonWriter& json, const oracle::Report& report) {
 
 void write_run(JsonWriter& json, const JudgedRun& run, bool times) {
   json.begin_object();
-  json.member(run.foreign ? "candidate" : "kernel", run.name);
-  if (!run.foreign) {
+  if (run.foreign) {
+    json.member("candidate", run.name);
+  } else {
+    json.member("kernel", run.kernel);
+    json.member("algorithm", run.algorithm);
     json.member("exact", run.exact);
     json.member("identity", run.identity);
     json.member("thickness", run.thickness);

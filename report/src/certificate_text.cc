@@ -49,24 +49,37 @@ double error_share(const oracle::ComparisonTotals& totals, double facing_area) {
 /// CPU time of the kernel `double` without identity, the measure of all others.
 std::optional<double> reference_time(const std::vector<JudgedRun>& runs) {
   for (const JudgedRun& run : runs) {
-    if (run.name == "double" && run.error.empty() && run.cpu_seconds > 0) return run.cpu_seconds;
+    if (run.kernel == "double" && run.error.empty() && run.cpu_seconds > 0) return run.cpu_seconds;
   }
   return std::nullopt;
+}
+
+/// Each once, in the order of the runs.
+std::vector<std::string> algorithms_of(const std::vector<JudgedRun>& runs) {
+  std::vector<std::string> algorithms;
+  for (const JudgedRun& run : runs) {
+    if (run.algorithm.empty() || std::ranges::count(algorithms, run.algorithm) > 0) continue;
+    algorithms.push_back(run.algorithm);
+  }
+  return algorithms;
 }
 
 std::vector<std::string> row(const JudgedRun& run, double facing_area,
                              std::optional<double> reference) {
   std::string time = "-";
   if (!run.foreign && run.error.empty()) {
-    time = reference ? ratio(run.cpu_seconds / *reference) : rounded(run.cpu_seconds, 3) + " s";
+    time = reference             ? ratio(run.cpu_seconds / *reference)
+           : run.cpu_seconds < 1 ? rounded(1000 * run.cpu_seconds, 3) + " ms"
+                                 : rounded(run.cpu_seconds, 3) + " s";
   }
-  if (!run.report) return {run.name, policy(run), "no result", "-", "-", "-", "-", time};
+  const std::string& name = run.foreign ? run.name : run.kernel;
+  if (!run.report) return {name, policy(run), "no result", "-", "-", "-", "-", time};
   const oracle::Report& report = *run.report;
   const oracle::ComparisonTotals& totals = report.totals;
   std::string verdict = name_of(report.verdict);
   if (report.interrupted) verdict = "interrupted";
   if (report.by_points) {
-    return {run.name,
+    return {name,
             policy(run),
             verdict,
             grouped(report.points_wrong) + "/" + grouped(report.points_checked),
@@ -75,7 +88,7 @@ std::vector<std::string> row(const JudgedRun& run, double facing_area,
             grouped(run.fragments),
             time};
   }
-  return {run.name,
+  return {name,
           policy(run),
           verdict,
           bound(error_share(totals, facing_area)),
@@ -175,11 +188,13 @@ std::string place_in_words(const oracle::Witness& witness) {
 std::string certificate_text(const Certificate& certificate) {
   const Scene& scene = *certificate.scene;
   std::string text;
+  const std::vector<std::string> algorithms = algorithms_of(certificate.runs);
   text += wrapped("scene " + (scene.name.empty() ? scene.file : scene.name) + ": " +
                       plural(scene.polygons.size(), "polygon") + ", " +
                       plural(certificate.prepared->parts.size(), "part") + ", numbers as " +
                       (scene.numbers == NumberMeaning::kDecimal ? "decimals" : "doubles") +
-                      "; lights: " + joined(certificate.lights),
+                      "; lights: " + joined(certificate.lights) +
+                      (algorithms.empty() ? "" : "; by " + joined(algorithms)),
                   TextTable::kWidth, 0, 2);
   if (!certificate.left_out.empty()) {
     text +=
@@ -208,20 +223,30 @@ std::string certificate_text(const Certificate& certificate) {
   for (const JudgedRun& run : certificate.runs) {
     by_points = by_points || (run.report && run.report->by_points);
   }
-  TextTable table({{"kernel"},
-                   {"policy"},
-                   {"verdict"},
-                   {by_points ? "wrong points" : "wrong area", Align::kRight},
-                   {"polygons", Align::kRight},
-                   {"width", Align::kRight},
-                   {"fragments", Align::kRight},
-                   {"time", Align::kRight}});
+  const std::vector<Column> columns = {{"kernel"},
+                                       {"policy"},
+                                       {"verdict"},
+                                       {by_points ? "wrong points" : "wrong area", Align::kRight},
+                                       {"polygons", Align::kRight},
+                                       {"width", Align::kRight},
+                                       {"fragments", Align::kRight},
+                                       {"time", Align::kRight}};
   const std::optional<double> reference = reference_time(certificate.runs);
-  for (const JudgedRun& run : certificate.runs) {
-    table.add_row(row(run, certificate.facing_area, reference));
-    add_notes(run, table);
+  // Foreign results stand with the first algorithm.
+  for (std::size_t i = 0; i < certificate.runs.size();) {
+    TextTable table(columns);
+    std::string algorithm;
+    for (; i < certificate.runs.size(); ++i) {
+      const JudgedRun& run = certificate.runs[i];
+      if (algorithm.empty()) algorithm = run.algorithm;
+      if (run.algorithm != algorithm) break;
+      table.add_row(row(run, certificate.facing_area, reference));
+      add_notes(run, table);
+    }
+    if (algorithms.size() > 1) text += "by " + algorithm + ":\n";
+    text += table.to_string();
+    if (i < certificate.runs.size()) text += '\n';
   }
-  text += table.to_string();
   const std::string end = conclusion(certificate);
   if (!end.empty()) text += '\n' + end;
   return text;

@@ -19,9 +19,10 @@
 namespace gnomon::report {
 
 struct JudgedRun {
-  std::string name;      // "double+identity", or the file of a foreign result
-  bool foreign = false;  // not one of our kernels
-  bool exact = false;    // an exact kernel: anything but `identical` is a bug of ours
+  std::string name;  // "double+identity", "plane/svbsp", or the file of a foreign result
+  std::string kernel, algorithm;  // "double+identity", "svbsp"; empty if foreign
+  bool foreign = false;           // not one of our kernels
+  bool exact = false;             // an exact kernel: anything but `identical` is a bug of ours
   bool identity = false;
   bool exact_decisions = false;  // rounds points alone (epick): no thickness
   double thickness = 0;          // rounded kernels only
