@@ -9,9 +9,14 @@
 
 namespace gnomon {
 
-/// A float that is not larger; exact bounds in doubles become certified floats.
+/// A float that is not larger; exact bounds in doubles become certified floats. What is larger than
+/// all floats has the largest below it, and not infinity.
 inline float float_below(double x) {
-  return static_cast<float>(x - std::fabs(x) * 0x1p-22 - 0x1p-140);
+  constexpr float kMost = std::numeric_limits<float>::max();
+  const double below = x - std::fabs(x) * 0x1p-22 - 0x1p-140;
+  if (below >= static_cast<double>(kMost)) return kMost;
+  if (below <= -static_cast<double>(kMost)) return -std::numeric_limits<float>::infinity();
+  return static_cast<float>(below);
 }
 inline float float_above(double x) { return -float_below(-x); }
 
