@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "fractions.h"
@@ -37,7 +38,10 @@ PlanarPoint planar_point(const Space& space, const PlaneCharts& charts,
   } else {
     const std::array<Ball, 3> point = space.position(corner);
     const auto [u, v] = charts[corner.support];
-    return {point[u].middle, point[v].middle, std::max(point[u].radius, point[v].radius)};
+    const double error = point[u].is_finite() && point[v].is_finite()
+                             ? std::max(point[u].radius, point[v].radius)
+                             : std::numeric_limits<double>::infinity();
+    return {point[u].middle, point[v].middle, error};
   }
 }
 
@@ -64,7 +68,8 @@ Ball twice_area(const Loop& loop, const PointOf& point_of) {
   const auto n = static_cast<double>(loop.size());
   const double d = 2 * error + Ball::kUnit * most;
   const double radius = 2 * d * (spread + n * d) + 2 * n * (n + 4) * Ball::kUnit * most * most;
-  return {sum, radius * 1.001 + Ball::kTiny};
+  const double overflow = sum - sum;  // not a number if the sum is none; else 0
+  return {sum, radius * 1.001 + overflow + Ball::kTiny};
 }
 
 /// The same for a loop in light space. Where the bounds of the doubles leave more than `widest`,
