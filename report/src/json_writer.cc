@@ -101,9 +101,15 @@ void JsonWriter::element() {
 void JsonWriter::append_string(std::string_view text) {
   static constexpr char kHex[] = "0123456789abcdef";
   buffer_ += '"';
+  const auto is_plain = [](char c) { return c >= 0x20 && c < 0x7f && c != '"' && c != '\\'; };
   while (!text.empty()) {
+    std::size_t length = 0;
+    while (length < text.size() && is_plain(text[length])) ++length;
+    buffer_ += text.substr(0, length);
+    text.remove_prefix(length);
+    if (text.empty()) break;
     const char c = text.front();
-    std::size_t length = 1;
+    length = 1;
     if (c == '"' || c == '\\') {
       buffer_ += '\\';
       buffer_ += c;

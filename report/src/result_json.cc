@@ -144,16 +144,17 @@ class ResultWriter {
     const double area = nearest_double(side.area);
     if (!std::isfinite(area)) find("polygon " + id + ": its area is beyond the range of doubles");
     json_.member("area", area);
-    write_share("lit", light, side, side.lit, side.exact_lit);
-    write_share("shadow", light, side, side.shadow, side.exact_shadow);
+    write_share("lit", light, side, area, side.lit, side.exact_lit);
+    write_share("shadow", light, side, area, side.shadow, side.exact_shadow);
     if (side.reason != ShadowReason::kNone) json_.member("reason", reason_name(side.reason));
     if (has_parts) write_parts(side);
     if (options_.fragments || options_.exact_loops) write_fragments(light, side);
     json_.end_object();
   }
 
+  /// `area`: of the whole side.
   void write_share(std::string_view name, const LightResult& light, const ClassifiedSide& side,
-                   const Interval& share, const std::optional<mpq_class>& exact) {
+                   double area, const Interval& share, const std::optional<mpq_class>& exact) {
     json_.key(name);
     json_.begin_object(JsonLayout::kInline);
     if (options_.exact_fractions && exact) {
@@ -173,7 +174,9 @@ class ResultWriter {
         json_.end_array();
       }
     }
-    if (exact) {
+    if (share.lower == share.upper && (share.lower == 0 || share.lower == 1)) {
+      json_.member("area", share.lower == 0 ? 0.0 : area);
+    } else if (exact) {
       json_.member("area", nearest_double(*exact * side.area));
     } else if (std::isfinite(share.middle())) {
       json_.member("area", nearest_double(mpq_class(share.middle()) * side.area));
