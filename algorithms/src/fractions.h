@@ -54,7 +54,7 @@ class PartMeasure {
   using Loop = LoopView<typename Space::Vertex>;
   /// An enclosure whose radius is not below this fraction of the part is replaced by exact
   /// arithmetic; most are far narrower.
-  static constexpr double kWidest = 0x1p-32;
+  static constexpr double kWidest = 0x1p-30;
 
   PartMeasure(const Space& space, Chart chart, const Loop& part, bool always_exact)
       : space_(space),

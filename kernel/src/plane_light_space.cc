@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "gnomon/kernel/exact_shadow_plane.h"
 #include "gnomon/kernel/fp_environment.h"
 
 namespace gnomon {
@@ -25,19 +26,6 @@ double normalizer(double magnitude) {
   return std::ldexp(1.0, -exponent);
 }
 
-/// Nearest double, or within one unit in the last place: relative error 2u. Infinite beyond
-/// doubles.
-template <class Int>
-double to_double(const Int& value) {
-  if constexpr (std::is_same_v<Int, mpz_class>) {
-    return to_double_scaled(value, 0);
-  } else if constexpr (kLimbsOf<Int> <= 2) {
-    return static_cast<double>(value);
-  } else {
-    return to_double_scaled(value, 0);
-  }
-}
-
 /// The largest slack for which the bound of a ray (ray_bound) holds.
 constexpr double kMostSlack = 0x1p40;
 
@@ -49,6 +37,19 @@ unsigned bits(const Vector3<mpz_class>& v) {
 
 mpz_class normal_dot(const Vector3<mpz_class>& n, const std::array<mpz_class, 3>& v) {
   return n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
+}
+
+/// Nearest double, or within one unit in the last place: relative error 2u. Infinite beyond
+/// doubles.
+template <class Int>
+double to_double(const Int& value) {
+  if constexpr (std::is_same_v<Int, mpz_class>) {
+    return to_double_scaled(value, 0);
+  } else if constexpr (kLimbsOf<Int> <= 2) {
+    return static_cast<double>(value);
+  } else {
+    return to_double_scaled(value, 0);
+  }
 }
 
 /// The vector as doubles, scaled by a power of two so that the largest component is in [1/2, 1),
@@ -67,7 +68,7 @@ bool to_normalized(const Vector3<Int>& v, const std::array<int, 3>& stretch,
     for (int k = 0; k < 3; ++k) result[k] = to_double_scaled(v[k], most - stretch[k]);
   } else {
     for (int k = 0; k < 3; ++k) {
-      result[k] = static_cast<double>(v[k]);
+      result[k] = to_double(v[k]);
       if (stretch[k] != 0) result[k] = std::ldexp(result[k], stretch[k]);
     }
     const double magnitude = largest(result);
@@ -92,13 +93,15 @@ PlaneLightSpace<Stats>::PlaneLightSpace(SceneSpace& scene, const LightPoint& lig
   const unsigned grid_bits = shared.geometry->grid.bits(), light_bits = bits(light.grid);
   // The grid's bits are those of the vertices; a lamp may stand far outside.
   const unsigned b = light.directional ? grid_bits : std::max(grid_bits, light_bits);
+  shared.light_bits = light_bits;
   shared.q_bits = light_space_bits(light.directional, b, light_bits);
-  shared.edge_bits =
-      light.directional ? shadow_plane_bits(shared.q_bits) : edge_plane_bits(false, b, 0).largest();
+  shared.edge_bits = edge_plane_bits(light.directional, b, light_bits).largest();
+  shared.side_bits = side_of_edge_bits(light.directional, b, light_bits);
   shared.cut_bits = cut_plane_bits(light.directional, b, light_bits).largest();
   shared.stretch = light.directional ? static_cast<int>(b) : 0;
-  shared.narrow = shared.geometry->grid.is_narrow() && shared.q_bits <= 62 && light_bits <= 62;
+  shared.narrow = shared.geometry->grid.is_narrow() && light_bits <= 63;
   if (shared.narrow) {
+    shared.grid_scale = std::ldexp(1.0, -static_cast<int>(shared.q_bits));
     for (int k = 0; k < 3; ++k) shared.narrow_light[k] = light.grid[k].get_si();
   }
   const unsigned shift = light.directional ? light_bits : grid_bits;
@@ -162,56 +165,66 @@ void PlaneLightSpace<Stats>::make_edge_planes(EdgeId begin, EdgeId end) {
   Shared& shared = *shared_;
   const auto make = [&]<class Int>() {
     for (EdgeId edge = begin; edge < end; ++edge) {
-      const EdgeEnds ends = shared.geometry->edges[edge];
-      shared.edges[edge] = filtered_from(cross(q<Int>(ends.a), q<Int>(ends.b)));
+      shared.edges[edge] = filtered_from(edge_normal<Int>(shared.geometry->edges[edge]));
     }
   };
-  if (!shared.narrow) {
-    make.template operator()<mpz_class>();
-  } else if (shared.edge_bits <= 62) {
-    make.template operator()<std::int64_t>();
-  } else {
-    make.template operator()<Int128>();  // q of 62 bits: planes of 125
-  }
+  // One bit more for the difference of two products.
+  with_width(shared.narrow ? narrowest_width(shared.edge_bits + 2) : IntegerWidth::kUnbounded,
+             make);
 }
 
 template <class Stats>
 template <class Int>
-typename PlaneLightSpace<Stats>::DepthPlane PlaneLightSpace<Stats>::depth_plane(PlaneId id) const {
-  const Shared& shared = *shared_;
-  const ExactGeometry<Int> exact(*shared.geometry);
-  const ExactPlane<Int> plane = exact.plane(id);
-  const Vector3<Int> l = light<Int>();
-  Int height;
-  if (shared.light.directional) {
-    height = dot(plane.n, l);
+Vector3<Int> PlaneLightSpace<Stats>::edge_normal(const EdgeEnds& ends) const {
+  const auto normal = [&]<class Position>() {
+    const ExactGeometry<Position> exact(*shared_->geometry);
+    const Vector3<Position> l = light<Position>();
+    const Vector3<Position> a = exact.position(ends.a), b = exact.position(ends.b);
+    if (!shared_->light.directional) return point_shadow_plane<Int>(l, a, b);
+    return directional_shadow_plane<Int>(permuted(l), permuted(a), permuted(b));
+  };
+  if constexpr (std::is_same_v<Int, mpz_class>) {
+    return normal.template operator()<mpz_class>();
   } else {
-    height = dot(plane.n, difference(l, exact.position(shared.geometry->planes[id].a)));
+    return normal.template operator()<std::int64_t>();
   }
+}
+
+template <class Stats>
+template <class Normal, class Int>
+typename PlaneLightSpace<Stats>::DepthPlane PlaneLightSpace<Stats>::depth_plane(PlaneId id) const {
+  using Position = std::conditional_t<std::is_same_v<Int, mpz_class>, mpz_class, std::int64_t>;
+  const Shared& shared = *shared_;
+  const ExactGeometry<Position> exact(*shared.geometry);
+  const Vector3<Normal> normal = exact.template normal<Normal>(id);
+  const Vector3<Position> l = light<Position>();
+  const Vector3<Position> corner = exact.position(shared.geometry->planes[id].a);
+  const Int height =
+      shared.light.directional ? dot<Int>(normal, l) : dot<Int>(normal, difference(l, corner));
   DepthPlane depth;
   depth.at_light = sign_of(height);
   depth.magnitude = kInfinity;
   if (depth.at_light == Sign::kZero) return depth;
   // |value| * 2^-shift, such that nothing of usual size over- or underflows.
-  const auto scaled = [](const Int& value, unsigned shift) {
-    if constexpr (std::is_same_v<Int, mpz_class>) {
-      return to_double_scaled(value, shift);
-    } else {
+  const auto scaled = []<class Value>(const Value& value, unsigned shift) {
+    if constexpr (kLimbsOf<Value> == 1 || kLimbsOf<Value> == 2) {
       return std::ldexp(static_cast<double>(value), -static_cast<int>(shift));
+    } else {
+      return to_double_scaled(value, shift);
     }
   };
   const unsigned b = shared.geometry->grid.bits();
   if (shared.light.directional) {
     const auto [x, y, z] = shared.axes;
-    const unsigned e = shared.q_bits - b;
+    const unsigned e = shared.light_bits;
     const double h = scaled(height, 2 * b + e);
     const double sign = sgn(shared.light.grid[z]) < 0 ? -1 : 1;
-    depth.n = {-sign * scaled(plane.n[x], 2 * b) / h, -sign * scaled(plane.n[y], 2 * b) / h,
-               sign * scaled(plane.d, 3 * b) / h};
+    depth.n = {-sign * scaled(normal[x], 2 * b) / h, -sign * scaled(normal[y], 2 * b) / h,
+               sign * scaled(dot<Int>(normal, corner), 3 * b) / h};
   } else {
     const unsigned B = shared.q_bits;
     const double h = scaled(height, 2 * b + B);
-    for (int k = 0; k < 3; ++k) depth.n[k] = scaled(plane.n[k], 2 * b) / h;
+    for (int k = 0; k < 3; ++k) depth.n[k] = scaled(normal[k], 2 * b) / h;
   }
   const double magnitude = largest(depth.n);
   if (magnitude > 0x1p-900 && magnitude < 0x1p900) depth.magnitude = magnitude;
@@ -222,19 +235,18 @@ template <class Stats>
 void PlaneLightSpace<Stats>::make_depth_planes() {
   Shared& shared = *shared_;
   shared.depths.resize(shared.geometry->planes.size());
-  const auto make = [&]<class Int>() {
-    for (PlaneId id = 0; id < shared.depths.size(); ++id) shared.depths[id] = depth_plane<Int>(id);
+  const auto make = [&]<class Normal, class Int>() {
+    for (PlaneId id = 0; id < shared.depths.size(); ++id) {
+      shared.depths[id] = depth_plane<Normal, Int>(id);
+    }
   };
   const unsigned b = shared.geometry->grid.bits();
-  // n . (L - A), n . d and the plane's offset n . A.
-  const unsigned most = std::max(2 * b + shared.q_bits, 3 * b) + 4;
-  if (!shared.narrow || most > 127) {
-    make.template operator()<mpz_class>();
-  } else if (most <= 63) {
-    make.template operator()<std::int64_t>();
-  } else {
-    make.template operator()<Int128>();
-  }
+  // n . (L - A), n . d and the plane's offset n . A; one bit more for the difference in a normal.
+  const unsigned bits =
+      shared.light.directional ? 2 * b + shared.light_bits : 2 * b + shared.q_bits;
+  const unsigned most = std::max(bits, 3 * b) + 4;
+  with_widths(shared.narrow ? narrowest_width(most) : IntegerWidth::kUnbounded,
+              support_normal_bits(b) + 1, make);
 }
 
 template <class Stats>
@@ -390,12 +402,10 @@ typename PlaneLightSpace<Stats>::Vertex PlaneLightSpace<Stats>::import_vertex(
   result.source = vertex.source;
   if (vertex.source == kMadeVertex) return result;
   const std::array<int, 3> stretch{0, 0, shared_->stretch};
-  bool some;
-  if (shared_->narrow) {
-    some = to_normalized(q<std::int64_t>(vertex.source), stretch, result.ray);
-  } else {
-    some = to_normalized(q<mpz_class>(vertex.source), stretch, result.ray);
-  }
+  bool some = false;
+  with_width(
+      shared_->narrow ? narrowest_width(shared_->q_bits + 1) : IntegerWidth::kUnbounded,
+      [&]<class Int>() { some = to_normalized(q<Int>(vertex.source), stretch, result.ray); });
   result.bound = some ? kInputBound : std::numeric_limits<float>::infinity();
   return result;
 }
@@ -487,16 +497,35 @@ Sign PlaneLightSpace<Stats>::input_depth(PlaneId plane, VertexId vertex) {
     stats_.count(Stage::kIdentity);
     return Sign::kZero;
   }
+  const std::uint64_t key = (std::uint64_t{plane} << 32 | vertex) + 1;
+  DepthMemo& memo = depth_memo_[(plane * 0x9e3779b9u ^ vertex * 0x85ebca6bu) >> 22];
+  if (memo.key == key) {
+    stats_.count(Stage::kIdentity);
+    return memo.sign;
+  }
   const unsigned b = geometry.grid.bits();
-  return decide(true, b, side_of_support_bits(b), [&]<class, class Int>() {
+  const Sign sign = decide(true, b, side_of_support_bits(b), [&]<class, class Int>() {
     return sign_of(ExactGeometry<Int>(geometry).value(plane, vertex));
   });
+  memo = {key, sign};
+  return sign;
 }
 
 template <class Stats>
 Sign PlaneLightSpace<Stats>::exact_sign(PlaneRef ref, const Corner<Vertex>& corner) {
   const Shared& shared = *shared_;
   const VertexId input = corner.vertex.source;
+  if (input != kMadeVertex && is_edge(ref)) {
+    const EdgeEnds ends = shared.geometry->edges[ref.index()];
+    const Sign sign = decide(shared.narrow, 0, shared.side_bits, [&]<class, class Int>() {
+      using Position = std::conditional_t<std::is_same_v<Int, mpz_class>, mpz_class, std::int64_t>;
+      const ExactGeometry<Position> exact(*shared.geometry);
+      return side_of_shadow_plane<Int>(shared.light.directional, light<Position>(),
+                                       exact.position(ends.a), exact.position(ends.b),
+                                       exact.position(input));
+    });
+    return ref.flipped() ? -sign : sign;
+  }
   if (input != kMadeVertex) {
     return decide(shared.narrow && is_narrow(ref), std::max(bits_of(ref), shared.q_bits),
                   side_of_input_vertex_bits(bits_of(ref), shared.q_bits),
@@ -545,12 +574,7 @@ template <class Int>
 Vector3<Int> PlaneLightSpace<Stats>::exact_normal(PlaneRef ref) const {
   Vector3<Int> n;
   if (is_edge(ref)) {
-    const EdgeEnds ends = shared_->geometry->edges[ref.index()];
-    if constexpr (std::is_same_v<Int, mpz_class>) {
-      n = cross(q<Int>(ends.a), q<Int>(ends.b));
-    } else {  // q fits 64 bits wherever fixed widths are used
-      n = cross<Int>(q<std::int64_t>(ends.a), q<std::int64_t>(ends.b));
-    }
+    n = edge_normal<Int>(shared_->geometry->edges[ref.index()]);
   } else if (const Source& from = source(ref); from.b == kExplicit) {
     for (int k = 0; k < 3; ++k) n[k] = integer_from<Int>(explicit_[from.a].n[k]);
   } else {
@@ -569,6 +593,7 @@ PlanarPoint PlaneLightSpace<Stats>::accurate_planar_point(const Corner<Vertex>& 
   const Shared& shared = *shared_;
   const VertexId input = corner.vertex.source;
   const bool made = input == kMadeVertex;
+  if (!made && shared.narrow && !shared.light.directional) return input_planar_point(corner);
   PlanarPoint point;
   point.error = kInfinity;
   const auto [u, v] = kept_axes(shared.depths[corner.support]);

@@ -28,11 +28,17 @@ template <class Stats>
 typename PlaneSceneSpace<Stats>::FilteredPlane PlaneSceneSpace<Stats>::filtered(PlaneId id) const {
   // n scaled by 2^-2b, d by 2^-3b: relative error at most 2u each.
   std::array<double, 4> value;
-  with_width(narrowest_width(side_of_support_bits(bits_)), [&]<class Int>() {
-    const ExactPlane<Int> exact = ExactGeometry<Int>(*geometry_).plane(id);
-    for (int k = 0; k < 3; ++k) value[k] = to_double_scaled(exact.n[k], 2L * bits_);
-    value[3] = to_double_scaled(exact.d, 3L * bits_);
-  });
+  const bool narrow = geometry_->grid.is_narrow();
+  with_widths(narrow ? narrowest_width(side_of_support_bits(bits_)) : IntegerWidth::kUnbounded,
+              support_normal_bits(bits_) + 1, [&]<class Normal, class Int>() {
+                using Position =
+                    std::conditional_t<std::is_same_v<Int, mpz_class>, mpz_class, std::int64_t>;
+                const ExactGeometry<Position> exact(*geometry_);
+                const Vector3<Normal> n = exact.template normal<Normal>(id);
+                const Int d = dot<Int>(n, exact.position(geometry_->planes[id].a));
+                for (int k = 0; k < 3; ++k) value[k] = to_double_scaled(n[k], 2L * bits_);
+                value[3] = to_double_scaled(d, 3L * bits_);
+              });
   FilteredPlane plane;
   const double largest = std::max({std::fabs(value[0]), std::fabs(value[1]), std::fabs(value[2])});
   // Scaling by a power of two is exact only while nothing is subnormal.
@@ -50,11 +56,11 @@ typename PlaneSceneSpace<Stats>::Vertex PlaneSceneSpace<Stats>::input_vertex(Ver
   Vertex vertex;
   vertex.source = v;
   vertex.error = 2 * Ball::kUnit;
+  const GridPositions& grid = geometry_->grid;
+  const double narrow_scale = grid.is_narrow() ? 1 / static_cast<double>(1ULL << bits_) : 0;
   for (int k = 0; k < 3; ++k) {
-    vertex.x[k] = geometry_->grid.is_narrow()
-                      ? std::ldexp(static_cast<double>(geometry_->grid.narrow(v, k)),
-                                   -static_cast<int>(bits_))
-                      : to_double_scaled(geometry_->grid.wide(v, k), bits_);
+    vertex.x[k] = grid.is_narrow() ? static_cast<double>(grid.narrow(v, k)) * narrow_scale
+                                   : to_double_scaled(grid.wide(v, k), bits_);
   }
   return vertex;
 }

@@ -27,7 +27,7 @@ using PlaneId = std::uint32_t;
 class GridPositions {
  public:
   /// Coordinates in [0, 2^bits - 1]. `wide` is used if bits() > kNarrowBits.
-  static constexpr unsigned kNarrowBits = 62;
+  static constexpr unsigned kNarrowBits = 63;
 
   GridPositions() = default;
   /// Takes 3 n coordinates x0 y0 z0 x1 ..., all non-negative.

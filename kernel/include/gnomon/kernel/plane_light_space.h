@@ -163,11 +163,14 @@ class PlaneLightSpace {
     SceneSpace* scene = nullptr;
     LightPoint light;
     LightAxes axes;
-    unsigned q_bits = 0;     // magnitude bits of q
-    unsigned edge_bits = 0;  // magnitude bits of an edge plane
-    unsigned cut_bits = 0;   // magnitude bits of a cut of two support planes
-    int stretch = 0;         // z of the doubles is scaled by 2^stretch (directional lights)
-    bool narrow = false;     // grid, light and q fit into 64 bits
+    unsigned light_bits = 0;  // magnitude bits of the light's coordinates
+    unsigned q_bits = 0;      // magnitude bits of q
+    unsigned side_bits = 0;   // signed bits of the side of an edge plane of an input vertex
+    unsigned edge_bits = 0;   // magnitude bits of an edge plane
+    unsigned cut_bits = 0;    // magnitude bits of a cut of two support planes
+    int stretch = 0;          // z of the doubles is scaled by 2^stretch (directional lights)
+    bool narrow = false;      // grid and light fit into 64 bits
+    double grid_scale = 1;    // 2^-q_bits, if narrow
     std::array<std::int64_t, 3> narrow_light{};
     std::array<Ball, 3> light_enclosure;  // position times 2^-b, or direction times a power of two
     std::vector<FilteredPlane> edges;     // by EdgeId
@@ -175,6 +178,17 @@ class PlaneLightSpace {
   };
 
   Side undecided_side(PlaneRef plane, const Corner<Vertex>& corner);
+  /// Of an input vertex and a point light: two components of L - v, each converted once.
+  PlanarPoint input_planar_point(const Corner<Vertex>& corner) const {
+    const auto [u, v] = kept_axes(shared_->depths[corner.support]);
+    const std::int64_t* x = shared_->geometry->grid.narrow_point(corner.vertex.source);
+    const std::array<std::int64_t, 3>& l = shared_->narrow_light;
+    PlanarPoint point;
+    point.x = static_cast<double>(l[u] - x[u]) * shared_->grid_scale;
+    point.y = static_cast<double>(l[v] - x[v]) * shared_->grid_scale;
+    point.error = Ball::kUnit * std::max(std::fabs(point.x), std::fabs(point.y));
+    return point;
+  }
   /// The two axes that remain when that of the normal's largest component is dropped.
   static std::array<int, 2> kept_axes(const DepthPlane& plane) {
     const double x = std::fabs(plane.n[0]), y = std::fabs(plane.n[1]), z = std::fabs(plane.n[2]);
@@ -233,6 +247,12 @@ class PlaneLightSpace {
   template <class Int>
   Vector3<Int> light() const;
   template <class Int>
+  Vector3<Int> permuted(const Vector3<Int>& v) const {
+    return {v[shared_->axes.x], v[shared_->axes.y], v[shared_->axes.z]};
+  }
+  template <class Int>
+  Vector3<Int> edge_normal(const EdgeEnds& ends) const;
+  template <class Int>
   Vector3<Int> cut_normal(const ExactPlane<Int>& i, const ExactPlane<Int>& j) const;
   template <class Int>
   Vector3<Int> exact_normal(PlaneRef plane) const;
@@ -248,7 +268,7 @@ class PlaneLightSpace {
   template <class Int>
   FilteredPlane filtered_from(const Vector3<Int>& normal) const;
   void make_depth_planes();
-  template <class Int>
+  template <class Normal, class Int>
   DepthPlane depth_plane(PlaneId id) const;
   PlaneRef add(const FilteredPlane& plane, Source source);
   PlaneRef add_explicit(Vector3<mpz_class> normal);
@@ -256,6 +276,12 @@ class PlaneLightSpace {
   ExactPlane<mpz_class> in_scene(PlaneRef plane) const;
   std::array<mpq_class, 3> exact_grid_position(const Corner<Vertex>& corner) const;
 
+  /// Exact depths of input vertices found lately: neighbours in a scene ask again and again.
+  struct DepthMemo {
+    std::uint64_t key = 0;  // (plane, vertex) + 1
+    Sign sign = Sign::kZero;
+  };
+  std::vector<DepthMemo> depth_memo_ = std::vector<DepthMemo>(1024);
   std::shared_ptr<Shared> shared_;
   // Planes after those of the edges; a stack.
   std::vector<FilteredPlane> own_;
@@ -297,6 +323,9 @@ inline PlanarPoint PlaneLightSpace<Stats>::planar_point(const Corner<Vertex>& co
   const std::array<double, 3>& r = corner.vertex.ray;
   const double error = error_of(corner.vertex);
   PlanarPoint point;
+  if (corner.vertex.source != kMadeVertex && shared_->narrow && !shared_->light.directional) {
+    return input_planar_point(corner);
+  }
   point.error = std::numeric_limits<double>::infinity();
   double inverse, relative;
   if (shared_->light.directional) {

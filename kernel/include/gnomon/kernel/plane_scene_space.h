@@ -57,6 +57,14 @@ class ExactGeometry {
         cross(difference(position(triple.b), a), difference(position(triple.c), a));
     return {n, dot(n, a)};
   }
+  /// n alone, kept in Normal. Requires: Int holds positions, Normal one bit more than
+  /// support_normal_bits().
+  template <class Normal>
+  Vector3<Normal> normal(PlaneId id) const {
+    const SupportTriple& triple = geometry_->planes[id];
+    const Vector3<Int> a = position(triple.a);
+    return cross<Normal>(difference(position(triple.b), a), difference(position(triple.c), a));
+  }
   /// n . (x - a) of a support plane at an input vertex: side_of_support_bits().
   Int value(PlaneId id, VertexId v) const {
     if constexpr (!std::is_same_v<Int, mpz_class>) {
