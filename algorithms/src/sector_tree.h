@@ -85,6 +85,9 @@ template <SectorSpaceModel Space>
 class SectorTree {
  public:
   using Vertex = typename Space::Vertex;
+  /// SectorContext::pieces is told of so many at a time; the rest of an output is its taker's to
+  /// tell.
+  static constexpr std::uint64_t kPieceBatch = 1024;
 
   /// Polygons of one cell, to be worked off by one thread.
   struct Task {
@@ -124,9 +127,9 @@ class SectorTree {
   void run(Task& task);
 
  private:
-  static constexpr std::uint32_t kLeafSize = 16;
-  /// Cells above this size that no k-d plane splits are split by edges of their polygons.
-  static constexpr std::uint32_t kLargeLeaf = 64;
+  /// Cells of so many times the size of a leaf that no k-d plane splits are split by edges of their
+  /// polygons.
+  static constexpr std::uint32_t kLargeLeaf = 4;
 
   struct Frame {
     SectorCell cell;
@@ -149,7 +152,13 @@ class SectorTree {
   enum class Relation : std::uint8_t { kNone, kBehind, kCrossing };
 
   void descend(std::uint32_t task_size, std::vector<Task>* tasks);
-  bool stopped() const { return context_->stopped.load(std::memory_order_relaxed); }
+  bool stopped() const {
+    const std::atomic<bool>* interrupted = context_->options.interrupted;
+    if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) {
+      context_->stopped.store(true, std::memory_order_relaxed);
+    }
+    return context_->stopped.load(std::memory_order_relaxed);
+  }
   LoopView<Vertex> view(const LoopRange& range) const {
     return loops_.view(range, context_->scene.parts[range.part].plane);
   }

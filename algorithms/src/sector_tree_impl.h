@@ -117,7 +117,8 @@ void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* task
         stack_.pop_back();
         continue;
       }
-      if (open == 0 || (open <= kLeafSize && tasks == nullptr) || !split(frame, open_end)) {
+      if (open == 0 || (open <= context_->options.leaf_size && tasks == nullptr) ||
+          !split(frame, open_end)) {
         leaf(frame.begin, open_end, frame.located ? &frame.cell.chart : nullptr);
         stack_.pop_back();
         continue;
@@ -321,16 +322,25 @@ bool SectorTree<Space>::split(Frame& frame, std::uint32_t open_end) {
     for (std::uint32_t i = frame.begin; i < open_end; ++i) locate(frame.cell.chart, items_[i]);
     frame.located = true;
   }
-  const std::span<const SectorItem> open(items_.data() + frame.begin, open_end - frame.begin);
-  if (const std::optional<SectorSplit> chosen = chooser_.choose(open)) {
+  const std::uint32_t size = open_end - frame.begin;
+  if (const std::optional<SectorSplit> chosen =
+          chooser_.choose({items_.data() + frame.begin, size})) {
     const PlaneRef plane =
         space_.add_prefix_plane(plane_of(*chosen, frame.cell.chart, context_->light.directional,
                                          context_->scene.geometry.grid.bits()));
     frame.front_cell = frame.back_cell = frame.cell;
     partition(frame, open_end, plane, &*chosen);
-    return true;
+    // Boxes are only bounds, and the plane's value was rounded: it may be that nothing is
+    // separated, and would not be the next time.
+    const std::uint32_t back = frame.middle - frame.children;
+    const std::uint32_t front = frame.children_end - frame.middle;
+    if (std::max(back, front) < size) return true;
+    items_.resize(frame.children);
+    states_.resize(frame.children);
+    loops_.truncate(frame.loops_mark);
+    space_.release_planes(frame.planes_mark);
   }
-  if (open.size() > kLargeLeaf) {
+  if (size > std::size_t{kLargeLeaf} * context_->options.leaf_size) {
     const PlaneRef plane = choose_edge_plane(frame.begin, open_end);
     if (plane.valid()) {
       frame.front_cell = frame.back_cell = frame.cell;
@@ -632,9 +642,8 @@ void SectorTree<Space>::join(Range children) {
 
 template <SectorSpaceModel Space>
 void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
-  constexpr std::uint64_t kBatch = 1024;
-  if (++output_.piece_count % kBatch == 0 &&
-      context_->pieces.fetch_add(kBatch, std::memory_order_relaxed) + kBatch >
+  if (++output_.piece_count % kPieceBatch == 0 &&
+      context_->pieces.fetch_add(kPieceBatch, std::memory_order_relaxed) + kPieceBatch >
           context_->options.max_fragments) {
     context_->stopped.store(true, std::memory_order_relaxed);
   }

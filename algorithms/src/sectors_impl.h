@@ -154,18 +154,21 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run_tasks(
   planner.add_sector_planes();
   planner.loops() = std::move(loops);
   const auto total = static_cast<std::uint32_t>(items.size());
-  auto tasks =
-      planner.plan(std::move(items), std::clamp(total / kTasks, kSmallestTask, kLargestTask));
+  const std::uint32_t task_size = options_.task_size != 0
+                                      ? options_.task_size
+                                      : std::clamp(total / kTasks, kSmallestTask, kLargestTask);
+  auto tasks = planner.plan(std::move(items), task_size);
 
   std::uint64_t work = 1, done = 0;
   for (const auto& task : tasks) work += task.items.size();
   std::mutex progress_mutex;
   outputs_.resize(tasks.size() + 1);
   tbb::enumerable_thread_specific<std::unique_ptr<Tree>> trees;
+  const auto count_rest = [&](const SectorOutput& output) {
+    pieces += output.piece_count % Tree::kPieceBatch;
+    if (pieces > options_.max_fragments) stopped.store(true, std::memory_order_relaxed);
+  };
   const auto run_task = [&](std::size_t i) {
-    if (options_.interrupted != nullptr && options_.interrupted->load(std::memory_order_relaxed)) {
-      stopped.store(true, std::memory_order_relaxed);
-    }
     if (stopped.load(std::memory_order_relaxed)) return;
     std::unique_ptr<Tree>& tree = trees.local();
     if (!tree) {
@@ -179,6 +182,7 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run_tasks(
     }
     tree->run(tasks[i]);
     outputs_[i] = std::exchange(tree->output(), {});
+    count_rest(outputs_[i]);
     if (!progress) return;
     const std::lock_guard lock(progress_mutex);
     done += tasks[i].items.size();
@@ -203,7 +207,8 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run_tasks(
     if (states_[i] != kMixed && states_[i] != kUndecided) planner.emit_root(i);
   }
   outputs_.back() = std::move(planner.output());
-  return Outcome::kDone;
+  count_rest(outputs_.back());
+  return pieces > options_.max_fragments ? Outcome::kTooManyFragments : Outcome::kDone;
 }
 
 template <SectorSpaceModel Space>

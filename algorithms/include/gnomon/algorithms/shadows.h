@@ -36,6 +36,9 @@ struct ShadowOptions {
   bool exact_fractions = false;    // sum exact rational fractions per part (exact kernels)
   bool merge = true;               // merge sibling fragments, collapse parts that agree
   bool prefix = true;              // balanced prefix of light space
+  // Sectors: cells of at most leaf_size polygons are not split, those of at most task_size are one
+  // thread's (0: by the size of the scene). The areas do not depend on them.
+  std::uint32_t leaf_size = 16, task_size = 0;
   bool combined = false;  // also the set of lights that reach each fragment; at most 64 lights
   std::uint64_t max_fragments =
       20'000'000;                        // pieces of the scene BSP, and fragments a light: kLimit
