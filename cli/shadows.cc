@@ -83,6 +83,7 @@ int run_shadows(const ShadowsOptions& options) {
   json_options.exact_fractions = options.exact_fractions;
   json_options.exact_loops = options.exact_loops;
   json_options.combined = options.combined;
+  json_options.interrupted = &interrupted();
   if (options.lit_only) json_options.only = LightState::kLit;
   if (options.shadow_only) json_options.only = LightState::kShadow;
   auto output = Output::open(options.output);

@@ -125,6 +125,7 @@ class ResultWriter {
     json_.key("polygons");
     json_.begin_array();
     for (std::uint32_t polygon = 0; polygon + 1 < prepared_.first_part.size(); ++polygon) {
+      if (options_.interrupted != nullptr && *options_.interrupted) break;
       for (const ClassifiedSide& side :
            polygon_sides(prepared_, light, polygon, options_.exact_fractions)) {
         write_side(light, side);

@@ -6,6 +6,7 @@
 #ifndef GNOMON_REPORT_RESULT_JSON_H
 #define GNOMON_REPORT_RESULT_JSON_H
 
+#include <atomic>
 #include <optional>
 #include <string>
 
@@ -23,6 +24,8 @@ struct ResultJsonOptions {
   bool exact_loops = false;        // needs LightResult::exact_points
   bool combined = false;           // all lights together; needs ShadowResult::combined
   std::optional<LightState> only;  // list fragments of this class alone
+  /// Once true, polygons are left off: what has been written is then no result.
+  const std::atomic<bool>* interrupted = nullptr;
 };
 
 void write_result_json(TextSink& sink, const Scene& scene, const PreparedScene& prepared,
