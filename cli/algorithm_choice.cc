@@ -14,6 +14,18 @@ CLI::Option* add_algorithm_option(CLI::App& command, std::string& name) {
       ->default_str(std::string(kAutomaticName));
 }
 
+std::string_view name_of(Algorithm algorithm) {
+  switch (algorithm) {
+    case Algorithm::kAutomatic:
+      return kAutomaticName;
+    case Algorithm::kSvbsp:
+      return kSvbspName;
+    case Algorithm::kSectors:
+      return kSectorsName;
+  }
+  return {};
+}
+
 Expected<Algorithm> parse_algorithm_choice(std::string_view name,
                                            std::initializer_list<SvbspOption> needs,
                                            std::string_view also) {

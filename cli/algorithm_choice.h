@@ -16,6 +16,8 @@ namespace gnomon::cli {
 inline constexpr std::string_view kAutomaticName = "auto";
 inline constexpr std::string_view kSvbspName = "svbsp";
 inline constexpr std::string_view kSectorsName = "sectors";
+/// For commands that take each of them.
+inline constexpr std::string_view kBothName = "both";
 
 /// --algorithm, into `name`.
 CLI::Option* add_algorithm_option(CLI::App& command, std::string& name);
@@ -26,8 +28,11 @@ struct SvbspOption {
   bool given = false;
 };
 
+/// The name that parse_algorithm_choice() knows it by.
+std::string_view name_of(Algorithm algorithm);
+
 /// `auto` is sectors, or svbsp if one of `needs` was given. Errors: kUsage, for an unknown name
-/// (`also` lists what the command takes besides), and for sectors if one of `needs` was given.
+/// (`also`: what the command takes besides), and for sectors if one of `needs` was given.
 Expected<Algorithm> parse_algorithm_choice(std::string_view name,
                                            std::initializer_list<SvbspOption> needs = {},
                                            std::string_view also = {});

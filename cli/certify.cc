@@ -31,8 +31,6 @@ namespace {
 
 /// Up to so many parts the slow exact kernels run without being asked for.
 constexpr std::size_t kSmallScene = 200;
-/// --algorithm: every kernel by each of them.
-constexpr std::string_view kBothName = "both";
 
 struct CertifyCommandOptions {
   SceneOptions scene;
@@ -122,7 +120,7 @@ class CertifyRun {
   Expected<void> run_kernel(const KernelChoice& kernel, Algorithm algorithm, bool full_name) {
     report::JudgedRun run;
     run.kernel = kernel.name();
-    run.algorithm = algorithm == Algorithm::kSvbsp ? kSvbspName : kSectorsName;
+    run.algorithm = name_of(algorithm);
     run.name = full_name ? run.kernel + '/' + run.algorithm : run.kernel;
     run.exact = kernel.exact();
     run.identity = kernel.identity;

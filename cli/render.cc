@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <deque>
 #include <memory>
 
 #include "algorithm_choice.h"
@@ -10,6 +11,7 @@
 #include "commands.h"
 #include "gnomon/algorithms/painters_order.h"
 #include "gnomon/oracle/read_candidate.h"
+#include "gnomon/report/number_text.h"
 #include "gnomon/report/picture.h"
 #include "jobs.h"
 #include "messages.h"
@@ -28,7 +30,7 @@ struct RenderOptions {
   std::string eye, look_at, up;
   double field_of_view = 0;
   unsigned width = 960, height = 720;
-  bool backs = false, no_legend = false;
+  bool fragments = false, backs = false, no_legend = false;
   std::string output;
 };
 
@@ -75,6 +77,17 @@ const oracle::CandidateLight* find_light(const oracle::Candidate& candidate,
   return nullptr;
 }
 
+/// What is in shadow as a whole for a reason is none.
+std::size_t fragment_count(const oracle::CandidateLight& light) {
+  std::size_t count = 0;
+  for (const oracle::CandidatePolygon& polygon : light.polygons) {
+    for (const oracle::CandidateFragment& fragment : polygon.fragments) {
+      if (fragment.reason.empty()) ++count;
+    }
+  }
+  return count;
+}
+
 tl::unexpected<Error> missing_light(const std::string& file, const std::string& id) {
   ErrorPlace where;
   where.file = file;
@@ -82,9 +95,22 @@ tl::unexpected<Error> missing_light(const std::string& file, const std::string& 
               "a result of this light; --light chooses another", where);
 }
 
-Expected<void> render(const RenderOptions& options) {
-  const auto algorithm = parse_algorithm_choice(options.algorithm);
+Expected<std::vector<Algorithm>> chosen_algorithms(const RenderOptions& options) {
+  if (options.algorithm == kBothName) {
+    if (!options.result.empty() || !options.candidate.empty()) {
+      return fail(ErrorCode::kUsage, "--algorithm both shows exact answers",
+                  "no RESULT and no --candidate");
+    }
+    return std::vector{Algorithm::kSectors, Algorithm::kSvbsp};
+  }
+  const auto algorithm = parse_algorithm_choice(options.algorithm, {}, kBothName);
   if (!algorithm) return tl::unexpected(algorithm.error());
+  return std::vector{*algorithm};
+}
+
+Expected<void> render(const RenderOptions& options) {
+  const auto algorithms = chosen_algorithms(options);
+  if (!algorithms) return tl::unexpected(algorithms.error());
   const ThreadLimit threads(options.scene.jobs);
   auto loaded = load_scene(options.scene, true);
   if (!loaded) return tl::unexpected(loaded.error());
@@ -99,37 +125,47 @@ Expected<void> render(const RenderOptions& options) {
   picture.width = options.width;
   picture.height = options.height;
   picture.backs = options.backs;
+  picture.fragments = options.fragments;
   picture.legend = !options.no_legend;
   picture.title = loaded->scene.name + ", light " + id;
 
   // What is shown: a result if one is named, else the exact answer; marked is what a candidate has
   // otherwise.
-  std::optional<oracle::Candidate> exact, result, candidate;
-  report::Panel panel;
+  std::deque<oracle::Candidate> kept;  // panels point into them
+  std::vector<report::Panel> panels;
+  const auto keep = [&](oracle::Candidate&& candidate) {
+    kept.push_back(std::move(candidate));
+    return find_light(kept.back(), id);
+  };
   if (!options.result.empty()) {
-    auto read = oracle::read_candidate(options.result, loaded->scene);
-    if (!read) return tl::unexpected(read.error());
-    result = std::move(*read);
-    panel.shown = find_light(*result, id);
-    if (panel.shown == nullptr) return missing_light(options.result, id);
+    auto result = oracle::read_candidate(options.result, loaded->scene);
+    if (!result) return tl::unexpected(result.error());
+    panels.push_back({{}, keep(std::move(*result)), nullptr, {}});
+    if (panels.back().shown == nullptr) return missing_light(options.result, id);
   } else {
-    auto computed = exact_fragments(*loaded, *algorithm);
-    if (!computed) return tl::unexpected(computed.error());
-    exact = std::move(*computed);
-    panel.shown = find_light(*exact, id);
+    for (const Algorithm algorithm : *algorithms) {
+      auto exact = exact_fragments(*loaded, algorithm);
+      if (!exact) return tl::unexpected(exact.error());
+      panels.push_back({{}, keep(std::move(*exact)), nullptr, {}});
+      if (algorithms->size() > 1) {
+        panels.back().caption = std::string(name_of(algorithm)) + ": " +
+                                report::grouped(fragment_count(*panels.back().shown)) +
+                                " fragments";
+      }
+    }
   }
   if (!options.candidate.empty()) {
-    auto read = oracle::read_candidate(options.candidate, loaded->scene);
-    if (!read) return tl::unexpected(read.error());
-    candidate = std::move(*read);
+    auto candidate = oracle::read_candidate(options.candidate, loaded->scene);
+    if (!candidate) return tl::unexpected(candidate.error());
+    report::Panel& panel = panels.front();
     panel.truth = panel.shown;
-    panel.shown = find_light(*candidate, id);
+    panel.shown = keep(std::move(*candidate));
     if (panel.shown == nullptr) return missing_light(options.candidate, id);
   }
   const std::vector<OrderedPiece> pieces = back_to_front(loaded->prepared, camera->eye);
   auto output = Output::open(options.output);
   if (!output) return tl::unexpected(output.error());
-  report::paint_scene(loaded->scene, loaded->prepared, light, pieces, {panel}, picture)
+  report::paint_scene(loaded->scene, loaded->prepared, light, pieces, panels, picture)
       .write(*output);
   return output->finish();
 }
@@ -143,12 +179,16 @@ void add_render_command(CLI::App& app, Action& action) {
       "Without RESULT the exact answer is shown. With --candidate the candidate is shown, and "
       "where it\n"
       "differs is marked.\n\n"
-      "Example:\n"
-      "  gnomon render room.json --eye 9,-7,6 --look-at 2,2,1 --light bulb -o room.svg");
+      "Examples:\n"
+      "  gnomon render room.json --eye 9,-7,6 --look-at 2,2,1 --light bulb -o room.svg\n"
+      "  gnomon render room.json --algorithm both --fragments -o room.svg");
   add_scene_options(command, options->scene);
   command.add_option("RESULT", options->result, "A result to show, with fragments")
       ->type_name("FILE");
-  add_algorithm_option(command, options->algorithm);
+  add_algorithm_option(command, options->algorithm)
+      ->description(
+          "How the exact answer is found: sectors, svbsp, auto (= sectors), or both side\n"
+          "by side");
   command.add_option("--eye", options->eye, "Where the eye is [above a corner of the scene]")
       ->type_name("x,y,z");
   command.add_option("--look-at", options->look_at, "What it looks at [the middle of the scene]")
@@ -169,6 +209,7 @@ void add_render_command(CLI::App& app, Action& action) {
       ->type_name("N");
   command.add_option("--candidate", options->candidate, "A result whose differences are marked")
       ->type_name("FILE");
+  command.add_flag("--fragments", options->fragments, "Draw the borders of fragments");
   command.add_flag("--backs", options->backs, "Paint the backs of one-sided polygons too");
   command.add_flag("--no-legend", options->no_legend, "Leave out the legend");
   command.add_option("-o,--output", options->output, "SVG file; standard output if absent")

@@ -30,7 +30,8 @@ constexpr Colour kBackground{243, 245, 248};
 constexpr Colour kInk{33, 37, 48};
 constexpr Colour kLamp{255, 196, 0};
 constexpr double kOutlineWidth = 0.9;
-constexpr double kSeamWidth = 0.6;  // hides the seams that antialiasing leaves between neighbours
+constexpr double kSeamWidth = 0.6;    // hides the seams that antialiasing leaves between neighbours
+constexpr double kFragmentInk = 0.6;  // of a fragment's border, the rest is the fragment's colour
 constexpr double kLegendHeight = 46;
 constexpr double kCaptionHeight = 34;
 constexpr double kGap = 12;
@@ -264,11 +265,13 @@ class Painter {
     return mix(kShadowDim, kShadowBright, 0.5 * facing + tilt);
   }
 
-  void fill(const std::vector<Vector>& loop, Colour colour, const View& view) {
+  /// Bordered as a fragment, or in its own colour.
+  void fill(const std::vector<Vector>& loop, Colour colour, const View& view,
+            bool bordered = false) {
     const std::vector<PixelPoint> pixels = view.pixels(loop);
     if (pixels.size() < 3) return;
-    const std::string text = colour_text(colour);
-    svg_.polygon(pixels, {text, text, kSeamWidth});
+    const Colour border = bordered ? mix(colour, kInk, kFragmentInk) : colour;
+    svg_.polygon(pixels, {colour_text(colour), colour_text(border), kSeamWidth});
   }
 
   void paint(const OrderedPiece& piece, const View& view, const ShadedPolygons& shown,
@@ -328,7 +331,7 @@ class Painter {
     if (covered < kAll * length(area_vector(piece.loop))) {
       fill(piece.loop, colour_of(std::nullopt), view);
     }
-    for (const auto& [shade, loop] : seen) fill(loop, colour_of(shade), view);
+    for (const auto& [shade, loop] : seen) fill(loop, colour_of(shade), view, options_.fragments);
   }
 
   /// Where the classes of two results differ. Only overlaps of fragments are looked at: what one of

@@ -119,7 +119,7 @@ TEST_F(AlgorithmOptions, BothAlgorithmsGiveTheSameExactFractions) {
 
 TEST_F(AlgorithmOptions, NoByteDependsOnTheNumberOfThreads) {
   // Large enough for some tasks.
-  ASSERT_EQ(run_gnomon({"generate", "city", "--param", "n=4000", "-o", city_}).status, 0);
+  ASSERT_EQ(run_gnomon({"generate", "city", "--param", "n=1500", "-o", city_}).status, 0);
   for (const std::string kernel : {"plane", "double"}) {
     const Arguments options{"--kernel", kernel, "--fragments"};
     const std::string all = result(options);
@@ -146,6 +146,18 @@ TEST_F(AlgorithmOptions, CertifyJudgesEachAlgorithm) {
   }
   EXPECT_THAT(
       runs, testing::ElementsAre("plane sectors", "double sectors", "plane svbsp", "double svbsp"));
+}
+
+TEST_F(AlgorithmOptions, RenderShowsTheFragmentsOfBoth) {
+  const RunResult both = run("render", {"--algorithm", "both", "--fragments"});
+  EXPECT_EQ(both.status, 0) << both.err;
+  EXPECT_THAT(both.out, AllOf(HasSubstr("sectors: "), HasSubstr("svbsp: ")));
+  const RunResult one = run("render", {"--algorithm", "svbsp"});
+  EXPECT_THAT(one.out, Not(HasSubstr("svbsp: ")));
+  const std::string answer = directory_.file("answer.json");
+  ASSERT_EQ(run("shadows", {"--fragments", "-o", answer}).status, 0);
+  expect_refused("render", {answer, "--algorithm", "both"}, {"RESULT"});
+  expect_refused("render", {"--candidate", answer, "--algorithm", "both"}, {"--candidate"});
 }
 
 TEST_F(AlgorithmOptions, ExplainingTakesTheAlgorithmThatIsExplained) {

@@ -44,6 +44,7 @@ struct PictureOptions {
   Camera camera;
   double width = 960, height = 720;  // pixels, of one panel
   bool backs = false;                // paint the backs of one-sided polygons too
+  bool fragments = false;            // draw the borders of fragments
   bool legend = true;
   std::string title;
 };
