@@ -70,86 +70,147 @@ TEST(ComputeShadows, StopsWhenInterrupted) {
   const auto scene = box_on_floor();
   const std::atomic<bool> stop = true;
   for (const KernelInfo& kernel : kernel_list()) {
-    ShadowOptions options;
-    options.kernel = kernel.id;
-    options.interrupted = &stop;
-    EXPECT_EQ(code_of(*scene, options), ErrorCode::kInterrupted) << kernel.name;
+    for (const Algorithm algorithm : kAlgorithms) {
+      ShadowOptions options;
+      options.kernel = kernel.id;
+      options.algorithm = algorithm;
+      options.interrupted = &stop;
+      EXPECT_EQ(code_of(*scene, options), ErrorCode::kInterrupted) << kernel.name;
+    }
   }
 }
 
 TEST(ComputeShadows, ReportsProgressThatGrows) {
   const auto scene = box_on_floor();
-  ShadowOptions options;
-  std::vector<double> seen;
-  options.progress = [&](double done) { seen.push_back(done); };
-  ASSERT_TRUE(compute_shadows(scene->prepared(), options));
-  ASSERT_FALSE(seen.empty());
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    EXPECT_GE(seen[i], i == 0 ? 0.0 : seen[i - 1]);
-    EXPECT_LE(seen[i], 1.0);
+  for (const Algorithm algorithm : kAlgorithms) {
+    ShadowOptions options;
+    options.algorithm = algorithm;
+    options.task_size = 1;
+    std::vector<double> seen;
+    options.progress = [&](double done) { seen.push_back(done); };
+    ASSERT_TRUE(compute_shadows(scene->prepared(), options));
+    ASSERT_FALSE(seen.empty());
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      EXPECT_GE(seen[i], i == 0 ? 0.0 : seen[i - 1]);
+      EXPECT_LE(seen[i], 1.0);
+    }
   }
+}
+
+TEST(ComputeShadows, AlgorithmIsSectorsUnlessOnlySvbspCan) {
+  const auto scene = box_on_floor();
+  const auto algorithm_of = [&](Algorithm algorithm, bool combined) {
+    ShadowOptions options;
+    options.algorithm = algorithm;
+    options.combined = combined;
+    const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
+    EXPECT_TRUE(result);
+    return result ? result->algorithm : "";
+  };
+  EXPECT_EQ(algorithm_of(Algorithm::kAutomatic, false), "sectors");
+  EXPECT_EQ(algorithm_of(Algorithm::kAutomatic, true), "svbsp");
+  EXPECT_EQ(algorithm_of(Algorithm::kSectors, false), "sectors");
+  EXPECT_EQ(algorithm_of(Algorithm::kSvbsp, false), "svbsp");
 }
 
 TEST(ComputeShadows, EveryKernelSaysWhatItIs) {
   const auto scene = box_on_floor();
   for (const KernelInfo& kernel : kernel_list()) {
-    ShadowOptions options;
-    options.kernel = kernel.id;
-    const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
-    ASSERT_TRUE(result) << kernel.name;
-    EXPECT_EQ(result->kernel, kernel.name);
-    EXPECT_EQ(result->algorithm, "svbsp");
-    EXPECT_EQ(result->exact, kernel.exact);
-    EXPECT_EQ(result->thickness, kernel.exact ? 0 : options.thickness);
-    ASSERT_EQ(result->lights.size(), 2u);
-    for (const LightResult& light : result->lights) {
-      ASSERT_EQ(light.parts.size(), scene->prepared().parts.size());
-      std::uint64_t fragments = 0;
-      for (const PartResult& part : light.parts) {
-        fragments += part.fragment_count;
-        EXPECT_NEAR(part.lit.middle() + part.shadow.middle(), 1, 1e-5) << kernel.name;
+    for (const Algorithm algorithm : kAlgorithms) {
+      ShadowOptions options;
+      options.kernel = kernel.id;
+      options.algorithm = algorithm;
+      options.keep_points = true;
+      const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
+      ASSERT_TRUE(result) << kernel.name;
+      EXPECT_EQ(result->kernel, kernel.name);
+      EXPECT_EQ(result->algorithm, name_of(algorithm));
+      EXPECT_EQ(result->exact, kernel.exact);
+      EXPECT_EQ(result->thickness, kernel.exact ? 0 : options.thickness);
+      ASSERT_EQ(result->lights.size(), 2u);
+      for (const LightResult& light : result->lights) {
+        ASSERT_EQ(light.parts.size(), scene->prepared().parts.size());
+        EXPECT_GT(light.tree_nodes, 0u);
+        std::uint64_t fragments = 0, points = 0;
+        for (const PartResult& part : light.parts) {
+          EXPECT_EQ(part.first_fragment, fragments);
+          fragments += part.fragment_count;
+          EXPECT_NEAR(part.lit.middle() + part.shadow.middle(), 1, 1e-5) << kernel.name;
+        }
+        for (const Fragment& fragment : light.fragments) points += fragment.count;
+        EXPECT_EQ(fragments, light.fragment_total);
+        EXPECT_EQ(fragments, light.fragments.size());
+        EXPECT_EQ(points, light.points.size());
       }
-      EXPECT_EQ(fragments, light.fragment_total);
+      // The lamp sees the floor and the top; the sun also a side.
+      EXPECT_EQ(result->lights[0].facing_parts, 2u) << kernel.name;
+      EXPECT_EQ(result->lights[1].facing_parts, 3u) << kernel.name;
+      EXPECT_EQ(result->lights[1].facing_edges, 12u) << kernel.name;
     }
-    // The lamp sees the floor and the top; the sun also a side.
-    EXPECT_EQ(result->lights[0].facing_parts, 2u) << kernel.name;
-    EXPECT_EQ(result->lights[1].facing_parts, 3u) << kernel.name;
-    EXPECT_EQ(result->lights[1].facing_edges, 12u) << kernel.name;
   }
 }
 
-StageCounts stages_of(const std::string& family, bool count) {
+TEST(ComputeShadows, FragmentsAreCountedWithoutPoints) {
+  const auto scene = box_on_floor();
+  for (const Algorithm algorithm : kAlgorithms) {
+    ShadowOptions options;
+    options.algorithm = algorithm;
+    const Expected<ShadowResult> without = compute_shadows(scene->prepared(), options);
+    options.keep_points = true;
+    const Expected<ShadowResult> with = compute_shadows(scene->prepared(), options);
+    ASSERT_TRUE(without && with);
+    for (std::size_t i = 0; i < with->lights.size(); ++i) {
+      EXPECT_EQ(without->lights[i].fragment_total, with->lights[i].fragment_total);
+      EXPECT_TRUE(without->lights[i].points.empty());
+      EXPECT_FALSE(with->lights[i].points.empty());
+    }
+  }
+}
+
+StageCounts stages_of(const std::string& family, bool count, Algorithm algorithm) {
   StageCounts sum;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const auto scene = Case::make(family_by_name(family).make(seed));
     if (!scene) continue;
     ShadowOptions options;
     options.count_stages = count;
+    options.algorithm = algorithm;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
     if (result) sum += result->stages;
   }
   return sum;
 }
 
-TEST(StageCounts, AreOffUnlessAskedFor) { EXPECT_EQ(stages_of("Lattice", false).total(), 0u); }
+class StageCount : public testing::TestWithParam<Algorithm> {
+ protected:
+  static StageCounts counts(const std::string& family, bool count = true) {
+    return stages_of(family, count, GetParam());
+  }
+};
 
-TEST(StageCounts, GenericScenesAreForTheFilter) {
-  const StageCounts counts = stages_of("Generic", true);
-  EXPECT_GT(counts.identity, 0u);
-  EXPECT_GT(counts.filter, 100 * counts.exact());
+TEST_P(StageCount, AreOffUnlessAskedFor) { EXPECT_EQ(counts("Lattice", false).total(), 0u); }
+
+TEST_P(StageCount, GenericScenesAreForTheFilter) {
+  const StageCounts stages = counts("Generic");
+  EXPECT_GT(stages.filter, 100 * stages.exact());
 }
 
-TEST(StageCounts, LatticesNeedNarrowIntegersOnly) {
-  const StageCounts counts = stages_of("Lattice", true);
-  EXPECT_GT(counts.exact128, 0u);
-  EXPECT_GT(counts.exactly_zero, 0u);
-  EXPECT_EQ(counts.unbounded, 0u);
-  EXPECT_LE(counts.exactly_zero, counts.exact());
+TEST_P(StageCount, CrossingsAreKnownByIdentity) { EXPECT_GT(counts("Crossing").identity, 0u); }
+
+TEST_P(StageCount, LatticesNeedNarrowIntegersOnly) {
+  const StageCounts stages = counts("Lattice");
+  EXPECT_GT(stages.exact64 + stages.exact128, 0u);
+  EXPECT_GT(stages.exactly_zero, 0u);
+  EXPECT_EQ(stages.exact256 + stages.exact512 + stages.exact1024 + stages.unbounded, 0u);
+  EXPECT_LE(stages.exactly_zero, stages.exact());
 }
 
-TEST(StageCounts, MixedMagnitudesNeedUnboundedIntegers) {
-  EXPECT_GT(stages_of("MixedMagnitudes", true).unbounded, 0u);
+TEST_P(StageCount, MixedMagnitudesNeedUnboundedIntegers) {
+  EXPECT_GT(counts("MixedMagnitudes").unbounded, 0u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Algorithms, StageCount, testing::ValuesIn(kAlgorithms),
+                         [](const auto& info) { return name_of(info.param); });
 
 // The grid's bits are those of the vertices: the width of the exact stage must follow the lamp.
 TEST(FarLamp, ExactStageIsAsWideAsTheLampNeeds) {
@@ -166,14 +227,28 @@ TEST(FarLamp, ExactStageIsAsWideAsTheLampNeeds) {
       ASSERT_TRUE(prepared) << to_string(prepared.error());
       ShadowOptions options;
       options.exact_fractions = true;
-      const auto plane = compute_shadows(*prepared, options);
+      options.algorithm = Algorithm::kSvbsp;
       options.kernel = KernelId::kRational;
       const auto rational = compute_shadows(*prepared, options);
-      ASSERT_TRUE(plane && rational);
-      const auto& ours = plane->lights[0].parts;
+      ASSERT_TRUE(rational);
       const auto& theirs = rational->lights[0].parts;
-      for (std::size_t i = 0; i < ours.size(); ++i) {
-        EXPECT_EQ(ours[i].exact_lit, theirs[i].exact_lit) << "2^" << exponent << " part " << i;
+      options.kernel = KernelId::kPlane;
+      for (const Algorithm algorithm : kAlgorithms) {
+        options.algorithm = algorithm;
+        options.leaf_size = seed % 2 == 0 ? 2 : 16;
+        const auto plane = compute_shadows(*prepared, options);
+        ASSERT_TRUE(plane);
+        const auto& ours = plane->lights[0].parts;
+        options.exact_fractions = false;
+        const auto enclosed = compute_shadows(*prepared, options);
+        ASSERT_TRUE(enclosed);
+        options.exact_fractions = true;
+        for (std::size_t i = 0; i < ours.size(); ++i) {
+          EXPECT_EQ(ours[i].exact_lit, theirs[i].exact_lit) << "2^" << exponent << " part " << i;
+          const Interval& bounds = enclosed->lights[0].parts[i].lit;
+          EXPECT_LE(mpq_class(bounds.lower), ours[i].exact_lit) << "2^" << exponent;
+          EXPECT_GE(mpq_class(bounds.upper), ours[i].exact_lit) << "2^" << exponent;
+        }
       }
     }
   }

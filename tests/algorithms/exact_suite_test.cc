@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The exact suite: on thousands of small scenes, most of them degenerate, the kernels plane,
-// rational and epeck give the same fractions, which add up to exactly 1, are the oracle's, and come
-// from fragments that the oracle calls identical and whose witnesses hold.
+// rational and epeck give the same fractions by both algorithms, which add up to exactly 1, are the
+// oracle's, and come from fragments that the oracle calls identical and whose witnesses hold.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What must not change the exact answer: how it is computed (prefix, merging, the seed of the BSP),
-// how the scene is written down (order, rotation of loops, duplicates), and maps of space that
-// carry light and shadow with them. And what may change it in one direction only: a further caster
-// lights nothing.
+// What must not change the exact answer, by either algorithm: how it is computed (prefix, merging,
+// the seed of the BSP; the sizes of cells), how the scene is written down (order, rotation of
+// loops, duplicates), and maps of space that carry light and shadow with them. And what may change
+// it in one direction only: a further caster lights nothing.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "exact_check.h"
@@ -37,11 +38,6 @@ Answer answer_of(const Case& scene, const ShadowOptions& options) {
   return answer;
 }
 
-Answer answer_of(const Scene& scene) {
-  const auto prepared = Case::make(scene);
-  return prepared ? answer_of(*prepared, options_for(KernelId::kPlane)) : Answer{};
-}
-
 std::string difference(const Answer& a, const Answer& b) {
   if (a.size() != b.size()) return "not the same polygons";
   for (const auto& [place, fractions] : a) {
@@ -59,8 +55,22 @@ const std::vector<std::string> kPlanarFamilies = {"Generic",       "Lattice",   
                                                   "CoplanarTiles", "TouchingBoxes", "NestedBoxes",
                                                   "Grazing",       "Needles"};
 
-class Metamorphic : public testing::TestWithParam<std::string> {
+class Metamorphic : public testing::TestWithParam<std::tuple<std::string, Algorithm>> {
  protected:
+  static Scene scene_of(std::uint64_t seed) {
+    return family_by_name(std::get<0>(GetParam())).make(seed);
+  }
+  /// Sectors with small cells: so few polygons would all be in one.
+  static ShadowOptions options() {
+    ShadowOptions options = options_for(KernelId::kPlane);
+    options.algorithm = std::get<1>(GetParam());
+    return options.algorithm == Algorithm::kSectors ? with_small_cells(options) : options;
+  }
+  static Answer answer(const Scene& scene) {
+    const auto prepared = Case::make(scene);
+    return prepared ? answer_of(*prepared, options()) : Answer{};
+  }
+
   static constexpr std::uint64_t kScenes = 24;
   static constexpr std::uint64_t kFirstSeed = 700000;
 
@@ -68,11 +78,11 @@ class Metamorphic : public testing::TestWithParam<std::string> {
   void same_after(const std::function<void(Scene&, Random&)>& change) {
     for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kScenes; ++seed) {
       Random random(seed);
-      const Scene scene = family_by_name(GetParam()).make(seed);
+      const Scene scene = scene_of(seed);
       Scene changed = scene;
       change(changed, random);
-      const Answer before = answer_of(scene), after = answer_of(changed);
-      ASSERT_EQ(difference(before, after), "") << GetParam() << " seed " << seed << "\n"
+      const Answer before = answer(scene), after = answer(changed);
+      ASSERT_EQ(difference(before, after), "") << "seed " << seed << "\n"
                                                << text_of(scene) << text_of(changed);
     }
   }
@@ -85,16 +95,18 @@ void for_each_position(Scene& scene, const std::function<void(Position&)>& chang
 
 TEST_P(Metamorphic, OptionsOfTheAlgorithm) {
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kScenes; ++seed) {
-    const auto scene = Case::make(family_by_name(GetParam()).make(seed));
+    const auto scene = Case::make(scene_of(seed));
     if (!scene) continue;
-    const Answer first = answer_of(*scene, options_for(KernelId::kPlane));
+    const Answer first = answer_of(*scene, options());
     for (unsigned variant = 1; variant < 8; ++variant) {
-      ShadowOptions options = options_for(KernelId::kPlane);
-      options.merge = (variant & 1) == 0;
-      options.prefix = (variant & 2) == 0;
-      options.seed = variant & 4 ? 99 * variant : 1;
-      options.count_stages = (variant & 1) != 0;
-      ASSERT_EQ(difference(first, answer_of(*scene, options)), "")
+      ShadowOptions varied = options();
+      varied.merge = (variant & 1) == 0;
+      varied.prefix = (variant & 2) == 0;
+      varied.seed = variant & 4 ? 99 * variant : 1;
+      varied.count_stages = (variant & 1) != 0;
+      varied.leaf_size = variant & 1 ? 16 : variant & 2 ? 0 : 3;
+      varied.task_size = variant & 2 ? 1 : 5 * (variant & 4);
+      ASSERT_EQ(difference(first, answer_of(*scene, varied)), "")
           << "variant " << variant << ", seed " << seed << "\n"
           << text_of(scene->scene());
     }
@@ -146,13 +158,13 @@ TEST_P(Metamorphic, PointReflection) {
 TEST_P(Metamorphic, Duplicates) {
   // A second polygon in the place of the first shadows what the first does, and not the first.
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kScenes; ++seed) {
-    const Scene scene = family_by_name(GetParam()).make(seed);
+    const Scene scene = scene_of(seed);
     Scene doubled = scene;
     Polygon copy = doubled.polygons[seed % doubled.polygons.size()];
     const std::string original = copy.id;
     copy.id += " again";
     doubled.polygons.push_back(copy);
-    Answer before = answer_of(scene), after = answer_of(doubled);
+    Answer before = answer(scene), after = answer(doubled);
     for (const Light& light : scene.lights) {
       const auto again = after.find(light.id + "/" + copy.id);
       if (again == after.end()) continue;
@@ -165,12 +177,12 @@ TEST_P(Metamorphic, Duplicates) {
 
 TEST_P(Metamorphic, OneMoreCasterLightsNothing) {
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kScenes; ++seed) {
-    const Scene scene = family_by_name(GetParam()).make(seed);
+    const Scene scene = scene_of(seed);
     if (scene.polygons.size() < 2) continue;
     Scene fewer = scene;
     fewer.polygons.erase(fewer.polygons.begin() +
                          static_cast<std::ptrdiff_t>(seed % fewer.polygons.size()));
-    const Answer without = answer_of(fewer), with = answer_of(scene);
+    const Answer without = answer(fewer), with = answer(scene);
     for (const auto& [place, fractions] : without) {
       const auto other = with.find(place);
       ASSERT_NE(other, with.end());
@@ -184,23 +196,27 @@ TEST_P(Metamorphic, OneMoreCasterLightsNothing) {
 
 TEST_P(Metamorphic, EachLightForItself) {
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kScenes; ++seed) {
-    const auto scene = Case::make(family_by_name(GetParam()).make(seed));
+    const auto scene = Case::make(scene_of(seed));
     if (!scene) continue;
-    const std::vector<mpq_class> all = lit_fractions(*scene, options_for(KernelId::kPlane));
+    const std::vector<mpq_class> all = lit_fractions(*scene, options());
     std::vector<mpq_class> one_by_one;
     for (std::uint32_t light = 0; light < scene->prepared().lights.size(); ++light) {
-      ShadowOptions options = options_for(KernelId::kPlane);
-      options.lights = {light};
-      for (mpq_class& lit : lit_fractions(*scene, options)) one_by_one.push_back(std::move(lit));
+      ShadowOptions alone = options();
+      alone.lights = {light};
+      for (mpq_class& lit : lit_fractions(*scene, alone)) one_by_one.push_back(std::move(lit));
     }
     ASSERT_EQ(all, one_by_one) << "seed " << seed << "\n" << text_of(scene->scene());
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, Metamorphic, testing::ValuesIn(kPlanarFamilies),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Families, Metamorphic,
+                         testing::Combine(testing::ValuesIn(kPlanarFamilies),
+                                          testing::ValuesIn(kAlgorithms)),
+                         [](const auto& info) {
+                           return std::get<0>(info.param) + "_" + name_of(std::get<1>(info.param));
+                         });
 
-/// Scenes large enough for the balanced prefix, which small ones do without.
+/// Scenes large enough for the balanced prefix and for cells, which small ones do without.
 struct LargeScene {
   std::string generator;
   std::map<std::string, std::int64_t> parameters;
@@ -208,7 +224,7 @@ struct LargeScene {
 
 class LargeScenes : public testing::TestWithParam<LargeScene> {};
 
-TEST_P(LargeScenes, PrefixAndScaleChangeNothing) {
+TEST_P(LargeScenes, AlgorithmPrefixAndScaleChangeNothing) {
   const Expected<Scene> made = generate(GetParam().generator, GetParam().parameters, 1);
   ASSERT_TRUE(made) << to_string(made.error());
   const auto scene = Case::make(*made);
@@ -221,9 +237,12 @@ TEST_P(LargeScenes, PrefixAndScaleChangeNothing) {
   for (const int exponent : {0, -900, 900}) {
     const auto changed = Case::make(scaled(*made, exponent));
     ASSERT_TRUE(changed);
-    for (const bool prefix : {true, false}) {
-      options.prefix = options.merge = prefix;
-      options.seed = prefix ? 1 : 2;
+    for (const int variant : {0, 1, 2, 3}) {
+      options.algorithm = variant < 2 ? Algorithm::kSvbsp : Algorithm::kSectors;
+      options.prefix = options.merge = variant != 0;
+      options.seed = variant;
+      options.leaf_size = variant == 2 ? 2 : 16;
+      options.task_size = variant == 2 ? 10 : 0;
       const Expected<ShadowResult> second = compute_shadows(changed->prepared(), options);
       ASSERT_TRUE(second);
       for (std::size_t l = 0; l < first->lights.size(); ++l) {
@@ -237,12 +256,15 @@ TEST_P(LargeScenes, PrefixAndScaleChangeNothing) {
       }
     }
   }
-  const oracle::Report report = judge(*scene, *compute_shadows(scene->prepared(), [] {
+  for (const Algorithm algorithm : kAlgorithms) {
     ShadowOptions exact;
+    exact.algorithm = algorithm;
     exact.keep_exact_points = true;
-    return exact;
-  }()));
-  EXPECT_EQ(report.verdict, oracle::Verdict::kIdentical) << report.reason;
+    const Expected<ShadowResult> result = compute_shadows(scene->prepared(), exact);
+    ASSERT_TRUE(result);
+    const oracle::Report report = judge(*scene, *result);
+    EXPECT_EQ(report.verdict, oracle::Verdict::kIdentical) << report.reason;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Generators, LargeScenes,

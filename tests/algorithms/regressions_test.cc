@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The scenes of tests/regressions: each shows one thing, says which in "extra", and gives exact
-// fractions that were worked out by hand. y_*: every kernel under every policy gets it right. i_*:
-// rounded kernels may differ, and those that are listed under "wrong" must: when one turns right,
-// the list is out of date.
+// fractions that were worked out by hand. y_*: every kernel under every policy gets it right by
+// both algorithms. i_*: rounded kernels may differ, and those that are listed under "wrong" for an
+// algorithm must: when one turns right, the list is out of date. What only one algorithm gets wrong
+// the other must get right: sectors computes planes from input polygons alone.
 #include <gtest/gtest.h>
 #include <rapidjson/document.h>
 
@@ -40,11 +41,20 @@ class Regression : public testing::TestWithParam<std::string> {
     ASSERT_TRUE(extra_.HasMember("shows") && extra_["shows"].IsString());
   }
 
-  oracle::Report judged(const std::string& policy) {
+  oracle::Report judged(const std::string& policy, Algorithm algorithm) {
     const Expected<ShadowResult> result =
-        compute_shadows(case_->prepared(), options_by_name(policy));
+        compute_shadows(case_->prepared(), options_by_name(policy, algorithm));
     EXPECT_TRUE(result) << to_string(result.error());
     return judge(*case_, *result, false);
+  }
+
+  /// "wrong" of the scene.
+  std::vector<std::string> wrong(Algorithm algorithm) {
+    std::vector<std::string> policies;
+    for (const auto& policy : extra_["wrong"][name_of(algorithm).c_str()].GetArray()) {
+      policies.push_back(policy.GetString());
+    }
+    return policies;
   }
 
   std::unique_ptr<Case> case_;
@@ -55,39 +65,58 @@ TEST_P(Regression, ExactKernelsAndOracleAgree) { EXPECT_EQ(check_exact(*case_), 
 
 TEST_P(Regression, FractionsAreThoseWorkedOutByHand) {
   ASSERT_TRUE(extra_.HasMember("lit"));
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {  // several orders of splitting
+  const auto check = [&](const ShadowOptions& options) {
     for (const auto& light : extra_["lit"].GetObject()) {
       for (const auto& polygon : light.value.GetObject()) {
         mpq_class expected(polygon.value.GetString());
         expected.canonicalize();
-        ShadowOptions options = options_for(KernelId::kPlane);
-        options.seed = seed;
         EXPECT_EQ(
             lit_fraction_of(*case_, options, light.name.GetString(), polygon.name.GetString()),
             expected)
             << light.name.GetString() << ", " << polygon.name.GetString();
       }
     }
-  }
+  };
+  ShadowOptions options = options_for(KernelId::kPlane);
+  options.algorithm = Algorithm::kSvbsp;
+  for (options.seed = 1; options.seed <= 8; ++options.seed) check(options);  // orders of splitting
+  options.algorithm = Algorithm::kSectors;
+  for (options.leaf_size = 0; options.leaf_size <= 4; ++options.leaf_size) check(options);
 }
 
 TEST_P(Regression, RoundedKernels) {
-  if (GetParam().starts_with("y_")) {
-    for (const std::string& policy : kRoundedPolicies) {
-      const oracle::Report report = judged(policy);
-      EXPECT_NE(report.verdict, oracle::Verdict::kFailed) << policy << ": " << report.reason;
+  for (const Algorithm algorithm : kAlgorithms) {
+    SCOPED_TRACE(name_of(algorithm));
+    if (GetParam().starts_with("y_")) {
+      for (const std::string& policy : kRoundedPolicies) {
+        const oracle::Report report = judged(policy, algorithm);
+        EXPECT_NE(report.verdict, oracle::Verdict::kFailed) << policy << ": " << report.reason;
+      }
+      continue;
     }
-    return;
+    ASSERT_TRUE(extra_.HasMember("wrong"));
+    EXPECT_EQ(judged("plane", algorithm).verdict, oracle::Verdict::kIdentical);
+    for (const std::string& policy : wrong(algorithm)) {
+      const oracle::Report report = judged(policy, algorithm);
+      EXPECT_EQ(report.verdict, oracle::Verdict::kFailed) << policy << " turned right";
+      ASSERT_TRUE(report.worst) << policy;
+      EXPECT_NE(report.worst->kind, oracle::ErrorKind::kNone);
+      EXPECT_NE(report.worst->text, "");
+      EXPECT_NE(report.reason, "");
+    }
   }
-  ASSERT_TRUE(extra_.HasMember("wrong"));
-  EXPECT_EQ(judged("plane").verdict, oracle::Verdict::kIdentical);
-  for (const auto& policy : extra_["wrong"].GetArray()) {
-    const oracle::Report report = judged(policy.GetString());
-    EXPECT_EQ(report.verdict, oracle::Verdict::kFailed) << policy.GetString() << " turned right";
-    ASSERT_TRUE(report.worst) << policy.GetString();
-    EXPECT_NE(report.worst->kind, oracle::ErrorKind::kNone);
-    EXPECT_NE(report.worst->text, "");
-    EXPECT_NE(report.reason, "");
+}
+
+TEST_P(Regression, WhatOneAlgorithmGetsWrongAndTheOtherDoesNot) {
+  if (!extra_.HasMember("wrong")) GTEST_SKIP() << "every kernel is right";
+  for (const Algorithm algorithm : kAlgorithms) {
+    const std::vector<std::string> own = wrong(algorithm);
+    for (const std::string& policy : wrong(kAlgorithms[algorithm == kAlgorithms[0] ? 1 : 0])) {
+      if (std::find(own.begin(), own.end(), policy) != own.end()) continue;
+      const oracle::Report report = judged(policy, algorithm);
+      EXPECT_NE(report.verdict, oracle::Verdict::kFailed)
+          << policy << " by " << name_of(algorithm) << ": " << report.reason;
+    }
   }
 }
 
@@ -103,6 +132,7 @@ TEST(Regressions, SlantedThroughIsSplitAtAll) {
   unsigned split = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     ShadowOptions options = options_for(KernelId::kPlane);
+    options.algorithm = Algorithm::kSvbsp;
     options.seed = seed;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
     ASSERT_TRUE(result);

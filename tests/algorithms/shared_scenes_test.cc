@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Real scenes: buildings, city models, radiosity rooms, from the optional directory of further test
-// scenes. All exact kernels equal the oracle exactly; where there are no such scenes, skipped.
+// scenes. All exact kernels equal the oracle exactly by both algorithms; where there are no such
+// scenes, skipped.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,7 +84,11 @@ TEST(SharedScenes, EastWallOfCase630) {
     EXPECT_EQ(scene->answer().fractions(0, entry).lit.exact, mpq_class(97, 147));
   }
   for (const KernelId kernel : kExactKernels) {
-    EXPECT_EQ(lit_fraction_of(*scene, options_for(kernel), first_sun, wall), mpq_class(97, 147));
+    for (const Algorithm algorithm : kAlgorithms) {
+      ShadowOptions options = options_for(kernel);
+      options.algorithm = algorithm;
+      EXPECT_EQ(lit_fraction_of(*scene, options, first_sun, wall), mpq_class(97, 147));
+    }
   }
 }
 

@@ -15,6 +15,10 @@ std::string polygon_of(const Case& scene, std::uint32_t part) {
   return scene.scene().polygons[scene.prepared().parts[part].polygon].id;
 }
 
+std::string name_of(const ShadowResult& result) {
+  return result.kernel + " by " + result.algorithm;
+}
+
 std::string light_of(const Case& scene, std::uint32_t light) {
   return scene.scene().lights[scene.prepared().lights[light].light].id;
 }
@@ -31,7 +35,7 @@ std::string compare_with_oracle(const Case& scene, const ShadowResult& result) {
         for (const std::uint32_t part : group.parts) {
           const PartResult& own = light.parts[part];
           const std::string place =
-              fmt::format("{}, light '{}', polygon '{}'", result.kernel,
+              fmt::format("{}, light '{}', polygon '{}'", name_of(result),
                           light_of(scene, light.light), polygon_of(scene, part));
           const bool faces = own.reason == ShadowReason::kNone;
           const bool in_plane = own.reason == ShadowReason::kLightInPlane;
@@ -68,7 +72,7 @@ std::string compare_with_oracle(const Case& scene, const ShadowResult& result) {
         if (!truth.lit.exact || !truth.shadow.exact) return "the oracle gave no exact fraction";
         if (*truth.lit.exact != lit || *truth.shadow.exact != shadow) {
           return fmt::format("{}, light '{}', polygon '{}': lit {}, but the oracle says {}",
-                             result.kernel, light_of(scene, light.light),
+                             name_of(result), light_of(scene, light.light),
                              polygon_of(scene, group.parts[0]), lit.get_str(),
                              truth.lit.exact->get_str());
         }
@@ -80,7 +84,7 @@ std::string compare_with_oracle(const Case& scene, const ShadowResult& result) {
 
 std::string check_sums(const Case& scene, const ShadowResult& result) {
   for (const LightResult& light : result.lights) {
-    if (light.dropped_slivers != 0) return result.kernel + ": dropped slivers";
+    if (light.dropped_slivers != 0) return name_of(result) + ": dropped slivers";
     for (const PartResult& part : light.parts) {
       const auto outside = [](const Interval& interval, const mpq_class& exact) {
         return mpq_class(interval.lower) > exact || mpq_class(interval.upper) < exact;
@@ -89,7 +93,7 @@ std::string check_sums(const Case& scene, const ShadowResult& result) {
           outside(part.lit, part.exact_lit) || outside(part.shadow, part.exact_shadow)) {
         return fmt::format(
             "{}, light '{}', polygon '{}': lit {} in [{}, {}], shadow {} in [{}, {}]",
-            result.kernel, light_of(scene, light.light), polygon_of(scene, part.part),
+            name_of(result), light_of(scene, light.light), polygon_of(scene, part.part),
             part.exact_lit.get_str(), part.lit.lower, part.lit.upper, part.exact_shadow.get_str(),
             part.shadow.lower, part.shadow.upper);
       }
@@ -112,16 +116,17 @@ std::string check_bounds(const Case& scene, const ShadowResult& exact, ShadowOpt
                interval.upper - interval.lower < 1e-6;
       };
       if (!holds(bounds.lit, truth.exact_lit) || !holds(bounds.shadow, truth.exact_shadow)) {
-        return fmt::format("{}, light '{}', polygon '{}': lit {} is not in [{}, {}]", exact.kernel,
-                           light_of(scene, exact.lights[l].light), polygon_of(scene, truth.part),
-                           truth.exact_lit.get_str(), bounds.lit.lower, bounds.lit.upper);
+        return fmt::format("{}, light '{}', polygon '{}': lit {} is not in [{}, {}]",
+                           name_of(exact), light_of(scene, exact.lights[l].light),
+                           polygon_of(scene, truth.part), truth.exact_lit.get_str(),
+                           bounds.lit.lower, bounds.lit.upper);
       }
     }
   }
   return {};
 }
 
-std::string compare_kernels(const Case& scene, const ShadowResult& a, const ShadowResult& b) {
+std::string compare_results(const Case& scene, const ShadowResult& a, const ShadowResult& b) {
   if (a.lights.size() != b.lights.size()) return "not the same lights";
   for (std::size_t l = 0; l < a.lights.size(); ++l) {
     for (std::size_t p = 0; p < a.lights[l].parts.size(); ++p) {
@@ -130,59 +135,83 @@ std::string compare_kernels(const Case& scene, const ShadowResult& a, const Shad
           one.reason != two.reason || one.side != two.side) {
         return fmt::format("light '{}', polygon '{}': {} says lit {}, {} says {}",
                            light_of(scene, a.lights[l].light), polygon_of(scene, one.part),
-                           a.kernel, one.exact_lit.get_str(), b.kernel, two.exact_lit.get_str());
+                           name_of(a), one.exact_lit.get_str(), name_of(b),
+                           two.exact_lit.get_str());
       }
     }
   }
   return {};
 }
 
-}  // namespace
+/// The fragments laid over the oracle's exact regions.
+std::string compare_fragments(const Case& scene, const ShadowResult& result) {
+  const oracle::Report report = judge(scene, result);
+  if (report.oracle_fault) return "the oracle contradicts itself: " + report.reason;
+  if (report.verdict == oracle::Verdict::kIdentical) return {};
+  std::string wrong =
+      fmt::format("{}: {}: {}", name_of(result), oracle::name_of(report.verdict), report.reason);
+  for (const std::string& problem : report.problems) wrong += "; " + problem;
+  if (report.worst) wrong += "; " + report.worst->text;
+  return wrong;
+}
 
-std::string check_exact(const Case& scene, const ExactCheck& check) {
-  ShadowResult first;
-  for (std::size_t i = 0; i < check.kernels.size(); ++i) {
-    ShadowOptions options = options_for(check.kernels[i]);
+/// The oracle's own check of claims by rays.
+std::string check_claims(const Case& scene, const ShadowResult& result) {
+  oracle::WitnessOptions exactly;
+  exactly.tolerance = 0;
+  exactly.width = 0;
+  const oracle::WitnessReport report = oracle::check_witnesses(
+      scene.scene(), scene.prepared(), candidate_of(scene, result), exactly);
+  if (report.findings.empty()) return {};
+  const oracle::WitnessFinding& finding = report.findings.front();
+  return fmt::format("{}: claims, light '{}', polygon '{}': {}", name_of(result), finding.light,
+                     finding.polygon, finding.text);
+}
+
+/// All ways to the same answer, the first of them with default options.
+std::vector<ShadowOptions> variants(const Case& scene) {
+  std::vector<ShadowOptions> all;
+  for (const KernelId kernel : kExactKernels) {
+    ShadowOptions options = options_for(kernel);
     for (std::uint32_t light = 0; light < scene.prepared().lights.size(); ++light) {
       if (!scene.is_area(light)) options.lights.push_back(light);
     }
+    options.algorithm = Algorithm::kSectors;
+    options.jobs = 1;
+    if (kernel == KernelId::kPlane) all.push_back(options);
+    all.push_back(with_small_cells(options));
+    if (kernel == KernelId::kPlane) all.back().jobs = 2;
+    options.algorithm = Algorithm::kSvbsp;
+    options.merge = options.prefix = kernel != KernelId::kRational;
+    options.seed = 1 + static_cast<std::uint64_t>(kernel);
+    all.push_back(options);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::string check_exact(const Case& scene) {
+  ShadowResult first;
+  for (const ShadowOptions& options : variants(scene)) {
     if (options.lights.empty()) return {};
-    if (check.vary_options) {
-      options.merge = i % 2 == 0;
-      options.prefix = i % 2 == 0;
-      options.seed = i + 1;
-    }
     Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
     if (!result) return to_string(result.error());
+    const bool is_first = first.kernel.empty();
     std::string wrong = check_sums(scene, *result);
     if (wrong.empty()) wrong = check_bounds(scene, *result, options);
-    if (wrong.empty() && check.witnesses) wrong = find_false_witness(scene, *result);
-    if (wrong.empty() && i == 0) wrong = compare_with_oracle(scene, *result);
-    if (wrong.empty() && i > 0) wrong = compare_kernels(scene, first, *result);
-    if (wrong.empty() && i == 0 && check.fragments) {
-      const oracle::Report report = judge(scene, *result);
-      if (report.oracle_fault) return "the oracle contradicts itself: " + report.reason;
-      if (report.verdict != oracle::Verdict::kIdentical) {
-        wrong = fmt::format("{}: {}: {}", result->kernel, oracle::name_of(report.verdict),
-                            report.reason);
-        for (const std::string& problem : report.problems) wrong += "; " + problem;
-        if (report.worst) wrong += "; " + report.worst->text;
-      }
+    if (wrong.empty()) wrong = find_false_witness(scene, *result);
+    if (wrong.empty() && is_first) wrong = compare_with_oracle(scene, *result);
+    if (wrong.empty() && !is_first) wrong = compare_results(scene, first, *result);
+    if (wrong.empty() && options.kernel == KernelId::kPlane) {
+      wrong = compare_fragments(scene, *result);
     }
-    if (wrong.empty() && i == 0 && check.witnesses) {
-      oracle::WitnessOptions exactly;
-      exactly.tolerance = 0;
-      exactly.width = 0;
-      const oracle::WitnessReport report = oracle::check_witnesses(
-          scene.scene(), scene.prepared(), candidate_of(scene, *result), exactly);
-      if (!report.findings.empty()) {
-        const oracle::WitnessFinding& finding = report.findings.front();
-        wrong = fmt::format("{}: claims, light '{}', polygon '{}': {}", result->kernel,
-                            finding.light, finding.polygon, finding.text);
-      }
+    if (wrong.empty() && is_first) wrong = check_claims(scene, *result);
+    if (!wrong.empty()) {
+      return fmt::format("leaves of {}, tasks of {}: {}", options.leaf_size, options.task_size,
+                         wrong);
     }
-    if (!wrong.empty()) return wrong;
-    if (i == 0) first = std::move(*result);
+    if (is_first) first = std::move(*result);
   }
   return {};
 }

@@ -119,7 +119,7 @@ oracle::Report judge(const Case& scene, const ShadowResult& result, bool strict)
   return std::move(*report);
 }
 
-ShadowOptions options_by_name(const std::string& name) {
+ShadowOptions options_by_name(const std::string& name, Algorithm algorithm) {
   const std::size_t at = name.find('@');
   std::string kernel = name.substr(0, at);
   const std::size_t plus = kernel.find("+identity");
@@ -128,8 +128,20 @@ ShadowOptions options_by_name(const std::string& name) {
   const std::optional<KernelId> id = kernel_by_name(kernel);
   if (!id) throw std::runtime_error("no kernel " + name);
   ShadowOptions options = options_for(*id);
+  options.algorithm = algorithm;
   options.identity = identity;
   options.thickness = at == std::string::npos ? 0 : std::stod(name.substr(at + 1));
+  return options;
+}
+
+std::string name_of(Algorithm algorithm) {
+  return algorithm == Algorithm::kSvbsp ? "svbsp" : "sectors";
+}
+
+ShadowOptions with_small_cells(ShadowOptions options) {
+  options.algorithm = Algorithm::kSectors;
+  options.leaf_size = 1;
+  options.task_size = 2;
   return options;
 }
 

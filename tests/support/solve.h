@@ -4,6 +4,7 @@
 #ifndef GNOMON_TESTS_SUPPORT_SOLVE_H
 #define GNOMON_TESTS_SUPPORT_SOLVE_H
 
+#include <array>
 #include <memory>
 #include <string>
 
@@ -49,7 +50,13 @@ oracle::Report judge(const Case& scene, const ShadowResult& result, bool strict 
 
 /// A kernel with its policies, by name: "double@1e-12" (thickness), "double+identity@0", "epick",
 /// "plane". Throws std::runtime_error for a name that is none.
-ShadowOptions options_by_name(const std::string& name);
+ShadowOptions options_by_name(const std::string& name, Algorithm algorithm);
+
+inline constexpr std::array kAlgorithms = {Algorithm::kSectors, Algorithm::kSvbsp};
+/// "sectors", "svbsp"
+std::string name_of(Algorithm algorithm);
+/// Sectors with cells so small that few polygons make a tree and many tasks.
+ShadowOptions with_small_cells(ShadowOptions options);
 
 /// The scene as JSON, for messages.
 std::string text_of(const Scene& scene);
