@@ -121,6 +121,14 @@ void export_loop(const Space& space, const Geometry& geometry, const ShadowOptio
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
     const auto corner = loop.corner(i);
     const bool input = corner.vertex.source != kMadeVertex;
+    if constexpr (requires { space.nearest_position(corner); }) {
+      if (!options.keep_exact_points) {
+        if (const auto nearest = space.nearest_position(corner)) {
+          points.push_back(*nearest);
+          continue;
+        }
+      }
+    }
     if (options.keep_exact_points || (!input && Space::kExact)) {
       std::array<mpq_class, 3> exact = space.exact_position(corner);
       if (options.keep_points) {

@@ -109,6 +109,14 @@ PlaneLightSpace<Stats>::PlaneLightSpace(SceneSpace& scene, const LightPoint& lig
     const double value = to_double_scaled(light.grid[k], shift);
     shared.light_enclosure[k] = Ball(value, 2 * kUnit * std::fabs(value) + Ball::kTiny);
   }
+  for (int k = 0; k < 3; ++k) shared.origin[k] = double_double(shared.geometry->origin[k]);
+  shared.step = double_double(shared.geometry->step);
+  for (int k = 0; k < 3; ++k) {
+    const mpq_class zero = -shared.geometry->origin[k] / shared.geometry->step;
+    const bool on_grid = zero.get_den() == 1 && mpz_sizeinbase(zero.get_num_mpz_t(), 2) <= b &&
+                         sgn(zero) >= 0 && b <= 63;
+    if (on_grid) shared.zero[k] = zero.get_num().get_si();
+  }
   shared.edges.resize(shared.geometry->edges.size());
   make_depth_planes();
 }
@@ -587,6 +595,13 @@ Vector3<Int> PlaneLightSpace<Stats>::exact_normal(PlaneRef ref) const {
   return n;
 }
 
+/// For with_widths(): planes that meet in a made corner, and its support normal.
+template <class Stats>
+unsigned PlaneLightSpace<Stats>::factor_bits(const Corner<Vertex>& corner) const {
+  return std::max({bits_of(corner.before), bits_of(corner.after),
+                   support_normal_bits(shared_->geometry->grid.bits()) + 1});
+}
+
 // The same from integers: q = h r / (n . r), each factor rounded once, so that nothing cancels.
 template <class Stats>
 PlanarPoint PlaneLightSpace<Stats>::accurate_planar_point(const Corner<Vertex>& corner) const {
@@ -597,30 +612,34 @@ PlanarPoint PlaneLightSpace<Stats>::accurate_planar_point(const Corner<Vertex>& 
   PlanarPoint point;
   point.error = kInfinity;
   const auto [u, v] = kept_axes(shared.depths[corner.support]);
-  const auto locate = [&]<class Int>() {
-    const Vector3<Int> r =
-        made ? cross(exact_normal<Int>(corner.before), exact_normal<Int>(corner.after))
-             : q<Int>(input);
-    std::array<double, 4> value;  // up to one common factor
+  // The corner's ray r, its plane's normal n and value h at the light, up to one common factor.
+  const auto place = [&]<class Normal, class Int, class Ray>(const Vector3<Ray>& r) {
+    std::array<double, 4> value;
     if (shared.light.directional) {
-      value = {to_double(r[0]), to_double(r[1]), to_double(r[2]), 1};
-      value[2] = std::ldexp(value[2], shared.stretch);
+      value = {to_double(r[0]), to_double(r[1]), std::ldexp(to_double(r[2]), shared.stretch), 1};
     } else {
-      const ExactGeometry<Int> exact(*shared.geometry);
-      const Vector3<Int> n = exact.plane(corner.support).n;
+      using Position = std::conditional_t<std::is_same_v<Int, mpz_class>, mpz_class, std::int64_t>;
+      const ExactGeometry<Position> exact(*shared.geometry);
+      const Vector3<Normal> n = exact.template normal<Normal>(corner.support);
       const VertexId a = shared.geometry->planes[corner.support].a;
-      const Int height = dot(n, difference(light<Int>(), exact.position(a)));
-      value = {to_double(r[u]), to_double(r[v]), to_double(dot(n, r)),
+      const Int height = dot<Int>(n, difference(light<Position>(), exact.position(a)));
+      value = {to_double(r[u]), to_double(r[v]), to_double(dot<Int>(n, r)),
                std::ldexp(to_double(height), -static_cast<int>(shared.q_bits))};
     }
     point.x = value[0] / value[2] * value[3];
     point.y = value[1] / value[2] * value[3];
   };
-  const unsigned bits = made ? bits_of(corner.before) + bits_of(corner.after) + 2 : shared.q_bits;
-  const bool narrow =
-      shared.narrow && (!made || (is_narrow(corner.before) && is_narrow(corner.after)));
   const unsigned plane_bits = 2 * shared.geometry->grid.bits() + 1;
-  with_width(narrow ? narrowest_width(bits + plane_bits + 3) : IntegerWidth::kUnbounded, locate);
+  if (made) {
+    const unsigned bits = bits_of(corner.before) + bits_of(corner.after) + 2;
+    const bool narrow = shared.narrow && is_narrow(corner.before) && is_narrow(corner.after);
+    with_widths(narrow ? narrowest_width(bits + plane_bits + 3) : IntegerWidth::kUnbounded,
+                factor_bits(corner), [&]<class Factor, class Int>() {
+                  place.template operator()<Factor, Int>(ray<Factor, Int>(corner));
+                });
+  } else {
+    place.template operator()<mpz_class, mpz_class>(q<mpz_class>(input));
+  }
   const double most = std::max(std::fabs(point.x), std::fabs(point.y));
   if (most < 0x1p900) point.error = 16 * kUnit * most + 0x1p-900;
   return point;
@@ -667,6 +686,100 @@ std::array<mpq_class, 3> PlaneLightSpace<Stats>::exact_position(
   for (int k = 0; k < 3; ++k)
     point[k] = shared_->geometry->origin[k] + shared_->geometry->step * point[k];
   return point;
+}
+
+// Whether coordinate `axis` of a made corner is exactly 0, which no bound can tell: much of a scene
+// stands on z = 0. A point light's L - h r / (n . r) is G if (L - G) (n . r) = h r.
+template <class Stats>
+bool PlaneLightSpace<Stats>::is_zero(const Corner<Vertex>& corner, int axis) const {
+  const Shared& shared = *shared_;
+  const std::optional<std::int64_t> zero = shared.zero[axis];
+  const bool narrow = shared.narrow && is_narrow(corner.before) && is_narrow(corner.after);
+  if (!zero || !narrow || shared.light.directional) return false;
+  const unsigned b = std::max(shared.geometry->grid.bits(), shared.q_bits);
+  const unsigned bits = bits_of(corner.before) + bits_of(corner.after) + 2;
+  bool result = false;
+  const auto test = [&]<class Factor, class Int>() {
+    if constexpr (!std::is_same_v<Int, mpz_class>) {
+      const ExactGeometry<std::int64_t> exact(*shared.geometry);
+      const Vector3<Factor> n = exact.normal<Factor>(corner.support);
+      const Vector3<std::int64_t> a = exact.position(shared.geometry->planes[corner.support].a);
+      const Vector3<std::int64_t> l = light<std::int64_t>();
+      const auto r = ray<Factor, Int>(corner);
+      const Int left = multiply<Int>(l[axis] - *zero, dot<Int>(n, r));
+      const Int right = multiply<Int>(dot<Int>(n, difference(l, a)), r[axis]);
+      result = sign_of(Int(left - right)) == Sign::kZero;
+    }
+  };
+  with_widths(narrowest_width(bits + 3 * b + 6), factor_bits(corner), test);
+  return result;
+}
+
+// The formulas of exact_grid_position in pairs of doubles, from integers. A point light's vertex is
+// L - h r / (n . r); a directional light's is z = (d - n_x U - n_y V) d_z / H and so on with
+// U = r_x / r_z. Every factor errs by less than 2^-100 of itself, and sums are of terms whose
+// magnitudes are added up; the bound is 2^-94 of those.
+template <class Stats>
+std::optional<std::array<double, 3>> PlaneLightSpace<Stats>::nearest_position(
+    const Corner<Vertex>& corner) const {
+  const Shared& shared = *shared_;
+  if (corner.vertex.source != kMadeVertex) {
+    return shared.geometry->positions[corner.vertex.source];
+  }
+  std::array<DoubleDouble, 3> grid;  // grid units
+  std::array<double, 3> terms;       // sums of magnitudes
+  const auto locate = [&]<class Factor, class Int>() {
+    using Position = std::conditional_t<std::is_same_v<Int, mpz_class>, mpz_class, std::int64_t>;
+    const ExactGeometry<Position> exact(*shared.geometry);
+    const Vector3<Factor> n = exact.template normal<Factor>(corner.support);
+    const Vector3<Position> a = exact.position(shared.geometry->planes[corner.support].a);
+    const Vector3<Position> l = light<Position>();
+    const auto r = ray<Factor, Int>(corner);
+    if (!shared.light.directional) {
+      const DoubleDouble s =
+          double_double(dot<Int>(n, difference(l, a))) / double_double(dot<Int>(n, r));
+      for (int k = 0; k < 3; ++k) {
+        const DoubleDouble at = double_double(l[k]), step = s * double_double(r[k]);
+        grid[k] = at - step;
+        terms[k] = std::fabs(at.high) + std::fabs(step.high);
+      }
+      return;
+    }
+    const auto [x, y, z] = shared.axes;
+    const DoubleDouble u = double_double(r[0]) / double_double(r[2]);
+    const DoubleDouble v = double_double(r[1]) / double_double(r[2]);
+    const DoubleDouble dz = double_double(l[z]), scale = dz / double_double(dot<Int>(n, l));
+    const DoubleDouble d = double_double(dot<Int>(n, a));
+    const DoubleDouble nu = double_double(n[x]) * u, nv = double_double(n[y]) * v;
+    const DoubleDouble dx = double_double(l[x]) / dz, dy = double_double(l[y]) / dz;
+    grid[z] = (d - nu - nv) * scale;
+    terms[z] =
+        (std::fabs(d.high) + std::fabs(nu.high) + std::fabs(nv.high)) * std::fabs(scale.high);
+    grid[x] = u + grid[z] * dx;
+    terms[x] = std::fabs(u.high) + terms[z] * std::fabs(dx.high);
+    grid[y] = v + grid[z] * dy;
+    terms[y] = std::fabs(v.high) + terms[z] * std::fabs(dy.high);
+  };
+  const unsigned bits = bits_of(corner.before) + bits_of(corner.after) + 2;
+  const bool narrow = shared.narrow && is_narrow(corner.before) && is_narrow(corner.after);
+  const unsigned plane_bits = std::max(2 * shared.geometry->grid.bits() + 1, shared.light_bits + 1);
+  with_widths(narrow ? narrowest_width(bits + plane_bits + 3) : IntegerWidth::kUnbounded,
+              factor_bits(corner), locate);
+  std::array<double, 3> result;
+  for (int k = 0; k < 3; ++k) {
+    const DoubleDouble offset = grid[k] * shared.step;
+    const double most = terms[k] * std::fabs(shared.step.high) + std::fabs(shared.origin[k].high);
+    const std::optional<double> nearest =
+        gnomon::nearest_double(shared.origin[k] + offset, 0x1p-94 * most);
+    if (nearest) {
+      result[k] = *nearest;
+    } else if (is_zero(corner, k)) {
+      result[k] = 0;
+    } else {
+      return std::nullopt;
+    }
+  }
+  return result;
 }
 
 template <class Stats>

@@ -28,10 +28,12 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "gnomon/kernel/double_double.h"
 #include "gnomon/kernel/light_space.h"
 #include "gnomon/kernel/plane_scene_space.h"
 
@@ -130,6 +132,9 @@ class PlaneLightSpace {
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   /// The same, exactly, in scene units.
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
+  /// The nearest doubles of exact_position(), at a fraction of its cost; nothing where some 100
+  /// bits do not tell them (an exact tie, a light in the plane of many bits).
+  std::optional<std::array<double, 3>> nearest_position(const Corner<Vertex>& corner) const;
   /// In words, for explanations: "the shadow plane of edge 4-7", ...
   std::string describe(PlaneRef plane) const;
   StageCounts stage_counts() const { return stats_.counts(); }
@@ -172,6 +177,9 @@ class PlaneLightSpace {
     bool narrow = false;      // grid and light fit into 64 bits
     double grid_scale = 1;    // 2^-q_bits, if narrow
     std::array<std::int64_t, 3> narrow_light{};
+    std::array<DoubleDouble, 3> origin;               // of the grid, scene units
+    std::array<std::optional<std::int64_t>, 3> zero;  // coordinate 0, if it is on the grid
+    DoubleDouble step;                                // scene units per grid unit
     std::array<Ball, 3> light_enclosure;  // position times 2^-b, or direction times a power of two
     std::vector<FilteredPlane> edges;     // by EdgeId
     std::vector<DepthPlane> depths;       // by PlaneId
@@ -256,6 +264,14 @@ class PlaneLightSpace {
   Vector3<Int> cut_normal(const ExactPlane<Int>& i, const ExactPlane<Int>& j) const;
   template <class Int>
   Vector3<Int> exact_normal(PlaneRef plane) const;
+  bool is_zero(const Corner<Vertex>& corner, int axis) const;
+  unsigned factor_bits(const Corner<Vertex>& corner) const;
+  /// The ray of a made corner, exactly, in the type of a product of two planes.
+  template <class Factor, class Int>
+  auto ray(const Corner<Vertex>& corner) const {
+    return cross<Product<Int, Factor, Factor>>(exact_normal<Factor>(corner.before),
+                                               exact_normal<Factor>(corner.after));
+  }
   Side undecided_depth(PlaneId plane, const Corner<Vertex>& corner);
   Sign input_depth(PlaneId plane, VertexId vertex);
   Sign exact_sign(PlaneRef plane, const Corner<Vertex>& corner);
