@@ -18,6 +18,7 @@ namespace gnomon {
 /// The chart of every support plane: which axis to drop.
 class PlaneCharts {
  public:
+  PlaneCharts() = default;  // of nothing
   explicit PlaneCharts(const Geometry& geometry);
   Chart operator[](PlaneId plane) const {
     const int dropped = dropped_[plane];

@@ -75,6 +75,8 @@ struct SectorContext {
 
 /// A cell of light space: which of the sector planes are still to come, and the chart after them.
 struct SectorCell {
+  friend bool operator==(const SectorCell&, const SectorCell&) = default;
+
   static constexpr int kChart = 4;
   int level = 0;  // 0: x = y, 1: x = -y, 2: z = s, 3: z = -s, s the larger of +-x, +-y
   bool above_first = false, above_second = false;
@@ -89,17 +91,20 @@ class SectorTree {
   /// tell.
   static constexpr std::uint64_t kPieceBatch = 1024;
 
-  /// Polygons of one cell, to be worked off by one thread.
+  /// Polygons of one cell, to be worked off by one thread: items [begin, end) of the tree that made
+  /// the task.
   struct Task {
     SectorCell cell;
-    std::vector<SectorItem> items;  // parent: the item of the tree that made the task
-    LoopStore<Vertex> loops;
-    std::vector<SectorState> states;  // when done, by position in `items` as they were
+    std::uint32_t begin = 0, end = 0;
+    std::vector<SectorState> states;  // when done
+
+    std::uint32_t size() const { return end - begin; }
   };
 
   SectorTree(const SectorContext& context, Space space)
       : context_(&context), space_(std::move(space)) {}
 
+  const SectorContext& context() const { return *context_; }
   Space& space() { return space_; }
   SectorOutput& output() { return output_; }
   LoopStore<Vertex>& loops() { return loops_; }
@@ -112,9 +117,16 @@ class SectorTree {
     first_cell_plane_ = other.first_cell_plane_;
   }
 
+  /// The cell that holds a polygon as a whole, as far as the planes between the sectors tell.
+  SectorCell cell_of(const LoopView<Vertex>& loop);
+  /// Where the tree starts if nothing is known of its polygons.
+  SectorCell root_cell() const;
+  /// Box and depths of an item in the chart of a cell. Thread-safe.
+  void locate(const LightChart& chart, SectorItem& item) const;
   /// Splits the cell that holds `items` (loops in loops()) down to cells of at most `task_size`,
-  /// which become tasks. Call finish() when their states are known.
-  std::vector<Task> plan(std::vector<SectorItem> items, std::uint32_t task_size);
+  /// which become tasks. Call finish() when their states are known. `located`: items have boxes.
+  std::vector<Task> plan(std::vector<SectorItem> items, const SectorCell& cell, bool located,
+                         std::uint32_t task_size);
   void set_states(const Task& task);
   /// Joins the cells of plan(); the states of its items follow.
   std::span<const SectorState> finish();
@@ -123,8 +135,8 @@ class SectorTree {
     emit({items_[i].first, items_[i].count, items_[i].part}, states_[i]);
   }
 
-  /// Does a task, leaving its states in it and dropping its loops.
-  void run(Task& task);
+  /// Does a task of another tree, leaving its states in it.
+  void run(Task& task, const SectorTree& planner);
 
  private:
   /// Cells of so many times the size of a leaf that no k-d plane splits are split by edges of their
@@ -167,7 +179,6 @@ class SectorTree {
   }
   bool is_cell_plane(PlaneRef edge) const { return edge.index() >= first_cell_plane_; }
 
-  void locate(const LightChart& chart, SectorItem& item) const;
   ChartBox box_of(const LightChart& chart, const LoopView<Vertex>& loop) const;
   std::uint32_t cull(std::uint32_t begin, std::uint32_t end);
   std::uint32_t move_decided_last(std::uint32_t begin, std::uint32_t end);
@@ -177,9 +188,9 @@ class SectorTree {
   bool any_nearer(const SectorItem& item, PlaneId plane, bool& any_behind);
   bool split(Frame& frame, std::uint32_t open_end);
   bool split_by_sector_plane(Frame& frame, std::uint32_t open_end);
+  PlaneRef next_sector_plane(const SectorCell& cell, SectorCell& above, SectorCell& below) const;
   PlaneRef choose_edge_plane(std::uint32_t begin, std::uint32_t end);
   void partition(Frame& frame, std::uint32_t open_end, PlaneRef plane, const SectorSplit* split);
-  Task make_task(const Frame& frame, std::uint32_t open_end) const;
   /// `chart`: of the cell; null if it has none.
   void leaf(std::uint32_t begin, std::uint32_t end, const LightChart* chart);
   void subtract_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters,
@@ -205,7 +216,6 @@ class SectorTree {
   // Scratch, kept to save allocations.
   SplitRecord record_, first_record_;
   std::vector<Vertex> crossings_;
-  std::vector<Placement> placements_;
   std::vector<SectorItem> front_items_;
   std::vector<std::uint32_t> order_;
   std::vector<LitPiece> lit_, still_lit_;

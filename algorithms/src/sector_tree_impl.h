@@ -46,18 +46,41 @@ void SectorTree<Space>::add_sector_planes() {
 }
 
 template <SectorSpaceModel Space>
+SectorCell SectorTree<Space>::root_cell() const {
+  SectorCell cell;
+  if (context_->light.directional) {
+    cell.level = SectorCell::kChart;
+    const int z = LightAxes::of(context_->light).z;
+    cell.chart = {0, 1, 2, sgn(context_->light.grid[static_cast<std::size_t>(z)])};
+  }
+  return cell;
+}
+
+template <SectorSpaceModel Space>
+SectorCell SectorTree<Space>::cell_of(const LoopView<Vertex>& loop) {
+  SectorCell cell = root_cell();
+  while (cell.level < SectorCell::kChart) {
+    SectorCell above, below;
+    const PlaneRef plane = next_sector_plane(cell, above, below);
+    const Placement placement = record_.decide(space_, plane, loop);
+    if (placement == Placement::kSpanning) break;
+    cell = placement == Placement::kFront ? above : below;
+  }
+  return cell;
+}
+
+template <SectorSpaceModel Space>
 std::vector<typename SectorTree<Space>::Task> SectorTree<Space>::plan(std::vector<SectorItem> items,
+                                                                      const SectorCell& cell,
+                                                                      bool located,
                                                                       std::uint32_t task_size) {
   items_ = std::move(items);
   states_.assign(items_.size(), kUndecided);
   root_size_ = items_.size();
   std::vector<Task> tasks;
   Frame root;
-  if (context_->light.directional) {
-    root.cell.level = SectorCell::kChart;
-    const int z = LightAxes::of(context_->light).z;
-    root.cell.chart = {0, 1, 2, sgn(context_->light.grid[static_cast<std::size_t>(z)])};
-  }
+  root.cell = cell;
+  root.located = located;
   root.end = static_cast<std::uint32_t>(items_.size());
   stack_.assign(1, root);
   descend(task_size, &tasks);
@@ -66,9 +89,7 @@ std::vector<typename SectorTree<Space>::Task> SectorTree<Space>::plan(std::vecto
 
 template <SectorSpaceModel Space>
 void SectorTree<Space>::set_states(const Task& task) {
-  for (std::size_t i = 0; i < task.states.size(); ++i) {
-    states_[task.items[i].parent] = task.states[i];
-  }
+  std::copy(task.states.begin(), task.states.end(), states_.begin() + task.begin);
 }
 
 template <SectorSpaceModel Space>
@@ -78,11 +99,13 @@ std::span<const SectorState> SectorTree<Space>::finish() {
 }
 
 template <SectorSpaceModel Space>
-void SectorTree<Space>::run(Task& task) {
-  std::swap(loops_, task.loops);
-  items_ = task.items;
+void SectorTree<Space>::run(Task& task, const SectorTree& planner) {
+  items_.assign(planner.items_.begin() + task.begin, planner.items_.begin() + task.end);
   // Items move about in their cell; `parent` says which they are.
-  for (std::uint32_t i = 0; i < items_.size(); ++i) items_[i].parent = i;
+  for (std::uint32_t i = 0; i < items_.size(); ++i) {
+    items_[i].first = loops_.append(planner.view(items_[i])).first;
+    items_[i].parent = i;
+  }
   states_.assign(items_.size(), kUndecided);
   Frame root;
   root.cell = task.cell;
@@ -92,9 +115,7 @@ void SectorTree<Space>::run(Task& task) {
   descend(0, nullptr);
   task.states.assign(items_.size(), kUndecided);
   for (std::size_t i = 0; i < items_.size(); ++i) task.states[items_[i].parent] = states_[i];
-  // The loops of pieces that the task's maker may still put out are the maker's own.
   loops_.clear();
-  task.loops = {};
   exact_areas_.clear();
 }
 
@@ -113,7 +134,7 @@ void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* task
       const std::uint32_t open_end = cull(frame.begin, frame.end);
       const std::uint32_t open = open_end - frame.begin;
       if (open > 0 && tasks != nullptr && open <= task_size) {
-        tasks->push_back(make_task(frame, open_end));
+        tasks->push_back({frame.cell, frame.begin, open_end, {}});
         stack_.pop_back();
         continue;
       }
@@ -156,24 +177,6 @@ void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* task
       stack_.pop_back();
     }
   }
-}
-
-template <SectorSpaceModel Space>
-typename SectorTree<Space>::Task SectorTree<Space>::make_task(const Frame& frame,
-                                                              std::uint32_t open_end) const {
-  Task task;
-  task.cell = frame.cell;
-  task.items.reserve(open_end - frame.begin);
-  std::size_t size = 0;
-  for (std::uint32_t i = frame.begin; i < open_end; ++i) size += items_[i].count;
-  task.loops.reserve_more(size);
-  for (std::uint32_t i = frame.begin; i < open_end; ++i) {
-    SectorItem item = items_[i];
-    item.first = task.loops.append(view(item)).first;
-    item.parent = i;
-    task.items.push_back(item);
-  }
-  return task;
 }
 
 template <SectorSpaceModel Space>
@@ -351,38 +354,40 @@ bool SectorTree<Space>::split(Frame& frame, std::uint32_t open_end) {
   return false;
 }
 
-// The next of the planes between the sectors. False: all items are on one side, which becomes the
-// frame's cell.
+// The next of the planes between the sectors, and the cells on its two sides.
 template <SectorSpaceModel Space>
-bool SectorTree<Space>::split_by_sector_plane(Frame& frame, std::uint32_t open_end) {
-  SectorCell above = frame.cell, below = frame.cell;
-  PlaneRef plane;
-  const bool x_rules = frame.cell.above_first == frame.cell.above_second;
-  const int sign = frame.cell.above_second ? 1 : -1, major = x_rules ? 0 : 1;
+PlaneRef SectorTree<Space>::next_sector_plane(const SectorCell& cell, SectorCell& above,
+                                              SectorCell& below) const {
+  above = below = cell;
+  const bool x_rules = cell.above_first == cell.above_second;
+  const int sign = cell.above_second ? 1 : -1, major = x_rules ? 0 : 1;
   const auto wedge = static_cast<std::size_t>(2 * (2 * major + (sign > 0 ? 0 : 1)));
   ++above.level;
   ++below.level;
-  switch (frame.cell.level) {
+  switch (cell.level) {
     case 0:
-      plane = sector_planes_[0];
       above.above_first = true;
-      break;
+      return sector_planes_[0];
     case 1:
-      plane = sector_planes_[1];
       above.above_second = true;
-      break;
+      return sector_planes_[1];
     case 2:  // s - z: below it is the sector around +z
-      plane = sector_planes_[2 + wedge];
       below.level = SectorCell::kChart;
       below.chart = {0, 1, 2, 1};
-      break;
+      return sector_planes_[2 + wedge];
     default:  // s + z
-      plane = sector_planes_[3 + wedge];
       below.chart = {0, 1, 2, -1};
       above.chart = {2, 1 - major, major, sign};
-      break;
+      return sector_planes_[3 + wedge];
   }
-  placements_.clear();
+}
+
+// By the next of the planes between the sectors. False: all items are on one side, which becomes
+// the frame's cell.
+template <SectorSpaceModel Space>
+bool SectorTree<Space>::split_by_sector_plane(Frame& frame, std::uint32_t open_end) {
+  SectorCell above, below;
+  const PlaneRef plane = next_sector_plane(frame.cell, above, below);
   bool front = false, back = false;
   for (std::uint32_t i = frame.begin; i < open_end; ++i) {
     const Placement placement = record_.decide(space_, plane, view(items_[i]));

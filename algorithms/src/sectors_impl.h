@@ -29,6 +29,7 @@ class SectorRun {
   using Tree = SectorTree<Space>;
   enum class Outcome : std::uint8_t { kDone, kInterrupted, kTooManyFragments, kNoIeee };
 
+  /// Call everything in an arena of `jobs` threads.
   SectorRun(const PreparedScene& scene, const ShadowOptions& options, SceneSpace& scene_space,
             std::uint32_t light, const KernelOptions& kernel_options)
       : scene_(scene),
@@ -38,7 +39,7 @@ class SectorRun {
         jobs_(Space::kParallel && options.jobs != 1 ? options.jobs : 1),
         space_(scene_space, light_, kernel_options),
         facing_(scene, space_),
-        charts_(scene.geometry),
+        charts_(charts_of(scene.geometry)),
         areas_(scene.parts.size()),
         sums_(scene.parts.size()) {
     result_.light = light;
@@ -63,6 +64,16 @@ class SectorRun {
                       [&](const auto& range) { body(range.begin(), range.end()); });
   }
   std::vector<SectorItem> import(LoopStore<Vertex>& loops);
+  /// A kernel that has planar points of its own needs no charts.
+  static PlaneCharts charts_of(const Geometry& geometry) {
+    if constexpr (requires(const Space& space, const Corner<Vertex>& corner) {
+                    space.planar_point(corner);
+                  }) {
+      return {};
+    } else {
+      return PlaneCharts(geometry);
+    }
+  }
   /// Twice the area of a whole part, good for fractions of it.
   Ball enclosed_area(const LoopView<Vertex>& loop) const {
     constexpr double kNarrow = PartMeasure<Space>::kWidest / 16;
@@ -70,7 +81,7 @@ class SectorRun {
     if (area.radius < kNarrow * area.middle) return area;
     return twice_area(space_, charts_, loop, 0);
   }
-  Outcome run_tasks(const std::function<void(double)>& progress);
+  SectorCell common_cell(Tree& planner, std::span<const SectorItem> items);
 
   const PreparedScene& scene_;
   const ShadowOptions& options_;
@@ -131,16 +142,40 @@ std::vector<SectorItem> SectorRun<Space>::import(LoopStore<Vertex>& loops) {
   return items;
 }
 
+/// The sector that holds all polygons, as for a lamp outside the scene; else where the tree starts.
 template <SectorSpaceModel Space>
-typename SectorRun<Space>::Outcome SectorRun<Space>::run(
-    const std::function<void(double)>& progress) {
-  if (jobs_ == 1) return run_tasks(progress);
-  tbb::task_arena arena(jobs_ == 0 ? tbb::task_arena::automatic : static_cast<int>(jobs_));
-  return arena.execute([&] { return run_tasks(progress); });
+SectorCell SectorRun<Space>::common_cell(Tree& planner, std::span<const SectorItem> items) {
+  const auto count = static_cast<std::uint32_t>(items.size());
+  const auto view = [&](std::uint32_t i) {
+    const SectorItem& item = items[i];
+    return planner.loops().view({item.first, item.count, item.part}, scene_.parts[item.part].plane);
+  };
+  if (count == 0) return planner.root_cell();
+  const SectorCell cell = planner.cell_of(view(0));
+  if (cell.level < SectorCell::kChart) return planner.root_cell();
+  std::atomic<bool> all = true;
+  const auto test = [&](Tree& tree, std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end && all.load(std::memory_order_relaxed); ++i) {
+      if (tree.cell_of(view(i)) != cell) all.store(false, std::memory_order_relaxed);
+    }
+  };
+  // Without identity a fork has to copy the planes of all edges.
+  if (jobs_ == 1 || !planner.space().knows_identity()) {
+    test(planner, 1, count);
+  } else {
+    constexpr std::uint32_t kRanges = 16;
+    tbb::parallel_for(std::uint32_t{0}, kRanges, [&](std::uint32_t range) {
+      Tree tree(planner.context(), planner.space().fork());
+      tree.use_sector_planes(planner);
+      test(tree, static_cast<std::uint32_t>(std::uint64_t{count} * range / kRanges),
+           static_cast<std::uint32_t>(std::uint64_t{count} * (range + 1) / kRanges));
+    });
+  }
+  return all ? cell : planner.root_cell();
 }
 
 template <SectorSpaceModel Space>
-typename SectorRun<Space>::Outcome SectorRun<Space>::run_tasks(
+typename SectorRun<Space>::Outcome SectorRun<Space>::run(
     const std::function<void(double)>& progress) {
   // Cells of this size are worked off by one thread; the same whatever the number of threads.
   constexpr std::uint32_t kSmallestTask = 256, kLargestTask = 16384, kTasks = 128;
@@ -157,10 +192,17 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run_tasks(
   const std::uint32_t task_size = options_.task_size != 0
                                       ? options_.task_size
                                       : std::clamp(total / kTasks, kSmallestTask, kLargestTask);
-  auto tasks = planner.plan(std::move(items), task_size);
+  const SectorCell cell = common_cell(planner, items);
+  const bool located = cell.level == SectorCell::kChart;
+  if (located) {
+    in_parallel(total, [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i) planner.locate(cell.chart, items[i]);
+    });
+  }
+  auto tasks = planner.plan(std::move(items), cell, located, task_size);
 
   std::uint64_t work = 1, done = 0;
-  for (const auto& task : tasks) work += task.items.size();
+  for (const auto& task : tasks) work += task.size();
   std::mutex progress_mutex;
   outputs_.resize(tasks.size() + 1);
   tbb::enumerable_thread_specific<std::unique_ptr<Tree>> trees;
@@ -180,12 +222,12 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run_tasks(
       tree = std::make_unique<Tree>(context, planner.space().fork());
       tree->use_sector_planes(planner);
     }
-    tree->run(tasks[i]);
+    tree->run(tasks[i], planner);
     outputs_[i] = std::exchange(tree->output(), {});
     count_rest(outputs_[i]);
     if (!progress) return;
     const std::lock_guard lock(progress_mutex);
-    done += tasks[i].items.size();
+    done += tasks[i].size();
     progress(static_cast<double>(done) / static_cast<double>(work));
   };
   if (jobs_ == 1) {

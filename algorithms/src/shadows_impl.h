@@ -228,9 +228,10 @@ inline tl::unexpected<Error> too_many_fragments(const ShadowOptions& options) {
 
 /// Every light by the sectors algorithm, one after another.
 template <SectorSpaceModel Space>
-Expected<ShadowResult> compute_by_sectors(const PreparedScene& scene, const ShadowOptions& options,
-                                          const std::vector<std::uint32_t>& lights,
-                                          ShadowResult result) {
+Expected<ShadowResult> compute_by_sectors_here(const PreparedScene& scene,
+                                               const ShadowOptions& options,
+                                               const std::vector<std::uint32_t>& lights,
+                                               ShadowResult result) {
   using Run = SectorRun<Space>;
   result.algorithm = "sectors";
   const double start = cpu_seconds();
@@ -260,6 +261,17 @@ Expected<ShadowResult> compute_by_sectors(const PreparedScene& scene, const Shad
   result.stages += scene_space.stage_counts();
   result.shadow_seconds = cpu_seconds() - start;
   return result;
+}
+
+/// The same on as many threads as asked for.
+template <SectorSpaceModel Space>
+Expected<ShadowResult> compute_by_sectors(const PreparedScene& scene, const ShadowOptions& options,
+                                          const std::vector<std::uint32_t>& lights,
+                                          ShadowResult result) {
+  tbb::task_arena arena(options.jobs == 0 ? tbb::task_arena::automatic
+                                          : static_cast<int>(options.jobs));
+  return arena.execute(
+      [&] { return compute_by_sectors_here<Space>(scene, options, lights, std::move(result)); });
 }
 
 template <LightSpaceModel Space>

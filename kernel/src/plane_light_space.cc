@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "gnomon/kernel/plane_light_space.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -244,9 +246,9 @@ void PlaneLightSpace<Stats>::make_depth_planes() {
   Shared& shared = *shared_;
   shared.depths.resize(shared.geometry->planes.size());
   const auto make = [&]<class Normal, class Int>() {
-    for (PlaneId id = 0; id < shared.depths.size(); ++id) {
-      shared.depths[id] = depth_plane<Normal, Int>(id);
-    }
+    tbb::parallel_for(std::size_t{0}, shared.depths.size(), [&](std::size_t id) {
+      shared.depths[id] = depth_plane<Normal, Int>(static_cast<PlaneId>(id));
+    });
   };
   const unsigned b = shared.geometry->grid.bits();
   // n . (L - A), n . d and the plane's offset n . A; one bit more for the difference in a normal.
@@ -631,9 +633,7 @@ PlanarPoint PlaneLightSpace<Stats>::accurate_planar_point(const Corner<Vertex>& 
   };
   const unsigned plane_bits = 2 * shared.geometry->grid.bits() + 1;
   if (made) {
-    // Of the ray, or of L - A: planes of a prefix have so few bits that it may be the longer.
-    const unsigned bits =
-        std::max(bits_of(corner.before) + bits_of(corner.after) + 2, shared.q_bits);
+    const unsigned bits = bits_of(corner.before) + bits_of(corner.after) + 2;
     const bool narrow = shared.narrow && is_narrow(corner.before) && is_narrow(corner.after);
     with_widths(narrow ? narrowest_width(bits + plane_bits + 3) : IntegerWidth::kUnbounded,
                 factor_bits(corner), [&]<class Factor, class Int>() {
@@ -762,8 +762,7 @@ std::optional<std::array<double, 3>> PlaneLightSpace<Stats>::nearest_position(
     grid[y] = v + grid[z] * dy;
     terms[y] = std::fabs(v.high) + terms[z] * std::fabs(dy.high);
   };
-  // Of the ray, or of L - A, as in accurate_planar_point; of a direction or a position.
-  const unsigned bits = std::max(bits_of(corner.before) + bits_of(corner.after) + 2, shared.q_bits);
+  const unsigned bits = bits_of(corner.before) + bits_of(corner.after) + 2;
   const bool narrow = shared.narrow && is_narrow(corner.before) && is_narrow(corner.after);
   const unsigned plane_bits = std::max(2 * shared.geometry->grid.bits() + 1, shared.light_bits + 1);
   with_widths(narrow ? narrowest_width(bits + plane_bits + 3) : IntegerWidth::kUnbounded,

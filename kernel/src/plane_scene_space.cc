@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "gnomon/kernel/plane_scene_space.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,8 +22,9 @@ PlaneSceneSpace<Stats>::PlaneSceneSpace(const Geometry& geometry, const KernelOp
   for (int k = 0; k < 3; ++k) origin_[k] = geometry.origin[k].get_d();
   const mpq_class extent = geometry.step * mpq_class(mpz_class(1) << bits_);
   scale_ = extent.get_d();
-  planes_.reserve(geometry.planes.size());
-  for (PlaneId id = 0; id < geometry.planes.size(); ++id) planes_.push_back(filtered(id));
+  planes_.resize(geometry.planes.size());
+  tbb::parallel_for(std::size_t{0}, planes_.size(),
+                    [&](std::size_t id) { planes_[id] = filtered(static_cast<PlaneId>(id)); });
 }
 
 template <class Stats>

@@ -48,6 +48,7 @@ struct LightAxes {
 struct LightChart {
   int u = 0, v = 1, w = 2;
   int sign = 1;
+  friend bool operator==(const LightChart&, const LightChart&) = default;
 };
 
 /// Where a point is as seen from the light. For a directional light u and v are x - z d_x / d_z and
