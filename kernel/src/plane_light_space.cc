@@ -633,7 +633,9 @@ PlanarPoint PlaneLightSpace<Stats>::accurate_planar_point(const Corner<Vertex>& 
   };
   const unsigned plane_bits = 2 * shared.geometry->grid.bits() + 1;
   if (made) {
-    const unsigned bits = bits_of(corner.before) + bits_of(corner.after) + 2;
+    // Of the ray, or of L - A: planes of a prefix have so few bits that it may be the longer.
+    const unsigned bits =
+        std::max(bits_of(corner.before) + bits_of(corner.after) + 2, shared.q_bits);
     const bool narrow = shared.narrow && is_narrow(corner.before) && is_narrow(corner.after);
     with_widths(narrow ? narrowest_width(bits + plane_bits + 3) : IntegerWidth::kUnbounded,
                 factor_bits(corner), [&]<class Factor, class Int>() {
@@ -762,7 +764,8 @@ std::optional<std::array<double, 3>> PlaneLightSpace<Stats>::nearest_position(
     grid[y] = v + grid[z] * dy;
     terms[y] = std::fabs(v.high) + terms[z] * std::fabs(dy.high);
   };
-  const unsigned bits = bits_of(corner.before) + bits_of(corner.after) + 2;
+  // Of the ray, or of L - A, as in accurate_planar_point; of a direction or a position.
+  const unsigned bits = std::max(bits_of(corner.before) + bits_of(corner.after) + 2, shared.q_bits);
   const bool narrow = shared.narrow && is_narrow(corner.before) && is_narrow(corner.after);
   const unsigned plane_bits = std::max(2 * shared.geometry->grid.bits() + 1, shared.light_bits + 1);
   with_widths(narrow ? narrowest_width(bits + plane_bits + 3) : IntegerWidth::kUnbounded,
