@@ -5,7 +5,7 @@
 // (for a point light the planes x = +-y and z = +- the larger of the two; a directional light has
 // one chart), then by k-d splits. Polygons are clipped exactly to the cells. A polygon that covers
 // a cell hides all that is behind its plane: that leaves the cell, whatever is there. In a leaf,
-// from each receiver the nearer casters are subtracted, the nearest first, until nothing is lit;
+// from each receiver the nearer casters are subtracted, the largest first, until nothing is lit;
 // the part of a caster that is nearer is cut off by the receiver's plane where the two cross. No
 // order, no cycles, no coplanar groups: a polygon shadows another if it is nearer in some cell, and
 // polygons of one plane are nowhere nearer than each other.
@@ -194,7 +194,7 @@ class SectorTree {
   /// `chart`: of the cell; null if it has none.
   void leaf(std::uint32_t begin, std::uint32_t end, const LightChart* chart);
   void subtract_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters,
-                        const LightChart* chart);
+                        bool nearest_first, const LightChart* chart);
   bool clip(const LitPiece& piece, LoopRange& inside);
   void join(Range children);
   void emit(const LoopRange& loop, SectorState state);

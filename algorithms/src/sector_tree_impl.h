@@ -513,17 +513,24 @@ void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end, const Light
   for (std::uint32_t i = begin; i < end; ++i) {
     if (context_->scene.parts[items_[i].part].casts) order_.push_back(i);
   }
-  // Nearest first, so that little is left for the others.
+  // What hides most goes first, so that little is left for the others to cut. In a leaf of very
+  // many the nearest first: then most pairs need not be looked at.
+  const bool nearest_first = end - begin > kLargeLeaf * context_->options.leaf_size;
+  const auto weight = [&](const SectorItem& item) {
+    if (nearest_first) return item.z_high;
+    return (item.high[0] - item.low[0]) * (item.high[1] - item.low[1]);
+  };
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    if (items_[a].z_high != items_[b].z_high) return items_[a].z_high > items_[b].z_high;
-    return items_[a].part < items_[b].part;
+    const float own = weight(items_[a]), other = weight(items_[b]);
+    return own != other ? own > other : items_[a].part < items_[b].part;
   });
-  for (std::uint32_t i = begin; i < end && !stopped(); ++i) subtract_casters(i, order_, chart);
+  for (std::uint32_t i = begin; i < end && !stopped(); ++i)
+    subtract_casters(i, order_, nearest_first, chart);
 }
 
 template <SectorSpaceModel Space>
 void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
-                                         std::span<const std::uint32_t> casters,
+                                         std::span<const std::uint32_t> casters, bool nearest_first,
                                          const LightChart* chart) {
   const SectorItem& item = items_[receiver];
   const std::uint32_t loops_mark = loops_.size(), planes_mark = space_.plane_mark();
@@ -533,7 +540,10 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
   SectorState state = kAllLit;
   for (const std::uint32_t c : casters) {
     const SectorItem& caster = items_[c];
-    if (caster.z_high <= item.z_low) break;  // and so are all that follow
+    if (caster.z_high <= item.z_low) {
+      if (nearest_first) break;  // so are all that follow
+      continue;
+    }
     if (c == receiver || !caster.overlaps(item)) continue;
     const Relation how = relation(item, caster);
     if (how == Relation::kNone) continue;
