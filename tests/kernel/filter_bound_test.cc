@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bounds of the plane kernel's filter, computed again: rays and their errors against exact
+// ones, on grids from 2 bits to hundreds and for lamps near and far.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gnomon/kernel/plane_light_space.h"
+#include "gnomon/scene/random.h"
+
+namespace gnomon {
+namespace {
+
+using Space = PlaneLightSpace<>;
+using Rational3 = std::array<mpq_class, 3>;
+
+mpz_class random_integer(Random& random, unsigned bits) {
+  mpz_class value = 0;
+  for (unsigned i = 0; i < bits; i += 16) value = (value << 16) + random.between(0, 0xffff);
+  return value >> ((bits + 15) / 16 * 16 - bits);
+}
+
+/// Random vertices, an edge between each two neighbours, and one support plane.
+Geometry random_geometry(Random& random, unsigned bits, VertexId vertices) {
+  Geometry geometry;
+  geometry.step = 1;
+  std::vector<mpz_class> coordinates;
+  for (VertexId v = 0; v < vertices; ++v) {
+    std::array<double, 3> nearest;
+    for (double& x : nearest) {
+      coordinates.push_back(random_integer(random, bits));
+      x = coordinates.back().get_d();
+    }
+    geometry.positions.push_back(nearest);
+  }
+  for (VertexId v = 0; v + 1 < vertices; ++v) geometry.edges.push_back({v, v + 1});
+  geometry.grid = GridPositions::from(std::move(coordinates));
+  geometry.planes.push_back({0, 1, 2});
+  return geometry;
+}
+
+/// As the kernel scales it: by a power of two, the largest component in [1/2, 1), after the z of a
+/// ray or the x and y of a plane of a directional light were multiplied by 2^stretch.
+Rational3 normalized(const std::array<mpz_class, 3>& v, const std::array<unsigned, 3>& stretch) {
+  std::array<mpz_class, 3> scaled;
+  std::size_t most = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    scaled[k] = v[k] << stretch[k];
+    if (sgn(scaled[k]) != 0) most = std::max(most, mpz_sizeinbase(scaled[k].get_mpz_t(), 2));
+  }
+  Rational3 result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    result[k] = mpq_class(scaled[k], mpz_class(1) << most);
+    result[k].canonicalize();
+  }
+  return result;
+}
+
+std::array<mpz_class, 3> q(const Geometry& geometry, const LightPoint& light, VertexId v) {
+  const GridPositions& grid = geometry.grid;
+  const std::array<mpz_class, 3> p = {grid.at(v, 0), grid.at(v, 1), grid.at(v, 2)};
+  const auto& l = light.grid;
+  if (!light.directional) return {l[0] - p[0], l[1] - p[1], l[2] - p[2]};
+  const auto [x, y, z] = LightAxes::of(light);
+  return {p[x] * l[z] - p[z] * l[x], p[y] * l[z] - p[z] * l[y], l[z]};
+}
+
+template <class T>
+std::array<T, 3> cross(const std::array<T, 3>& a, const std::array<T, 3>& b) {
+  return {T(a[1] * b[2] - a[2] * b[1]), T(a[2] * b[0] - a[0] * b[2]), T(a[0] * b[1] - a[1] * b[0])};
+}
+
+void expect_within(const Space::Vertex& vertex, const Rational3& exact, const char* what) {
+  if (std::isinf(vertex.bound)) return;  // of a zero vector: small grids have some
+  // The bound is at least three times the error of a component (3.01 e + 14.1 u m).
+  const mpq_class most = mpq_class(static_cast<double>(vertex.bound)) / 3;
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_LE(abs(mpq_class(vertex.ray[k]) - exact[k]), most) << what << " " << k;
+    EXPECT_LE(abs(exact[k]), 2) << what << " " << k;
+  }
+}
+
+class FilterBound : public testing::TestWithParam<std::tuple<unsigned, bool>> {};
+
+TEST_P(FilterBound, RaysOfVerticesAndCrossings) {
+  const auto [bits, directional] = GetParam();
+  Random random(bits + (directional ? 1000 : 0));
+  for (int round = 0; round < 20; ++round) {
+    const Geometry geometry = random_geometry(random, bits, 12);
+    LightPoint light;
+    light.directional = directional;
+    for (mpz_class& x : light.grid) x = random_integer(random, bits) + 1;
+    Space::SceneSpace scene(geometry, {});
+    Space space(scene, light, {});
+    const unsigned stretch = directional ? geometry.grid.bits() : 0;
+    const SceneEdges names = scene.edges();
+    std::vector<PlaneRef> planes;
+    std::vector<Rational3> exact_planes;
+    for (EdgeId edge = 0; edge < geometry.edges.size(); ++edge) {
+      planes.push_back(space.import_edge(names.of_edge(edge, false), 0, false, {}, {}));
+      const auto [a, b] = geometry.edges[edge];
+      std::array<mpz_class, 3> normal = cross(q(geometry, light, a), q(geometry, light, b));
+      if (directional) {  // the common factor
+        for (mpz_class& x : normal) x /= abs(light.grid[LightAxes::of(light).z]);
+      }
+      exact_planes.push_back(normalized(normal, {stretch, stretch, 0}));
+    }
+    for (VertexId v = 0; v < geometry.positions.size(); ++v) {
+      const Space::Vertex vertex = space.import_vertex(scene.input_vertex(v));
+      expect_within(vertex, normalized(q(geometry, light, v), {0, 0, stretch}), "input vertex");
+      if (bits > 10) EXPECT_LE(vertex.bound, 21 * 0x1p-53);
+    }
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      for (std::size_t j = 0; j < planes.size(); ++j) {
+        Space::Vertex vertex;
+        space.finish_vertex(vertex, planes[i], planes[j]);
+        expect_within(vertex, cross(exact_planes[i], exact_planes[j]), "crossing");
+        if (bits > 10) EXPECT_LE(vertex.bound, 66 * 0x1p-53);
+      }
+    }
+    if (HasFailure()) return;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllMagnitudes, FilterBound,
+                         testing::Combine(testing::Values(2u, 10u, 20u, 31u, 40u, 63u, 64u, 130u,
+                                                          400u),
+                                          testing::Bool()));
+
+}  // namespace
+}  // namespace gnomon
