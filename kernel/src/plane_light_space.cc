@@ -54,6 +54,26 @@ double to_double(const Int& value) {
   }
 }
 
+/// For integers that may be beyond doubles: the bits of a magnitude; else 0.
+template <class Int>
+long excess_bits(const Int& value) {
+  if constexpr (std::is_same_v<Int, mpz_class>) {
+    return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
+  } else {
+    return 0;
+  }
+}
+/// value * 2^-shift, relative error 2u unless it underflows. Requires: shift is 0 if
+/// excess_bits() is.
+template <class Int>
+double to_double(const Int& value, long shift) {
+  if constexpr (std::is_same_v<Int, mpz_class>) {
+    return to_double_scaled(value, shift);
+  } else {
+    return to_double(value);
+  }
+}
+
 /// The vector as doubles, scaled by a power of two so that the largest component is in [1/2, 1),
 /// after component k was multiplied by 2^stretch[k]. Relative error of each at most 2u, or 2^-1074
 /// where it underflows. False: all zero.
@@ -224,20 +244,25 @@ typename PlaneLightSpace<Stats>::DepthPlane PlaneLightSpace<Stats>::depth_plane(
     }
   };
   const unsigned b = shared.geometry->grid.bits();
+  double h;
   if (shared.light.directional) {
     const auto [x, y, z] = shared.axes;
     const unsigned e = shared.light_bits;
-    const double h = scaled(height, 2 * b + e);
+    h = scaled(height, 2 * b + e);
     const double sign = sgn(shared.light.grid[z]) < 0 ? -1 : 1;
     depth.n = {-sign * scaled(normal[x], 2 * b) / h, -sign * scaled(normal[y], 2 * b) / h,
                sign * scaled(dot<Int>(normal, corner), 3 * b) / h};
   } else {
     const unsigned B = shared.q_bits;
-    const double h = scaled(height, 2 * b + B);
+    h = scaled(height, 2 * b + B);
     for (int k = 0; k < 3; ++k) depth.n[k] = scaled(normal[k], 2 * b) / h;
   }
   const double magnitude = largest(depth.n);
-  if (magnitude > 0x1p-900 && magnitude < 0x1p900) depth.magnitude = magnitude;
+  // Neither the quotient nor its operands have lost bits to underflow.
+  if (magnitude > 0x1p-900 && magnitude < 0x1p900 && std::fabs(h) > 0x1p-900 &&
+      magnitude * std::fabs(h) > 0x1p-900) {
+    depth.magnitude = magnitude;
+  }
   return depth;
 }
 
@@ -617,19 +642,26 @@ PlanarPoint PlaneLightSpace<Stats>::accurate_planar_point(const Corner<Vertex>& 
   // The corner's ray r, its plane's normal n and value h at the light, up to one common factor.
   const auto place = [&]<class Normal, class Int, class Ray>(const Vector3<Ray>& r) {
     std::array<double, 4> value;
+    long power;  // of two; unbounded integers may be beyond doubles, and give theirs away first
     if (shared.light.directional) {
-      value = {to_double(r[0]), to_double(r[1]), std::ldexp(to_double(r[2]), shared.stretch), 1};
+      const long top = std::max(excess_bits(r[0]), excess_bits(r[1])), low = excess_bits(r[2]);
+      value = {to_double(r[0], top), to_double(r[1], top), to_double(r[2], low), 1};
+      power = top - low - shared.stretch;
     } else {
       using Position = std::conditional_t<std::is_same_v<Int, mpz_class>, mpz_class, std::int64_t>;
       const ExactGeometry<Position> exact(*shared.geometry);
       const Vector3<Normal> n = exact.template normal<Normal>(corner.support);
       const VertexId a = shared.geometry->planes[corner.support].a;
       const Int height = dot<Int>(n, difference(light<Position>(), exact.position(a)));
-      value = {to_double(r[u]), to_double(r[v]), to_double(dot<Int>(n, r)),
-               std::ldexp(to_double(height), -static_cast<int>(shared.q_bits))};
+      const Int slope = dot<Int>(n, r);
+      const long top = std::max(excess_bits(r[u]), excess_bits(r[v])), low = excess_bits(slope),
+                 far = excess_bits(height);
+      value = {to_double(r[u], top), to_double(r[v], top), to_double(slope, low),
+               to_double(height, far)};
+      power = top - low + far - static_cast<long>(shared.q_bits);
     }
-    point.x = value[0] / value[2] * value[3];
-    point.y = value[1] / value[2] * value[3];
+    point.x = std::ldexp(value[0] / value[2] * value[3], static_cast<int>(power));
+    point.y = std::ldexp(value[1] / value[2] * value[3], static_cast<int>(power));
   };
   const unsigned plane_bits = 2 * shared.geometry->grid.bits() + 1;
   if (made) {
