@@ -513,12 +513,26 @@ void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end, const Light
   for (std::uint32_t i = begin; i < end; ++i) {
     if (context_->scene.parts[items_[i].part].casts) order_.push_back(i);
   }
-  // What hides most goes first, so that little is left for the others to cut. In a leaf of very
-  // many the nearest first: then most pairs need not be looked at.
-  const bool nearest_first = end - begin > kLargeLeaf * context_->options.leaf_size;
+  // What hides most goes first, so that little is left for the others to cut. Where very many small
+  // ones are, the nearest first: then most pairs need not be looked at.
+  const auto area = [](const ChartBox& box) {
+    return (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
+  };
+  bool nearest_first = end - begin > kLargeLeaf * context_->options.leaf_size;
+  if (nearest_first) {
+    ChartBox all = items_[begin];
+    float sum = 0;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        all.low[k] = std::min(all.low[k], items_[i].low[k]);
+        all.high[k] = std::max(all.high[k], items_[i].high[k]);
+      }
+      sum += area(items_[i]);
+    }
+    nearest_first = sum < 0.1f * static_cast<float>(end - begin) * area(all);
+  }
   const auto weight = [&](const SectorItem& item) {
-    if (nearest_first) return item.z_high;
-    return (item.high[0] - item.low[0]) * (item.high[1] - item.low[1]);
+    return nearest_first ? item.z_high : area(item);
   };
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
     const float own = weight(items_[a]), other = weight(items_[b]);
