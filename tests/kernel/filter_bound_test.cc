@@ -109,14 +109,18 @@ TEST_P(FilterBound, RaysOfVerticesAndCrossings) {
     for (VertexId v = 0; v < geometry.positions.size(); ++v) {
       const Space::Vertex vertex = space.import_vertex(scene.input_vertex(v));
       expect_within(vertex, normalized(q(geometry, light, v), {0, 0, stretch}), "input vertex");
-      if (bits > 10) EXPECT_LE(vertex.bound, 21 * 0x1p-53);
+      if (bits > 10) {
+        EXPECT_LE(vertex.bound, 21 * 0x1p-53);
+      }
     }
     for (std::size_t i = 0; i < planes.size(); ++i) {
       for (std::size_t j = 0; j < planes.size(); ++j) {
         Space::Vertex vertex;
         space.finish_vertex(vertex, planes[i], planes[j]);
         expect_within(vertex, cross(exact_planes[i], exact_planes[j]), "crossing");
-        if (bits > 10) EXPECT_LE(vertex.bound, 66 * 0x1p-53);
+        if (bits > 10) {
+          EXPECT_LE(vertex.bound, 66 * 0x1p-53);
+        }
       }
     }
     if (HasFailure()) return;
