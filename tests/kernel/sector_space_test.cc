@@ -3,13 +3,18 @@
 
 #include "gnomon/kernel/coordinate_space.h"
 #include "gnomon/kernel/epick_space.h"
+#include "gnomon/kernel/plane_light_space.h"
 
 namespace gnomon::test {
+
+template <>
+inline constexpr bool kDepthsPerDirection<PlaneLightSpace<NoStats>> = true;
+
 namespace {
 
 using Kernels = testing::Types<CoordinateLightSpace<float>, CoordinateLightSpace<double>,
                                CoordinateLightSpace<long double>, CoordinateLightSpace<mpq_class>,
-                               EpickLightSpace>;
+                               EpickLightSpace, PlaneLightSpace<NoStats>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Kernels, SectorSpace, Kernels);
 
 TEST(SectorSpaceThickness, ASupportPlaneHasIt) {
