@@ -224,6 +224,23 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LargeSectorsAndSvbsp,
 
 // --- Bounds ---
 
+/// Bounds computed without exact fractions hold those, and are narrow.
+void expect_bounds(const PreparedScene& scene, ShadowOptions options) {
+  const ShadowResult bounds = solved(scene, options);
+  options.exact_fractions = true;
+  const ShadowResult exact = solved(scene, options);
+  for (std::size_t l = 0; l < exact.lights.size(); ++l) {
+    for (std::size_t i = 0; i < exact.lights[l].parts.size(); ++i) {
+      const PartResult &truth = exact.lights[l].parts[i], &own = bounds.lights[l].parts[i];
+      ASSERT_LE(mpq_class(own.lit.lower), truth.exact_lit);
+      ASSERT_GE(mpq_class(own.lit.upper), truth.exact_lit);
+      ASSERT_LE(mpq_class(own.shadow.lower), truth.exact_shadow);
+      ASSERT_GE(mpq_class(own.shadow.upper), truth.exact_shadow);
+      ASSERT_LT(own.lit.upper - own.lit.lower, 1e-6);
+    }
+  }
+}
+
 class SectorBounds : public testing::TestWithParam<std::string> {};
 
 TEST_P(SectorBounds, HoldTheExactFractionAtEveryScale) {
@@ -235,20 +252,26 @@ TEST_P(SectorBounds, HoldTheExactFractionAtEveryScale) {
       for (const KernelId kernel : {KernelId::kPlane, KernelId::kRational}) {
         ShadowOptions options = sectors(kernel);
         options.leaf_size = seed % 2 == 0 ? 1 : 16;
-        const ShadowResult bounds = solved(scene->prepared(), options);
-        options.exact_fractions = true;
-        const ShadowResult exact = solved(scene->prepared(), options);
-        for (std::size_t l = 0; l < exact.lights.size(); ++l) {
-          for (std::size_t i = 0; i < exact.lights[l].parts.size(); ++i) {
-            const PartResult &truth = exact.lights[l].parts[i], &own = bounds.lights[l].parts[i];
-            ASSERT_LE(mpq_class(own.lit.lower), truth.exact_lit) << seed << ' ' << exponent;
-            ASSERT_GE(mpq_class(own.lit.upper), truth.exact_lit) << seed << ' ' << exponent;
-            ASSERT_LE(mpq_class(own.shadow.lower), truth.exact_shadow) << seed << ' ' << exponent;
-            ASSERT_GE(mpq_class(own.shadow.upper), truth.exact_shadow) << seed << ' ' << exponent;
-            ASSERT_LT(own.lit.upper - own.lit.lower, 1e-6) << seed << ' ' << exponent;
-          }
-        }
+        expect_bounds(scene->prepared(), options);
+        ASSERT_FALSE(HasFatalFailure()) << seed << " times 2^" << exponent;
       }
+    }
+  }
+}
+
+// Grids of some 500 bits, and cells whose corners have few: integers of one area on both sides of
+// the largest double.
+TEST(SectorBoundsOnWideGrids, HoldTheExactFraction) {
+  for (const std::uint64_t seed : {50000370u, 50000441u, 50000562u}) {
+    const auto scene = Case::make(family_by_name("MixedMagnitudes").make(seed));
+    ASSERT_TRUE(scene);
+    EXPECT_GT(scene->prepared().geometry.grid.bits(), 400u);
+    for (const std::uint32_t leaf_size : {0u, 1u, 2u}) {
+      ShadowOptions options = sectors();
+      options.leaf_size = leaf_size;
+      options.task_size = leaf_size + 1;
+      expect_bounds(scene->prepared(), options);
+      ASSERT_FALSE(testing::Test::HasFatalFailure()) << seed;
     }
   }
 }
