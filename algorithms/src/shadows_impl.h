@@ -7,6 +7,7 @@
 #include <deque>
 #include <optional>
 #include <span>
+#include <thread>
 #include <utility>
 
 #include "fractions.h"
@@ -268,8 +269,10 @@ template <SectorSpaceModel Space>
 Expected<ShadowResult> compute_by_sectors(const PreparedScene& scene, const ShadowOptions& options,
                                           const std::vector<std::uint32_t>& lights,
                                           ShadowResult result) {
-  tbb::task_arena arena(options.jobs == 0 ? tbb::task_arena::automatic
-                                          : static_cast<int>(options.jobs));
+  // More threads than processors would only wait for each other.
+  const unsigned most = std::max(1u, std::thread::hardware_concurrency());
+  const unsigned jobs = options.jobs == 0 ? most : std::min(options.jobs, most);
+  tbb::task_arena arena(static_cast<int>(jobs));
   return arena.execute(
       [&] { return compute_by_sectors_here<Space>(scene, options, lights, std::move(result)); });
 }

@@ -138,7 +138,9 @@ PlaneRef EpeckLightSpace::add_prefix_plane(const PrefixPlane& prefix) {
   const bool first = sgn(prefix.n[0]) != 0;
   const Number along = number_from(first ? prefix.n[0] : prefix.n[1]);
   const int u = first ? axes_.x : axes_.y, z = axes_.z;
-  std::array<Number, 3> normal, point;
+  // Not default-constructed: CGAL's default zero has an interval that is not initialized.
+  const Number zero(0);
+  std::array<Number, 3> normal{zero, zero, zero}, point = normal;
   normal[u] = along * direction_[z];
   normal[z] = -along * direction_[u];
   point[u] = -number_from(prefix.n[2]) / along;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The storage changes at 62 bits; what is stored does not.
+// The storage changes at 63 bits; what is stored does not.
 #include <gtest/gtest.h>
+
+#include <limits>
 
 #include "gnomon/kernel/geometry.h"
 
@@ -33,7 +35,7 @@ TEST(GridPositions, NarrowUpToItsLimit) {
   EXPECT_EQ(grid.bits(), GridPositions::kNarrowBits);
   ASSERT_TRUE(grid.is_narrow());
   EXPECT_EQ(grid.narrow(0, 2), 3);
-  EXPECT_EQ(grid.narrow(1, 1), (std::int64_t{1} << 62) - 1);
+  EXPECT_EQ(grid.narrow(1, 1), std::numeric_limits<std::int64_t>::max());
   EXPECT_EQ(grid.at(1, 1), largest);
 }
 
