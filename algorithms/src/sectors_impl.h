@@ -159,16 +159,22 @@ SectorCell SectorRun<Space>::common_cell(Tree& planner, std::span<const SectorIt
       if (tree.cell_of(view(i)) != cell) all.store(false, std::memory_order_relaxed);
     }
   };
-  // Without identity a fork has to copy the planes of all edges.
-  if (jobs_ == 1 || !planner.space().knows_identity()) {
+  // Without identity a fork has to copy the planes of all edges. With it, decisions are a fork's
+  // and not counted: how many there are depends on the threads.
+  const auto test_in_fork = [&](std::uint32_t begin, std::uint32_t end) {
+    Tree tree(planner.context(), planner.space().fork());
+    tree.use_sector_planes(planner);
+    test(tree, begin, end);
+  };
+  if (!planner.space().knows_identity()) {
     test(planner, 1, count);
+  } else if (jobs_ == 1) {
+    test_in_fork(1, count);
   } else {
-    constexpr std::uint32_t kRanges = 16;
-    tbb::parallel_for(std::uint32_t{0}, kRanges, [&](std::uint32_t range) {
-      Tree tree(planner.context(), planner.space().fork());
-      tree.use_sector_planes(planner);
-      test(tree, static_cast<std::uint32_t>(std::uint64_t{count} * range / kRanges),
-           static_cast<std::uint32_t>(std::uint64_t{count} * (range + 1) / kRanges));
+    constexpr std::uint64_t kRanges = 16;
+    tbb::parallel_for(std::uint64_t{0}, kRanges, [&](std::uint64_t range) {
+      test_in_fork(static_cast<std::uint32_t>(count * range / kRanges),
+                   static_cast<std::uint32_t>(count * (range + 1) / kRanges));
     });
   }
   return all ? cell : planner.root_cell();
