@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "gnomon/algorithms/shadow_result.h"
@@ -47,6 +48,22 @@ class FractionSum {
   std::vector<bool> filled_;
 };
 
+/// Twice the area of a loop in scene units, in a chart of its plane; exact.
+template <LightSpaceModel Space>
+mpq_class twice_exact_area(const Space& space, const Chart& chart,
+                           const LoopView<typename Space::Vertex>& loop) {
+  mpq_class sum = 0;
+  const auto first = space.exact_position(loop.corner(0));
+  auto previous = space.exact_position(loop.corner(1));
+  for (std::uint32_t i = 2; i < loop.size(); ++i) {
+    auto next = space.exact_position(loop.corner(i));
+    sum += (previous[chart.u] - first[chart.u]) * (next[chart.v] - first[chart.v]) -
+           (previous[chart.v] - first[chart.v]) * (next[chart.u] - first[chart.u]);
+    previous = std::move(next);
+  }
+  return abs(sum);
+}
+
 /// Measures fragments against the area of their part. The part's loop must outlive it.
 template <LightSpaceModel Space>
 class PartMeasure {
@@ -68,8 +85,8 @@ class PartMeasure {
     result.enclosure = enclosed_area(loop) / area_;
     if constexpr (Space::kExact) {
       if (always_exact_ || !(result.enclosure.radius < kWidest)) {
-        if (sgn(exact_area_) == 0) exact_area_ = exact_area(part_);
-        result.exact = exact_area(loop) / exact_area_;
+        if (sgn(exact_area_) == 0) exact_area_ = twice_exact_area(space_, chart_, part_);
+        result.exact = twice_exact_area(space_, chart_, loop) / exact_area_;
         result.has_exact = true;
         const double value = result.exact.get_d();  // truncated: within one unit in the last place
         result.enclosure = Ball(value, 2 * Ball::kUnit * std::fabs(value) + Ball::kTiny);
@@ -92,19 +109,6 @@ class PartMeasure {
     }
     return sum;
   }
-  mpq_class exact_area(const Loop& loop) const {
-    mpq_class sum = 0;
-    const auto first = space_.exact_position(loop.corner(0));
-    auto previous = space_.exact_position(loop.corner(1));
-    for (std::uint32_t i = 2; i < loop.size(); ++i) {
-      auto next = space_.exact_position(loop.corner(i));
-      sum += (previous[chart_.u] - first[chart_.u]) * (next[chart_.v] - first[chart_.v]) -
-             (previous[chart_.v] - first[chart_.v]) * (next[chart_.u] - first[chart_.u]);
-      previous = std::move(next);
-    }
-    return sum;
-  }
-
   const Space& space_;
   Chart chart_;
   Loop part_;

@@ -89,22 +89,8 @@ Ball twice_area(const Space& space, const PlaneCharts& charts,
   return area;
 }
 
-/// Twice the area of a part and of one of its pieces in scene units, in the chart of its plane.
+/// Twice the area of a part in scene units, in the chart of its plane; exact.
 mpq_class twice_exact_area(const PreparedScene& scene, const Part& part);
-template <LightSpaceModel Space>
-mpq_class twice_exact_area(const Space& space, const Chart& chart,
-                           const LoopView<typename Space::Vertex>& loop) {
-  mpq_class sum = 0;
-  const auto first = space.exact_position(loop.corner(0));
-  auto previous = space.exact_position(loop.corner(1));
-  for (std::uint32_t i = 2; i < loop.size(); ++i) {
-    auto next = space.exact_position(loop.corner(i));
-    sum += (previous[chart.u] - first[chart.u]) * (next[chart.v] - first[chart.v]) -
-           (previous[chart.v] - first[chart.v]) * (next[chart.u] - first[chart.u]);
-    previous = std::move(next);
-  }
-  return abs(sum);
-}
 
 }  // namespace gnomon
 

@@ -7,6 +7,10 @@
 namespace gnomon {
 namespace {
 
+// Bins that a double cannot tell apart: relative to the coordinates, and where these are about 0.
+constexpr double kNarrowestBin = 1e-15;
+constexpr double kNarrowestAtZero = 1e-17;
+
 /// A value within the given width of `near` that has few bits.
 SectorSplit short_split(int axis, double near, double width) {
   SectorSplit split;
@@ -42,7 +46,10 @@ std::optional<SectorSplit> SplitChooser::choose(std::span<const SectorItem> item
       if (item.high[k] < INFINITY) high = std::max(high, item.high[k]);
     }
     const double width = (static_cast<double>(high) - static_cast<double>(low)) / kBins;
-    if (!(width > 1e-15 * std::max(std::fabs(low), std::fabs(high))) || !(width > 1e-17)) continue;
+    if (!(width > kNarrowestBin * std::max(std::fabs(low), std::fabs(high))) ||
+        !(width > kNarrowestAtZero)) {
+      continue;
+    }
     // starts[i], ends[i]: boxes that begin, end in bin i.
     std::array<std::uint32_t, kBins> starts{}, ends{};
     const auto bin = [&](float value) {

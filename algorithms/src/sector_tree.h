@@ -163,6 +163,7 @@ class SectorTree {
   };
   enum class Relation : std::uint8_t { kNone, kBehind, kCrossing };
 
+  void enter(SectorCell cell, Range items, bool located);
   void descend(std::uint32_t task_size, std::vector<Task>* tasks);
   bool stopped() const {
     const std::atomic<bool>* interrupted = context_->options.interrupted;

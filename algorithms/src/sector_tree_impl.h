@@ -119,6 +119,18 @@ void SectorTree<Space>::run(Task& task, const SectorTree& planner) {
   exact_areas_.clear();
 }
 
+// Puts a cell on the stack, if anything is in it. By value: what refers to the stack would move.
+template <SectorSpaceModel Space>
+void SectorTree<Space>::enter(SectorCell cell, Range items, bool located) {
+  if (items.begin == items.end) return;
+  Frame frame;
+  frame.cell = cell;
+  frame.begin = items.begin;
+  frame.end = items.end;
+  frame.located = located;
+  stack_.push_back(frame);
+}
+
 template <SectorSpaceModel Space>
 void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* tasks) {
   while (!stack_.empty() && !stopped()) {
@@ -145,24 +157,10 @@ void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* task
         continue;
       }
       frame.stage = 1;
-      if (frame.middle < frame.children_end) {
-        Frame front;
-        front.cell = frame.front_cell;
-        front.begin = frame.middle;
-        front.end = frame.children_end;
-        front.located = frame.located;
-        stack_.push_back(front);
-      }
+      enter(frame.front_cell, {frame.middle, frame.children_end}, frame.located);
     } else if (frame.stage == 1) {
       frame.stage = 2;
-      if (frame.children < frame.middle) {
-        Frame back;
-        back.cell = frame.back_cell;
-        back.begin = frame.children;
-        back.end = frame.middle;
-        back.located = frame.located;
-        stack_.push_back(back);
-      }
+      enter(frame.back_cell, {frame.children, frame.middle}, frame.located);
     } else {
       const Range children{frame.children, frame.children_end};
       if (tasks != nullptr) {
@@ -317,7 +315,6 @@ template <SectorSpaceModel Space>
 bool SectorTree<Space>::split(Frame& frame, std::uint32_t open_end) {
   frame.loops_mark = loops_.size();
   frame.planes_mark = space_.plane_mark();
-  frame.front_cell = frame.back_cell = frame.cell;
   while (frame.cell.level < SectorCell::kChart) {
     if (split_by_sector_plane(frame, open_end)) return true;
   }

@@ -45,9 +45,7 @@ mpz_class normal_dot(const Vector3<mpz_class>& n, const std::array<mpz_class, 3>
 /// doubles.
 template <class Int>
 double to_double(const Int& value) {
-  if constexpr (std::is_same_v<Int, mpz_class>) {
-    return to_double_scaled(value, 0);
-  } else if constexpr (kLimbsOf<Int> <= 2) {
+  if constexpr (kLimbsOf<Int> == 1 || kLimbsOf<Int> == 2) {
     return static_cast<double>(value);
   } else {
     return to_double_scaled(value, 0);
@@ -61,16 +59,6 @@ long excess_bits(const Int& value) {
     return static_cast<long>(mpz_sizeinbase(value.get_mpz_t(), 2));
   } else {
     return 0;
-  }
-}
-/// value * 2^-shift, relative error 2u unless it underflows. Requires: shift is 0 if
-/// excess_bits() is.
-template <class Int>
-double to_double(const Int& value, long shift) {
-  if constexpr (std::is_same_v<Int, mpz_class>) {
-    return to_double_scaled(value, shift);
-  } else {
-    return to_double(value);
   }
 }
 
@@ -235,27 +223,21 @@ typename PlaneLightSpace<Stats>::DepthPlane PlaneLightSpace<Stats>::depth_plane(
   depth.at_light = sign_of(height);
   depth.magnitude = kInfinity;
   if (depth.at_light == Sign::kZero) return depth;
-  // |value| * 2^-shift, such that nothing of usual size over- or underflows.
-  const auto scaled = []<class Value>(const Value& value, unsigned shift) {
-    if constexpr (kLimbsOf<Value> == 1 || kLimbsOf<Value> == 2) {
-      return std::ldexp(static_cast<double>(value), -static_cast<int>(shift));
-    } else {
-      return to_double_scaled(value, shift);
-    }
-  };
+  // Scaled such that nothing of usual size over- or underflows.
   const unsigned b = shared.geometry->grid.bits();
   double h;
   if (shared.light.directional) {
     const auto [x, y, z] = shared.axes;
     const unsigned e = shared.light_bits;
-    h = scaled(height, 2 * b + e);
+    h = to_double_scaled(height, 2 * b + e);
     const double sign = sgn(shared.light.grid[z]) < 0 ? -1 : 1;
-    depth.n = {-sign * scaled(normal[x], 2 * b) / h, -sign * scaled(normal[y], 2 * b) / h,
-               sign * scaled(dot<Int>(normal, corner), 3 * b) / h};
+    depth.n = {-sign * to_double_scaled(normal[x], 2 * b) / h,
+               -sign * to_double_scaled(normal[y], 2 * b) / h,
+               sign * to_double_scaled(dot<Int>(normal, corner), 3 * b) / h};
   } else {
     const unsigned B = shared.q_bits;
-    h = scaled(height, 2 * b + B);
-    for (int k = 0; k < 3; ++k) depth.n[k] = scaled(normal[k], 2 * b) / h;
+    h = to_double_scaled(height, 2 * b + B);
+    for (int k = 0; k < 3; ++k) depth.n[k] = to_double_scaled(normal[k], 2 * b) / h;
   }
   const double magnitude = largest(depth.n);
   // Neither the quotient nor its operands have lost bits to underflow.
@@ -645,7 +627,8 @@ PlanarPoint PlaneLightSpace<Stats>::accurate_planar_point(const Corner<Vertex>& 
     long power;  // of two; unbounded integers may be beyond doubles, and give theirs away first
     if (shared.light.directional) {
       const long top = std::max(excess_bits(r[0]), excess_bits(r[1])), low = excess_bits(r[2]);
-      value = {to_double(r[0], top), to_double(r[1], top), to_double(r[2], low), 1};
+      value = {to_double_scaled(r[0], top), to_double_scaled(r[1], top),
+               to_double_scaled(r[2], low), 1};
       power = top - low - shared.stretch;
     } else {
       using Position = std::conditional_t<std::is_same_v<Int, mpz_class>, mpz_class, std::int64_t>;
@@ -656,8 +639,8 @@ PlanarPoint PlaneLightSpace<Stats>::accurate_planar_point(const Corner<Vertex>& 
       const Int slope = dot<Int>(n, r);
       const long top = std::max(excess_bits(r[u]), excess_bits(r[v])), low = excess_bits(slope),
                  far = excess_bits(height);
-      value = {to_double(r[u], top), to_double(r[v], top), to_double(slope, low),
-               to_double(height, far)};
+      value = {to_double_scaled(r[u], top), to_double_scaled(r[v], top),
+               to_double_scaled(slope, low), to_double_scaled(height, far)};
       power = top - low + far - static_cast<long>(shared.q_bits);
     }
     point.x = std::ldexp(value[0] / value[2] * value[3], static_cast<int>(power));
