@@ -4,6 +4,7 @@
 #define GNOMON_KERNEL_SRC_COORDINATE_SPACE_IMPL_H
 
 #include <cmath>
+#include <span>
 
 #include "gnomon/kernel/coordinate_space.h"
 
@@ -37,11 +38,12 @@ template <class T>
 Sign side_of_zero(const T& value, const T& thickness) {
   return value > thickness ? Sign::kPositive : value < -thickness ? Sign::kNegative : Sign::kZero;
 }
-/// Scene's diagonal in scene units, from the nearest doubles.
+/// Scene's diagonal in scene units, from the nearest doubles; lights do not count.
 inline double diagonal(const Geometry& geometry) {
   std::array<double, 3> low{}, high{};
   bool first = true;
-  for (const auto& p : geometry.positions) {
+  const std::size_t count = geometry.positions.size() - geometry.light_vertices;
+  for (const auto& p : std::span(geometry.positions).first(count)) {
     for (int k = 0; k < 3; ++k) {
       low[k] = first ? p[k] : std::fmin(low[k], p[k]);
       high[k] = first ? p[k] : std::fmax(high[k], p[k]);

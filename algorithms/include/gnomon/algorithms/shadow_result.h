@@ -31,7 +31,9 @@ struct Interval {
 struct Fragment {
   static constexpr std::uint32_t kNoCaster = 0xffffffffu;
   LightState state = LightState::kLit;
-  std::uint32_t caster = kNoCaster;    // part index of the witness
+  ShadowReason reason = ShadowReason::kNone;  // kBehindLight: of a part that reaches behind an area
+                                              // light, the piece there; umbra without a caster
+  std::uint32_t caster = kNoCaster;           // part index of the witness
   std::uint32_t first = 0, count = 0;  // into points / exact_points of the LightResult, if kept
 };
 
@@ -41,15 +43,25 @@ struct PartResult {
   Side side = Side::kFront;  // the part's side that faces the light; kFront if none does
   ShadowReason reason = ShadowReason::kNone;  // set: the whole part is in shadow, no fragments
   std::uint32_t first_fragment = 0, fragment_count = 0;
-  Interval lit;  // fraction of the part's area; for rounded kernels lower == upper
-  Interval shadow;
+  Interval lit;         // fraction of the part's area; for rounded kernels lower == upper
+  Interval shadow;      // 0 for an area light: see AreaFractions
   mpq_class exact_lit;  // exact kernels on request (ShadowOptions::exact_fractions), else 0
   mpq_class exact_shadow;
 };
 
+/// What a part's side has under an area light besides PartResult::lit. On exact kernels the three
+/// fractions add up to exactly 1.
+struct AreaFractions {
+  Interval penumbra, umbra;
+  mpq_class exact_penumbra, exact_umbra;  // as PartResult::exact_lit
+};
+
 struct LightResult {
-  std::uint32_t light = 0;        // index into PreparedScene::lights
-  std::vector<PartResult> parts;  // one a part, in order
+  std::uint32_t light = 0;  // index into PreparedScene::lights
+  // Point and directional lights: one a part, in order. Area lights: one for each side of a part
+  // that sees the light, front before back, or one with kFront and a reason if none does.
+  std::vector<PartResult> parts;
+  std::vector<AreaFractions> area_fractions;  // area lights: one for each of `parts`; else empty
   std::vector<Fragment> fragments;
   std::vector<std::array<double, 3>> points;           // nearest doubles, scene units
   std::vector<std::array<mpq_class, 3>> exact_points;  // scene units
@@ -59,17 +71,19 @@ struct LightResult {
   std::uint64_t dropped_slivers = 0;
 };
 
-/// A fragment of one side of a part, and the set of lights that reach all of it.
+/// A fragment of one side of a part, and its class under every light.
 struct CombinedFragment {
   std::uint32_t part = 0;
   Side side = Side::kFront;
-  std::uint64_t lit_by = 0;            // bit i: ShadowResult::lights[i]
+  std::uint64_t lit_by = 0;            // bit i: ShadowResult::lights[i] reaches all of it
+  std::uint64_t penumbra_of = 0;       // bit i: it is in the penumbra of that (area) light
   std::uint32_t first = 0, count = 0;  // into combined_points / combined_exact_points
 };
 
 struct ShadowResult {
   std::string kernel;     // id of formats: "plane", "double", ...
-  std::string algorithm;  // "svbsp"
+  std::string algorithm;  // "sectors", "svbsp", "receiver", "merged", "pieces"; "sectors+receiver"
+                          // if point and area lights took different ways
   bool exact = false;
   bool identity = false;
   double thickness = 0;  // relative plane thickness (float kernels)

@@ -81,6 +81,8 @@ struct SupportTriple {
 /// orientation).
 struct Geometry {
   std::vector<std::array<double, 3>> positions;  // nearest doubles, scene units
+  /// The last so many positions are of lights alone: no part of the scene's diagonal.
+  std::uint32_t light_vertices = 0;
   GridPositions grid;
   mpq_class step;                   // scene units per grid unit, positive
   std::array<mpq_class, 3> origin;  // scene position of the grid's (0, 0, 0)

@@ -10,6 +10,7 @@
 
 #include "gnomon/kernel/ball.h"
 #include "gnomon/kernel/corner.h"
+#include "gnomon/kernel/geometry.h"
 #include "gnomon/kernel/kernel_options.h"
 #include "gnomon/kernel/light_space.h"
 #include "gnomon/kernel/predicate_stats.h"
@@ -83,6 +84,45 @@ concept SectorSpaceModel = LightSpaceModel<S> &&
   /// in front of `second`. Not for planes that do not meet in a line.
   { space.cut_of_supports(plane, plane) } -> std::same_as<PlaneRef>;
   { constant.chart_point(chart, corner) } -> std::same_as<ChartPoint>;
+};
+
+/// What area lights need, in three dimensions: planes through three points (of casters and lights),
+/// and the sides that the corners of loops have of them. A *corner* names a point: an input vertex,
+/// or a made one by its loop's support plane and the planes of its two edges. Geometry holds the
+/// vertices, edges and planes of the lights, too.
+///
+/// A plane is named as in scene space (SceneEdges): below edges().planes a support plane; then the
+/// input edges, which are names of edges of loops and cut nothing; from `planes + edges` on the
+/// planes added here, a stack.
+template <class S>
+concept VolumeSpaceModel = DecisionSpace<S> && SceneSpaceModel<typename S::SceneSpace> &&
+    std::constructible_from<S, const typename S::SceneSpace&, const KernelOptions&> &&
+    requires(S& space, const S& constant, VertexId id, int axis, double value, std::uint32_t mark,
+             const LightPoint& direction, const Corner<typename S::Vertex>& corner) {
+  /// Whether forks may be used by different threads at the same time.
+  { S::kParallel } -> std::convertible_to<bool>;
+  /// A space with the same planes so far; what either adds later is its own.
+  { constant.fork() } -> std::same_as<S>;
+  { constant.geometry() } -> std::same_as<const Geometry&>;
+  { constant.edges() } -> std::same_as<SceneEdges>;
+  { constant.input_vertex(id) } -> std::same_as<typename S::Vertex>;
+  /// The plane through three points, counter-clockwise seen from its front; not valid() if they are
+  /// on one line. Support planes and edges named by the corners must not be added planes: the
+  /// points are of input polygons, or of lights cut by support planes.
+  { space.add_plane(corner, corner, corner) } -> std::same_as<PlaneRef>;
+  /// The same with a third point at infinity: the plane through two points and along a direction.
+  { space.add_plane(corner, corner, direction) } -> std::same_as<PlaneRef>;
+  /// The plane on which coordinate `axis` is `value` of the grid's extent, 0 to 1; its front is
+  /// where the coordinate is larger.
+  { space.add_axis_plane(axis, value) } -> std::same_as<PlaneRef>;
+  { constant.plane_mark() } -> std::same_as<std::uint32_t>;
+  space.release_planes(mark);
+  /// Fractions of the grid's extent (all axes alike): certified on exact kernels.
+  { constant.position(corner) } -> std::same_as<std::array<Ball, 3>>;
+  /// Scene units; the exact point on exact kernels.
+  { constant.exact_position(corner) } -> std::same_as<std::array<mpq_class, 3>>;
+  /// Scene units; the nearest doubles on exact kernels.
+  { constant.nearest_position(corner) } -> std::same_as<std::array<double, 3>>;
 };
 
 }  // namespace gnomon
