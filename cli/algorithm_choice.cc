@@ -22,6 +22,8 @@ std::string_view name_of(Algorithm algorithm) {
       return kSvbspName;
     case Algorithm::kSectors:
       return kSectorsName;
+    case Algorithm::kReceiver:
+      return kReceiverName;
   }
   return {};
 }

@@ -16,6 +16,7 @@ namespace gnomon::cli {
 inline constexpr std::string_view kAutomaticName = "auto";
 inline constexpr std::string_view kSvbspName = "svbsp";
 inline constexpr std::string_view kSectorsName = "sectors";
+inline constexpr std::string_view kReceiverName = "receiver";
 /// For commands that take each of them.
 inline constexpr std::string_view kBothName = "both";
 

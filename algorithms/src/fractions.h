@@ -49,7 +49,7 @@ class FractionSum {
 };
 
 /// Twice the area of a loop in scene units, in a chart of its plane; exact.
-template <LightSpaceModel Space>
+template <MeasuredSpace Space>
 mpq_class twice_exact_area(const Space& space, const Chart& chart,
                            const LoopView<typename Space::Vertex>& loop) {
   mpq_class sum = 0;
@@ -65,7 +65,7 @@ mpq_class twice_exact_area(const Space& space, const Chart& chart,
 }
 
 /// Measures fragments against the area of their part. The part's loop must outlive it.
-template <LightSpaceModel Space>
+template <MeasuredSpace Space>
 class PartMeasure {
  public:
   using Loop = LoopView<typename Space::Vertex>;

@@ -31,7 +31,7 @@ class PlaneCharts {
 
 /// Coordinates of a corner in an affine frame of the support plane of its loop, the same frame for
 /// all loops of that plane.
-template <LightSpaceModel Space>
+template <MeasuredSpace Space>
 PlanarPoint planar_point(const Space& space, const PlaneCharts& charts,
                          const Corner<typename Space::Vertex>& corner) {
   if constexpr (requires { space.planar_point(corner); }) {
@@ -75,7 +75,7 @@ Ball twice_area(const Loop& loop, const PointOf& point_of) {
 
 /// The same for a loop in light space. Where the bounds of the doubles leave more than `widest`,
 /// a kernel that can computes the corners from its integers.
-template <LightSpaceModel Space>
+template <MeasuredSpace Space>
 Ball twice_area(const Space& space, const PlaneCharts& charts,
                 const LoopView<typename Space::Vertex>& loop, double widest) {
   const Ball area =

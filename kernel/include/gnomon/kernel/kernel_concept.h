@@ -39,6 +39,14 @@ concept SceneSpaceModel = DecisionSpace<S> &&
   { space.edges() } -> std::same_as<SceneEdges>;
 };
 
+/// A space that can say where a corner is, so that areas can be measured.
+template <class S>
+concept MeasuredSpace = DecisionSpace<S> &&
+    requires(const S& constant, const Corner<typename S::Vertex>& corner) {
+  { constant.position(corner) } -> std::same_as<std::array<Ball, 3>>;
+  { constant.exact_position(corner) } -> std::same_as<std::array<mpq_class, 3>>;
+};
+
 /// Planes through one light: decisions of the SVBSP tree.
 template <class S>
 concept LightSpaceModel = DecisionSpace<S> && SceneSpaceModel<typename S::SceneSpace> &&
@@ -88,8 +96,9 @@ concept SectorSpaceModel = LightSpaceModel<S> &&
 
 /// What area lights need, in three dimensions: planes through three points (of casters and lights),
 /// and the sides that the corners of loops have of them. A *corner* names a point: an input vertex,
-/// or a made one by its loop's support plane and the planes of its two edges. Geometry holds the
-/// vertices, edges and planes of the lights, too.
+/// or a made one by its loop's support plane and the planes of its two edges; the support of a face
+/// of a shadow volume is a plane added here. Geometry holds the vertices, edges and planes of the
+/// lights, too.
 ///
 /// A plane is named as in scene space (SceneEdges): below edges().planes a support plane; then the
 /// input edges, which are names of edges of loops and cut nothing; from `planes + edges` on the
