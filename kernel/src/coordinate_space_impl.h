@@ -164,6 +164,26 @@ std::array<T, 3> light_of(const Geometry& geometry, const LightPoint& light) {
   return result;
 }
 
+/// The numbers themselves; zero for one that is not finite.
+template <class T>
+std::array<mpq_class, 3> exact_point(const std::array<T, 3>& x) {
+  std::array<mpq_class, 3> point;
+  for (int k = 0; k < 3; ++k) {
+    if constexpr (std::is_same_v<T, mpq_class>) {
+      point[k] = x[k];
+    } else if constexpr (std::is_same_v<T, long double>) {
+      // A long double has 64 bits: two doubles hold it exactly.
+      const double high = static_cast<double>(x[k]);
+      const double low = static_cast<double>(x[k] - static_cast<long double>(high));
+      point[k] = std::isfinite(high) ? mpq_class(mpq_class(high) + mpq_class(low)) : mpq_class(0);
+    } else {
+      const double value = static_cast<double>(x[k]);
+      point[k] = std::isfinite(value) ? mpq_class(value) : mpq_class(0);
+    }
+  }
+  return point;
+}
+
 }  // namespace coordinate_detail
 
 template <class T>
@@ -259,21 +279,7 @@ std::array<Ball, 3> CoordinateLightSpace<T>::position(const Corner<Vertex>& corn
 template <class T>
 std::array<mpq_class, 3> CoordinateLightSpace<T>::exact_position(
     const Corner<Vertex>& corner) const {
-  std::array<mpq_class, 3> point;
-  for (int k = 0; k < 3; ++k) {
-    if constexpr (kExact) {
-      point[k] = corner.vertex.x[k];
-    } else if constexpr (std::is_same_v<T, long double>) {
-      // A long double has 64 bits: two doubles hold it exactly.
-      const double high = static_cast<double>(corner.vertex.x[k]);
-      const double low = static_cast<double>(corner.vertex.x[k] - static_cast<long double>(high));
-      point[k] = std::isfinite(high) ? mpq_class(mpq_class(high) + mpq_class(low)) : mpq_class(0);
-    } else {
-      const double x = static_cast<double>(corner.vertex.x[k]);
-      point[k] = std::isfinite(x) ? mpq_class(x) : mpq_class(0);
-    }
-  }
-  return point;
+  return coordinate_detail::exact_point(corner.vertex.x);
 }
 
 // The differences are exact: enclosing the coordinates first would lose what is near the light.
