@@ -88,8 +88,9 @@ void import_loop(Space& space, const LoopView<typename Space::SceneSpace::Vertex
   }
 }
 
-/// A whole part as a loop of scene space, in `store` (which is cleared).
-template <SceneSpaceModel SceneSpace>
+/// A whole part as a loop of a space that names input edges as scene space does, in `store` (which
+/// is cleared).
+template <class SceneSpace>
 LoopView<typename SceneSpace::Vertex> part_loop(const SceneSpace& space, const PreparedScene& scene,
                                                 std::uint32_t index,
                                                 LoopStore<typename SceneSpace::Vertex>& store) {

@@ -9,8 +9,8 @@
 
 namespace gnomon {
 
-/// The lights asked for, or all that are not area lights. Errors: kUsage (no such light, an area
-/// light, a thickness outside [0, 1), a floating-point environment without IEEE semantics).
+/// The lights asked for, or all. Errors: kUsage (no such light, a thickness outside [0, 1), a
+/// floating-point environment without IEEE semantics).
 Expected<std::vector<std::uint32_t>> select_lights(const PreparedScene& scene,
                                                    const ShadowOptions& options);
 

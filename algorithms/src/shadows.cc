@@ -1,11 +1,96 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "gnomon/algorithms/shadows.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "area_kernels.h"
 #include "gnomon/kernel/fp_environment.h"
+#include "light_parts.h"
 #include "light_selection.h"
 #include "shadow_kernels.h"
 
 namespace gnomon {
+namespace {
+
+using ShadowFunction = ShadowOutcome (*)(const PreparedScene&, const ShadowOptions&,
+                                         const LightList&);
+/// The two instantiations of a kernel.
+struct KernelFunctions {
+  ShadowFunction shadows = nullptr;
+  AreaFunction area = nullptr;
+};
+
+KernelFunctions functions_of(KernelId kernel) {
+  switch (kernel) {
+    case KernelId::kFloat:
+      return {shadows_float, area_float};
+    case KernelId::kDouble:
+      return {shadows_double, area_double};
+    case KernelId::kLongDouble:
+      return {shadows_long_double, area_long_double};
+    case KernelId::kEpick:
+      return {shadows_epick, nullptr};
+    case KernelId::kEpeck:
+      return {shadows_epeck, nullptr};
+    case KernelId::kRational:
+      return {shadows_rational, area_rational};
+    case KernelId::kPlane:
+      return {shadows_plane, nullptr};
+  }
+  return {};
+}
+
+/// Which lights are found receiver by receiver, and which by the algorithms of light space.
+struct LightsByWay {
+  LightList light_space, by_receiver;
+};
+
+LightsByWay split_by_way(const PreparedScene& scene, const ShadowOptions& options,
+                         const LightList& lights) {
+  LightsByWay result;
+  for (const std::uint32_t light : lights) {
+    const bool area = scene.lights[light].type == LightType::kArea;
+    const bool by_receiver = area || options.algorithm == Algorithm::kReceiver;
+    (by_receiver ? result.by_receiver : result.light_space).push_back(light);
+  }
+  return result;
+}
+
+std::string_view name_of(AreaAlgorithm algorithm) {
+  switch (algorithm) {
+    case AreaAlgorithm::kReceiver:
+      return "receiver";
+    case AreaAlgorithm::kMerged:
+      return "merged";
+    case AreaAlgorithm::kPieces:
+      return "pieces";
+  }
+  return {};
+}
+
+/// Adds what was found receiver by receiver to the result of the other lights, in order.
+void join(ShadowResult& result, AreaOutcome area, const ShadowOptions& options,
+          const LightList& lights) {
+  for (LightResult& light : area.lights) result.lights.push_back(std::move(light));
+  const auto place = [&](const LightResult& light) {
+    return std::find(lights.begin(), lights.end(), light.light) - lights.begin();
+  };
+  std::stable_sort(result.lights.begin(), result.lights.end(),
+                   [&](const LightResult& a, const LightResult& b) { return place(a) < place(b); });
+  const std::string own(
+      options.algorithm == Algorithm::kReceiver ? "receiver" : name_of(options.area_algorithm));
+  result.algorithm =
+      result.algorithm.empty() || result.algorithm == own ? own : result.algorithm + "+" + own;
+  if (!area.combined.empty()) {
+    result.combined = std::move(area.combined);
+    result.combined_points = std::move(area.combined_points);
+    result.combined_exact_points = std::move(area.combined_exact_points);
+  }
+  result.stages += area.stages;
+}
+
+}  // namespace
 
 Expected<std::vector<std::uint32_t>> select_lights(const PreparedScene& scene,
                                                    const ShadowOptions& options) {
@@ -14,18 +99,12 @@ Expected<std::vector<std::uint32_t>> select_lights(const PreparedScene& scene,
   }
   std::vector<std::uint32_t> lights = options.lights;
   if (lights.empty()) {
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-      if (scene.lights[i].type != LightType::kArea) lights.push_back(i);
-    }
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) lights.push_back(i);
   }
   for (const std::uint32_t light : lights) {
     if (light >= scene.lights.size()) {
       return fail(ErrorCode::kUsage, "there is no light " + std::to_string(light),
                   "an index below " + std::to_string(scene.lights.size()));
-    }
-    if (scene.lights[light].type == LightType::kArea) {
-      return fail(ErrorCode::kUsage, "light " + std::to_string(light) + " is an area light",
-                  "a point or directional light");
     }
   }
   if (!(options.thickness >= 0) || options.thickness >= 1) {
@@ -38,24 +117,48 @@ Expected<std::vector<std::uint32_t>> select_lights(const PreparedScene& scene,
 Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options) {
   const Expected<std::vector<std::uint32_t>> selected = select_lights(scene, options);
   if (!selected) return tl::unexpected<Error>(selected.error());
-  const std::vector<std::uint32_t>& lights = *selected;
-  switch (options.kernel) {
-    case KernelId::kFloat:
-      return shadows_float(scene, options, lights);
-    case KernelId::kDouble:
-      return shadows_double(scene, options, lights);
-    case KernelId::kLongDouble:
-      return shadows_long_double(scene, options, lights);
-    case KernelId::kEpick:
-      return shadows_epick(scene, options, lights);
-    case KernelId::kEpeck:
-      return shadows_epeck(scene, options, lights);
-    case KernelId::kRational:
-      return shadows_rational(scene, options, lights);
-    case KernelId::kPlane:
-      return shadows_plane(scene, options, lights);
+  const LightList& lights = *selected;
+  const KernelFunctions functions = functions_of(options.kernel);
+  if (functions.shadows == nullptr) return fail(ErrorCode::kUsage, "unknown kernel");
+  const LightsByWay ways = split_by_way(scene, options, lights);
+  if (ways.by_receiver.empty()) return functions.shadows(scene, options, lights);
+  if (functions.area == nullptr) {
+    return fail(ErrorCode::kUsage, "this kernel has no area lights yet", "double or rational");
   }
-  return fail(ErrorCode::kUsage, "unknown kernel");
+  if (options.combined && lights.size() > 64) {
+    return fail(ErrorCode::kLimit, std::to_string(lights.size()) + " lights together",
+                "at most 64");
+  }
+  // Each way tells of its share of the work; the lights count alike.
+  const double share =
+      static_cast<double>(ways.light_space.size()) / static_cast<double>(lights.size());
+  ShadowOptions own = options;
+  own.combined = false;
+  if (options.progress) {
+    own.progress = [&](double done) { options.progress(share * done); };
+  }
+  ShadowResult result;
+  if (!ways.light_space.empty()) {
+    ShadowOutcome light_space = functions.shadows(scene, own, ways.light_space);
+    if (!light_space) return light_space;
+    result = std::move(*light_space);
+  } else {
+    const KernelInfo& kernel = kernel_info(options.kernel);
+    result.kernel = kernel.name;
+    result.exact = kernel.exact;
+    result.identity = options.identity || kernel.exact;
+    result.thickness = kernel.exact ? 0 : options.thickness;
+  }
+  if (options.progress) {
+    own.progress = [&](double done) { options.progress(share + (1 - share) * done); };
+  }
+  const double start = cpu_seconds();
+  Expected<AreaOutcome> area =
+      functions.area(scene, own, ways.by_receiver, options.combined ? lights : LightList{});
+  if (!area) return tl::unexpected<Error>(area.error());
+  join(result, std::move(*area), options, lights);
+  result.shadow_seconds += cpu_seconds() - start;
+  return result;
 }
 
 }  // namespace gnomon

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "area_kernels.h"
 #include "fractions.h"
 #include "gnomon/algorithms/prefix.h"
 #include "gnomon/algorithms/scene_bsp.h"
@@ -218,13 +219,6 @@ void LightRun<Space>::measure(PartResult& part, std::span<const ClassifiedLoop> 
     part.exact_lit = lit.exact();
     part.exact_shadow = shadow.exact();
   }
-}
-
-inline tl::unexpected<Error> interrupted() { return fail(ErrorCode::kInterrupted, "interrupted"); }
-inline tl::unexpected<Error> too_many_fragments(const ShadowOptions& options) {
-  return fail(ErrorCode::kLimit,
-              "more than " + std::to_string(options.max_fragments) + " fragments",
-              "a simpler scene, or a higher limit");
 }
 
 /// Every light by the sectors algorithm, one after another.

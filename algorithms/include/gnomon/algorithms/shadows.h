@@ -56,9 +56,8 @@ struct ShadowOptions {
   const std::atomic<bool>* interrupted = nullptr;  // checked between polygons
 };
 
-/// Classifies every part for every light asked for. Errors: kUsage (area light asked for),
-/// kInterrupted,
-/// kLimit (max_fragments; more than 64 lights with `combined`).
+/// Classifies every part for every light asked for. Errors: kUsage (no such light, a thickness
+/// outside [0, 1)), kInterrupted, kLimit (max_fragments; more than 64 lights with `combined`).
 Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options);
 
 }  // namespace gnomon

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Lights of any kind receiver by receiver, from a prepared scene to a result, on several threads;
+// and several lights in one pipeline, with a class per light on each fragment. Instantiated one
+// kernel a source.
+#ifndef GNOMON_ALGORITHMS_SRC_AREA_IMPL_H
+#define GNOMON_ALGORITHMS_SRC_AREA_IMPL_H
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "area_kernels.h"
+#include "area_light.h"
+#include "area_scene.h"
+#include "caster_tree.h"
+#include "fragment_sink.h"
+#include "gnomon/kernel/fp_environment.h"
+
+namespace gnomon {
+
+/// Side `side` of part `part` as one receiver.
+struct Receiver {
+  std::uint32_t part = 0;
+  Side side = Side::kFront;
+};
+
+template <VolumeSpaceModel Space>
+class AreaRun {
+ public:
+  using Vertex = typename Space::Vertex;
+  using Loop = LoopView<Vertex>;
+  using Scratch = ReceiverScratch<Space>;
+  using SceneSpace = typename Space::SceneSpace;
+
+  AreaRun(const PreparedScene& scene, const ShadowOptions& options)
+      : scene_(scene),
+        options_(options),
+        area_scene_(make_area_scene(scene)),
+        scene_space_(area_scene_.geometry, {options.identity, options.thickness}),
+        space_(scene_space_, {options.identity, options.thickness}),
+        tree_(area_scene_.geometry, scene, casters(scene)) {}
+
+  /// Lights that results are wanted of one by one, and those that fragments are combined of.
+  Expected<AreaOutcome> run(const LightList& lights, const LightList& combined);
+
+ private:
+  using Scratches = tbb::enumerable_thread_specific<std::unique_ptr<Scratch>>;
+
+  static std::vector<std::uint32_t> casters(const PreparedScene& scene) {
+    std::vector<std::uint32_t> parts;
+    for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
+      if (scene.parts[i].casts) parts.push_back(i);
+    }
+    return parts;
+  }
+  /// Calls body(scratch, i) for [0, n). False if it was stopped.
+  template <class Body>
+  bool for_each(std::size_t n, double from, double to, const Body& body);
+  bool stopped() {
+    if (options_.interrupted != nullptr && options_.interrupted->load(std::memory_order_relaxed)) {
+      stopped_.store(true, std::memory_order_relaxed);
+    }
+    return stopped_.load(std::memory_order_relaxed);
+  }
+  bool count_piece() {
+    return pieces_.fetch_add(1, std::memory_order_relaxed) < options_.max_fragments ||
+           (stopped_.store(true, std::memory_order_relaxed), false);
+  }
+  LightResult run_light(std::uint32_t light, double from, double to);
+  std::vector<SideResult> run_part(Scratch& scratch, const AreaLight<Space>& light,
+                                   std::uint32_t part);
+  void combine(const LightList& lights, double from, double to, AreaOutcome& outcome);
+  tl::unexpected<Error> stop_reason() const;
+
+  const PreparedScene& scene_;
+  const ShadowOptions& options_;
+  AreaScene area_scene_;
+  SceneSpace scene_space_;
+  Space space_;
+  CasterTree tree_;
+  std::atomic<std::uint64_t> pieces_ = 0;
+  std::atomic<bool> stopped_ = false, no_ieee_ = false;
+  StageCounts stages_;
+};
+
+template <VolumeSpaceModel Space>
+template <class Body>
+bool AreaRun<Space>::for_each(std::size_t n, double from, double to, const Body& body) {
+  Scratches scratches;
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto one = [&](std::size_t i) {
+    if (stopped()) return;
+    std::unique_ptr<Scratch>& scratch = scratches.local();
+    if (!scratch) {
+      if (!check_fp_environment()) {
+        no_ieee_.store(true);
+        stopped_.store(true);
+        return;
+      }
+      scratch = std::make_unique<Scratch>(space_.fork());
+    }
+    const std::uint32_t mark = scratch->space.plane_mark();
+    body(*scratch, i);
+    scratch->space.release_planes(mark);
+    if (!options_.progress) return;
+    const std::lock_guard lock(mutex);
+    if ((++done & 15) == 0) {
+      options_.progress(from + (to - from) * static_cast<double>(done) / static_cast<double>(n));
+    }
+  };
+  if (Space::kParallel && options_.jobs != 1) {
+    tbb::parallel_for(std::size_t{0}, n, one);
+  } else {
+    for (std::size_t i = 0; i < n; ++i) one(i);
+  }
+  for (const std::unique_ptr<Scratch>& scratch : scratches) {
+    stages_ += scratch->space.stage_counts();
+  }
+  return !stopped_;
+}
+
+template <VolumeSpaceModel Space>
+std::vector<SideResult> AreaRun<Space>::run_part(Scratch& scratch, const AreaLight<Space>& light,
+                                                 std::uint32_t index) {
+  const Part& part = scene_.parts[index];
+  std::vector<SideResult> sides;
+  ShadowReason reason = ShadowReason::kNone;
+  FragmentSink<Space> sink(scene_, options_);
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    if (side == Side::kBack && !part.two_sided) break;
+    const Sight sight = light.sight(scratch, index, side);
+    if (!sight.sees()) {
+      if (reason == ShadowReason::kNone) reason = sight.reason;
+      continue;
+    }
+    light.prepare(scratch, index, side);
+    const Loop whole = part_loop(scratch.space, scene_, index, scratch.whole);
+    sink.begin(index, side, light.is_area());
+    light.cut(scratch, whole, [&](const PieceClass& state, const Loop& loop) {
+      sink.add(state, loop);
+      return count_piece();
+    });
+    if (stopped_) return sides;
+    sides.push_back(sink.finish(scratch.space, whole));
+  }
+  if (sides.empty()) sides.push_back(dark_side(index, Side::kFront, reason, light.is_area()));
+  return sides;
+}
+
+template <VolumeSpaceModel Space>
+LightResult AreaRun<Space>::run_light(std::uint32_t index, double from, double to) {
+  pieces_ = 0;
+  const std::uint32_t mark = space_.plane_mark();
+  const AreaLight<Space> light(space_, area_scene_, tree_, index);
+  LightResult result;
+  result.light = index;
+  std::vector<std::vector<SideResult>> parts(scene_.parts.size());
+  // The largest first: their work may be most of all, and what is started last is waited for.
+  std::vector<std::uint32_t> order(scene_.parts.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::vector<double> size(order.size());
+  for (std::uint32_t i = 0; i < size.size(); ++i) {
+    const Box& box = tree_.box(i);
+    for (std::size_t k = 0; k < 3; ++k) size[i] += box.high[k] - box.low[k];
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return size[a] > size[b]; });
+  std::atomic<std::uint64_t> cells = 0, vanished = 0;
+  for_each(order.size(), from, to, [&](Scratch& scratch, std::size_t i) {
+    const std::uint64_t cells_before = scratch.cutter.cells(),
+                        vanished_before = scratch.cutter.vanished();
+    parts[order[i]] = run_part(scratch, light, order[i]);
+    cells += scratch.cutter.cells() - cells_before;
+    vanished += scratch.cutter.vanished() - vanished_before;
+  });
+  space_.release_planes(mark);
+  result.tree_nodes = cells;
+  result.dropped_slivers = vanished;
+  if (stopped_) return result;
+  for (std::vector<SideResult>& sides : parts) {
+    for (SideResult& side : sides) {
+      if (side.part.reason == ShadowReason::kNone) {
+        ++result.facing_parts;
+        result.facing_edges += scene_.parts[side.part.part].count;
+      }
+      side.part.first_fragment = static_cast<std::uint32_t>(result.fragments.size());
+      const auto base = static_cast<std::uint32_t>(
+          options_.keep_points ? result.points.size() : result.exact_points.size());
+      for (Fragment& fragment : side.fragments) {
+        fragment.first += base;
+        result.fragments.push_back(fragment);
+      }
+      result.points.insert(result.points.end(), side.points.begin(), side.points.end());
+      std::move(side.exact_points.begin(), side.exact_points.end(),
+                std::back_inserter(result.exact_points));
+      result.parts.push_back(std::move(side.part));
+      if (light.is_area()) result.area_fractions.push_back(std::move(side.area));
+    }
+    sides = {};
+  }
+  result.fragment_total = result.fragments.size();
+  return result;
+}
+
+/// Every fragment of one light goes on to the next (1989, sec. 5).
+template <VolumeSpaceModel Space>
+void AreaRun<Space>::combine(const LightList& indices, double from, double to,
+                             AreaOutcome& outcome) {
+  struct Combined {
+    std::vector<CombinedFragment> fragments;
+    std::vector<std::array<double, 3>> points;
+    std::vector<std::array<mpq_class, 3>> exact_points;
+  };
+  struct Piece {
+    LoopRange loop;
+    std::uint64_t lit_by = 0, penumbra_of = 0;
+  };
+  pieces_ = 0;
+  const std::uint32_t mark = space_.plane_mark();
+  std::deque<AreaLight<Space>> lights;
+  for (const std::uint32_t light : indices) lights.emplace_back(space_, area_scene_, tree_, light);
+  std::vector<std::array<Combined, 2>> results(scene_.parts.size());
+  const auto run_side = [&](Scratch& scratch, std::uint32_t part, Side side, Combined& out) {
+    const PlaneId plane = scene_.parts[part].plane;
+    LoopStore<Vertex> now, next;
+    std::vector<Piece> pieces, cut;
+    bool seen = false;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      if (!lights[i].sight(scratch, part, side).sees()) continue;
+      if (!seen) {
+        pieces.push_back({now.append(part_loop(scratch.space, scene_, part, scratch.whole)), 0, 0});
+        seen = true;
+      }
+      lights[i].prepare(scratch, part, side);
+      next.clear();
+      cut.clear();
+      for (const Piece& piece : pieces) {
+        const bool done = lights[i].cut(
+            scratch, now.view(piece.loop, plane), [&](const PieceClass& state, const Loop& loop) {
+              Piece fragment{next.append(loop), piece.lit_by, piece.penumbra_of};
+              const std::uint64_t bit = std::uint64_t{1} << i;
+              if (state.state == LightState::kLit) fragment.lit_by |= bit;
+              if (state.state == LightState::kPenumbra) fragment.penumbra_of |= bit;
+              cut.push_back(fragment);
+              return count_piece();
+            });
+        if (!done) return;
+      }
+      std::swap(now, next);
+      std::swap(pieces, cut);
+    }
+    for (const Piece& piece : pieces) {
+      CombinedFragment fragment{part, side, piece.lit_by, piece.penumbra_of};
+      export_volume_loop(scratch.space, options_, now.view(piece.loop, plane), side == Side::kBack,
+                         fragment, out.points, out.exact_points);
+      out.fragments.push_back(fragment);
+    }
+  };
+  for_each(scene_.parts.size(), from, to, [&](Scratch& scratch, std::size_t i) {
+    const auto part = static_cast<std::uint32_t>(i);
+    run_side(scratch, part, Side::kFront, results[i][0]);
+    if (scene_.parts[i].two_sided) run_side(scratch, part, Side::kBack, results[i][1]);
+  });
+  space_.release_planes(mark);
+  if (stopped_) return;
+  // Grouped by polygon and side: parts of a polygon are neighbours.
+  for (std::size_t polygon = 0; polygon + 1 < scene_.first_part.size(); ++polygon) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::uint32_t part = scene_.first_part[polygon]; part < scene_.first_part[polygon + 1];
+           ++part) {
+        Combined& own = results[part][side];
+        const auto base =
+            static_cast<std::uint32_t>(options_.keep_points ? outcome.combined_points.size()
+                                                            : outcome.combined_exact_points.size());
+        for (CombinedFragment& fragment : own.fragments) {
+          fragment.first += base;
+          outcome.combined.push_back(fragment);
+        }
+        outcome.combined_points.insert(outcome.combined_points.end(), own.points.begin(),
+                                       own.points.end());
+        std::move(own.exact_points.begin(), own.exact_points.end(),
+                  std::back_inserter(outcome.combined_exact_points));
+      }
+    }
+  }
+}
+
+template <VolumeSpaceModel Space>
+tl::unexpected<Error> AreaRun<Space>::stop_reason() const {
+  if (no_ieee_) return tl::unexpected<Error>(check_fp_environment().error());
+  if (pieces_ > options_.max_fragments) return too_many_fragments(options_);
+  return interrupted();
+}
+
+template <VolumeSpaceModel Space>
+Expected<AreaOutcome> AreaRun<Space>::run(const LightList& lights, const LightList& combined) {
+  AreaOutcome outcome;
+  const double steps = static_cast<double>(lights.size() + (combined.empty() ? 0 : 1));
+  double step = 0;
+  for (const std::uint32_t light : lights) {
+    outcome.lights.push_back(run_light(light, step / steps, (step + 1) / steps));
+    if (stopped_) return stop_reason();
+    ++step;
+  }
+  if (!combined.empty()) {
+    combine(combined, step / steps, 1, outcome);
+    if (stopped_) return stop_reason();
+  }
+  outcome.stages = stages_;
+  outcome.stages += space_.stage_counts();
+  outcome.stages += scene_space_.stage_counts();
+  return outcome;
+}
+
+/// On as many threads as asked for.
+template <VolumeSpaceModel Space>
+Expected<AreaOutcome> area_shadows_with(const PreparedScene& scene, const ShadowOptions& options,
+                                        const LightList& lights, const LightList& combined) {
+  const unsigned most = std::max(1u, std::thread::hardware_concurrency());
+  const unsigned jobs = options.jobs == 0 ? most : std::min(options.jobs, most);
+  tbb::task_arena arena(static_cast<int>(jobs));
+  return arena.execute([&] { return AreaRun<Space>(scene, options).run(lights, combined); });
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SRC_AREA_IMPL_H

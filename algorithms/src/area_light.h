@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// One light of any kind in three dimensions: which sides of the parts see it, and the shadow
+// volumes that may reach a receiver.
+//
+// Volumes of casters are made once per light. Only where a receiver's own plane cuts an area light
+// are they made again, for the part of the light in front of it, and forgotten with the receiver.
+#ifndef GNOMON_ALGORITHMS_SRC_AREA_LIGHT_H
+#define GNOMON_ALGORITHMS_SRC_AREA_LIGHT_H
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "area_scene.h"
+#include "caster_tree.h"
+#include "gnomon/algorithms/loop_store.h"
+#include "gnomon/algorithms/shadow_result.h"
+#include "gnomon/algorithms/split.h"
+#include "gnomon/kernel/kernel_concept.h"
+#include "light_parts.h"
+#include "receiver_cutter.h"
+#include "shadow_volume.h"
+
+namespace gnomon {
+
+/// The support plane of a part, turned so that its front is the given side's.
+inline PlaneRef plane_of_side(const Part& part, Side side) {
+  return PlaneRef(part.plane, part.flipped != (side == Side::kBack));
+}
+
+/// What one side of a part has of a light.
+struct Sight {
+  ShadowReason reason = ShadowReason::kNone;  // kNone: it sees some of it
+  bool sees() const { return reason == ShadowReason::kNone; }
+};
+
+/// What a thread needs for one receiver after another; the volumes in `own` and the planes made for
+/// them are those of the last one.
+template <VolumeSpaceModel Space>
+struct ReceiverScratch {
+  explicit ReceiverScratch(Space fork) : space(std::move(fork)), builder(space), cutter(space) {}
+  ReceiverScratch(const ReceiverScratch&) = delete;
+  ReceiverScratch& operator=(const ReceiverScratch&) = delete;
+
+  Space space;
+  VolumeBuilder<Space> builder;
+  ReceiverCutter<Space> cutter;
+  LoopStore<typename Space::Vertex> whole, caster, front, light;
+  VolumeStore own;
+  std::vector<std::uint32_t> parts, volumes;
+  SplitRecord record;
+  std::vector<typename Space::Vertex> crossings;
+};
+
+template <VolumeSpaceModel Space>
+class AreaLight {
+ public:
+  using Vertex = typename Space::Vertex;
+  using Loop = LoopView<Vertex>;
+  using Scratch = ReceiverScratch<Space>;
+
+  /// Adds the planes of all volumes to `space`, which must be forked afterwards. `tree` and `scene`
+  /// must outlive it.
+  AreaLight(Space& space, const AreaScene& scene, const CasterTree& tree, std::uint32_t light)
+      : scene_(*scene.scene), light_(&scene.scene->lights[light]), tree_(&tree) {
+    const LightFace& face = scene.faces[light];
+    for (std::size_t i = 0; i < face.loop.size(); ++i) {
+      PlaneRef edge;
+      if (!face.edges.empty()) {
+        edge = space.edges().of_edge(face.edges[i].index(), face.edges[i].flipped());
+      }
+      loop_.push(space.input_vertex(face.loop[i]), edge);
+      box_.add(grid_fraction(scene.geometry.grid, face.loop[i]));
+    }
+    plane_id_ = face.edges.empty() ? kNoPlane : face.plane;
+    if (is_area()) plane_ = PlaneRef(face.plane, face.flipped);
+    make_volumes(space);
+  }
+
+  bool is_area() const { return light_->type == LightType::kArea; }
+  LightState in_shadow() const { return is_area() ? LightState::kUmbra : LightState::kShadow; }
+  PlaneRef plane() const { return plane_; }
+  std::size_t volume_count() const { return store_.size(); }
+  const VolumeStore& volumes() const { return store_; }
+  /// The volumes of a part's sides, by index: two for a two-sided part whose plane cuts the light.
+  std::pair<std::uint32_t, std::uint32_t> volumes_of(std::uint32_t part) const {
+    return {first_volume_[part], first_volume_[part + 1]};
+  }
+  LightShape<Vertex> shape() const {
+    return {loop_.view({0, loop_.size(), 0}, plane_id_),
+            light_->type == LightType::kDirectional ? &light_->point : nullptr, plane_};
+  }
+
+  /// Whether that side of a part, if it receives at all, sees some of the light.
+  Sight sight(Scratch& scratch, std::uint32_t part, Side side) const;
+  /// Cuts a piece of the side of a part (its whole loop, or a fragment of an earlier light) and
+  /// calls emit(PieceClass, Loop) for each fragment; false if emit was. Requires: it sees the
+  /// light, and prepare() was called for this receiver.
+  template <class Emit>
+  bool cut(Scratch& scratch, const Loop& piece, const Emit& emit) const;
+  /// Finds the volumes that may reach a receiver, for cut().
+  void prepare(Scratch& scratch, std::uint32_t part, Side side) const;
+
+ private:
+  static constexpr PlaneId kNoPlane = 0xffffffffu;
+
+  void make_volumes(Space& space);
+  Shaft shaft_to(const Box& receiver) const {
+    if (light_->type != LightType::kDirectional) return Shaft(receiver, box_);
+    std::array<double, 3> direction{};
+    for (std::size_t k = 0; k < 3; ++k) direction[k] = light_->point.grid[k].get_d();
+    return Shaft(receiver, direction);
+  }
+
+  const PreparedScene& scene_;
+  const PreparedLight* light_;
+  const CasterTree* tree_;
+  LoopStore<Vertex> loop_;
+  Box box_;
+  PlaneId plane_id_ = kNoPlane;
+  PlaneRef plane_;  // of an area light; it emits to its front
+  VolumeStore store_;
+  std::vector<std::uint32_t> first_volume_;
+};
+
+/// The volumes of both sides of a part, for one shape of the light.
+template <VolumeSpaceModel Space, class SpaceOfLoops>
+void add_part_volumes(VolumeBuilder<Space>& builder, const SpaceOfLoops& space,
+                      const PreparedScene& scene, std::uint32_t index,
+                      const LightShape<typename Space::Vertex>& light,
+                      LoopStore<typename Space::Vertex>& loops, VolumeStore& store) {
+  const Part& part = scene.parts[index];
+  const auto loop = part_loop(space, scene, index, loops);
+  builder.add(loop, plane_of_side(part, Side::kFront), false, light, store);
+  if (part.two_sided) builder.add(loop, plane_of_side(part, Side::kBack), true, light, store);
+}
+
+template <VolumeSpaceModel Space>
+void AreaLight<Space>::make_volumes(Space& space) {
+  VolumeBuilder<Space> builder(space);
+  LoopStore<Vertex> loops;
+  first_volume_.reserve(scene_.parts.size() + 1);
+  for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
+    first_volume_.push_back(static_cast<std::uint32_t>(store_.size()));
+    // A polygon in the light's plane casts nothing.
+    if (!scene_.parts[i].casts || scene_.parts[i].plane == plane_id_) continue;
+    add_part_volumes(builder, space, scene_, i, shape(), loops, store_);
+  }
+  first_volume_.push_back(static_cast<std::uint32_t>(store_.size()));
+}
+
+template <VolumeSpaceModel Space>
+Sight AreaLight<Space>::sight(Scratch& scratch, std::uint32_t index, Side side) const {
+  const Part& part = scene_.parts[index];
+  const PlaneRef receiving = plane_of_side(part, side);
+  const LightShape<Vertex> light = shape();
+  if (!scratch.builder.is_in_front(receiving, light)) {
+    if (!is_area()) {
+      const bool in_plane = scratch.builder.holds(receiving, light);
+      return {in_plane ? ShadowReason::kLightInPlane : ShadowReason::kFacesAway};
+    }
+    const bool in_plane =
+        scratch.record.decide(scratch.space, receiving, light.loop) == Placement::kOn;
+    return {in_plane ? ShadowReason::kLightInPlane : ShadowReason::kFacesAway};
+  }
+  if (is_area()) {
+    const Loop loop = part_loop(scratch.space, scene_, index, scratch.whole);
+    const Placement placement = scratch.record.decide(scratch.space, plane_, loop);
+    if (placement == Placement::kBack || placement == Placement::kOn) {
+      return {ShadowReason::kBehindLight};
+    }
+  }
+  return {};
+}
+
+template <VolumeSpaceModel Space>
+void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side) const {
+  Space& space = scratch.space;
+  const Part& receiver = scene_.parts[index];
+  const PlaneRef receiving = plane_of_side(receiver, side);
+  scratch.parts.clear();
+  tree_->find(shaft_to(tree_->box(index)), scratch.parts);
+  // Only what is partly in front of the receiver can be in its light.
+  std::erase_if(scratch.parts, [&](std::uint32_t other) {
+    const Part& part = scene_.parts[other];
+    if (other == index || part.plane == receiver.plane || !part.casts) return true;
+    const Loop loop = part_loop(space, scene_, other, scratch.caster);
+    for (std::uint32_t i = 0; i < loop.size(); ++i) {
+      if (space.side_of_plane(receiving, loop.corner(i)) == Side::kFront) return false;
+    }
+    return true;
+  });
+  scratch.own.clear();
+  scratch.volumes.clear();
+  LightShape<Vertex> light = shape();
+  const bool cut =
+      is_area() && scratch.record.decide(space, receiving, light.loop) == Placement::kSpanning;
+  if (!cut) {
+    for (const std::uint32_t part : scratch.parts) {
+      const auto [begin, end] = volumes_of(part);
+      for (std::uint32_t i = begin; i < end; ++i) scratch.volumes.push_back(i);
+    }
+    return;
+  }
+  scratch.light.clear();
+  const SplitChildren children =
+      make_children(space, receiving, light.loop, scratch.record, scratch.crossings, scratch.light);
+  if (children.front.count < 3) return;
+  light.loop = scratch.light.view(children.front, plane_id_);
+  for (const std::uint32_t part : scratch.parts) {
+    if (scene_.parts[part].plane == plane_id_) continue;
+    add_part_volumes(scratch.builder, space, scene_, part, light, scratch.caster, scratch.own);
+  }
+  for (std::uint32_t i = 0; i < scratch.own.size(); ++i) scratch.volumes.push_back(i);
+}
+
+template <VolumeSpaceModel Space>
+template <class Emit>
+bool AreaLight<Space>::cut(Scratch& scratch, const Loop& piece, const Emit& emit) const {
+  const VolumeStore& store = scratch.own.size() > 0 ? scratch.own : store_;
+  if (!is_area()) {
+    return scratch.cutter.cut(piece, store, scratch.volumes, in_shadow(), emit);
+  }
+  constexpr PieceClass kBehind{LightState::kUmbra, Fragment::kNoCaster, ShadowReason::kBehindLight};
+  switch (scratch.record.decide(scratch.space, plane_, piece)) {
+    case Placement::kBack:
+    case Placement::kOn:
+      return emit(kBehind, piece);
+    case Placement::kFront:
+      return scratch.cutter.cut(piece, store, scratch.volumes, in_shadow(), emit);
+    case Placement::kSpanning:
+      break;
+  }
+  scratch.front.clear();
+  const SplitChildren children =
+      make_children(scratch.space, plane_, piece, scratch.record, scratch.crossings, scratch.front);
+  if (children.back.count >= 3 &&
+      !emit(kBehind, scratch.front.view(children.back, piece.support))) {
+    return false;
+  }
+  return children.front.count < 3 ||
+         scratch.cutter.cut(scratch.front.view(children.front, piece.support), store,
+                            scratch.volumes, in_shadow(), emit);
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SRC_AREA_LIGHT_H
