@@ -41,7 +41,7 @@ TEST(ComputeShadows, RefusesWhatIsNoThickness) {
   }
 }
 
-TEST(ComputeShadows, RefusesAreaLightsAndLightsThatAreNot) {
+TEST(ComputeShadows, TakesLightsOfEveryKindAndRefusesThoseThatAreNot) {
   ScenePen pen;
   pen.polygon({{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}}).lamp({0, 0, 4});
   Scene scene = pen.take();
@@ -55,15 +55,23 @@ TEST(ComputeShadows, RefusesAreaLightsAndLightsThatAreNot) {
   const auto both = Case::make(scene);
   ASSERT_TRUE(both);
   ShadowOptions options;
-  options.lights = {1};
-  EXPECT_EQ(code_of(*both, options), ErrorCode::kUsage);
+  options.kernel = KernelId::kRational;
   options.lights = {7};
   EXPECT_EQ(code_of(*both, options), ErrorCode::kUsage);
   options.lights = {};
   const Expected<ShadowResult> result = compute_shadows(both->prepared(), options);
   ASSERT_TRUE(result);
-  ASSERT_EQ(result->lights.size(), 1u);  // all that are not area lights
-  EXPECT_EQ(result->lights[0].light, 0u);
+  ASSERT_EQ(result->lights.size(), 2u);
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(result->lights[i].light, i);
+    ASSERT_EQ(result->lights[i].parts.size(), 1u);
+    EXPECT_EQ(result->lights[i].area_fractions.size(), i);
+  }
+  EXPECT_EQ(result->algorithm, "sectors+receiver");
+  options.lights = {1, 0};
+  const Expected<ShadowResult> turned = compute_shadows(both->prepared(), options);
+  ASSERT_TRUE(turned);
+  EXPECT_EQ(turned->lights[0].light, 1u);
 }
 
 TEST(ComputeShadows, StopsWhenInterrupted) {
