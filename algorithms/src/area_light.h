@@ -7,9 +7,10 @@
 #ifndef GNOMON_ALGORITHMS_SRC_AREA_LIGHT_H
 #define GNOMON_ALGORITHMS_SRC_AREA_LIGHT_H
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -50,7 +51,8 @@ struct ReceiverScratch {
   ReceiverCutter<Space> cutter;
   LoopStore<typename Space::Vertex> whole, caster, front, light;
   VolumeStore own;
-  std::vector<std::uint32_t> parts, volumes;
+  std::vector<std::uint32_t> parts;
+  std::vector<VolumeToCut> volumes;
   SplitRecord record;
   std::vector<typename Space::Vertex> crossings;
 };
@@ -108,6 +110,22 @@ class AreaLight {
   static constexpr PlaneId kNoPlane = 0xffffffffu;
 
   void make_volumes(Space& space);
+  /// The box of a corner's position is as wide as what is known of it.
+  UmbraReach umbra_reach(const Space& space, const Loop& light, const Box& receiver) const {
+    if (!is_area()) return {};
+    std::vector<std::array<double, 3>> corners;
+    for (std::uint32_t i = 0; i < light.size(); ++i) {
+      const std::array<Ball, 3> position = space.position(light.corner(i));
+      std::array<double, 3> point{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!(position[k].radius < UmbraReach::kMargin)) return {};
+        point[k] = position[k].middle;
+      }
+      corners.push_back(point);
+    }
+    return UmbraReach(corners, receiver);
+  }
+  void sort_by_shadow(std::uint32_t receiver, std::vector<std::uint32_t>& casters) const;
   Shaft shaft_to(const Box& receiver) const {
     if (light_->type != LightType::kDirectional) return Shaft(receiver, box_);
     std::array<double, 3> direction{};
@@ -176,6 +194,36 @@ Sight AreaLight<Space>::sight(Scratch& scratch, std::uint32_t index, Side side) 
   return {};
 }
 
+/// Casters with the largest shadows on the receiver first, as far as boxes tell: what is penumbra
+/// already need not be cut by other penumbras. A heuristic: the order changes fragments only.
+template <VolumeSpaceModel Space>
+void AreaLight<Space>::sort_by_shadow(std::uint32_t receiver,
+                                      std::vector<std::uint32_t>& casters) const {
+  const auto middle = [](const Box& box, std::size_t k) { return (box.low[k] + box.high[k]) / 2; };
+  const auto size = [](const Box& box) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += box.high[k] - box.low[k];
+    return sum;
+  };
+  const auto distance = [&](const Box& a, const Box& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += std::fabs(middle(a, k) - middle(b, k));
+    return sum;
+  };
+  const bool directional = light_->type == LightType::kDirectional;
+  std::vector<std::pair<double, std::uint32_t>> keys;
+  keys.reserve(casters.size());
+  for (const std::uint32_t caster : casters) {
+    const Box& box = tree_->box(caster);
+    // A point of the shadow is (1 + t) o - t a.
+    const double t =
+        directional ? 0 : distance(box, tree_->box(receiver)) / (distance(box, box_) + 1e-12);
+    keys.emplace_back(-((1 + t) * size(box) + (directional ? 0 : t * size(box_))), caster);
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t i = 0; i < keys.size(); ++i) casters[i] = keys[i].second;
+}
+
 template <VolumeSpaceModel Space>
 void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side) const {
   Space& space = scratch.space;
@@ -193,15 +241,18 @@ void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side)
     }
     return true;
   });
+  sort_by_shadow(index, scratch.parts);
   scratch.own.clear();
   scratch.volumes.clear();
   LightShape<Vertex> light = shape();
   const bool cut =
       is_area() && scratch.record.decide(space, receiving, light.loop) == Placement::kSpanning;
   if (!cut) {
+    const UmbraReach reach = umbra_reach(space, light.loop, tree_->box(index));
     for (const std::uint32_t part : scratch.parts) {
       const auto [begin, end] = volumes_of(part);
-      for (std::uint32_t i = begin; i < end; ++i) scratch.volumes.push_back(i);
+      const bool umbra = reach.may_reach(tree_->box(part));
+      for (std::uint32_t i = begin; i < end; ++i) scratch.volumes.push_back({i, umbra});
     }
     return;
   }
@@ -210,11 +261,28 @@ void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side)
       make_children(space, receiving, light.loop, scratch.record, scratch.crossings, scratch.light);
   if (children.front.count < 3) return;
   light.loop = scratch.light.view(children.front, plane_id_);
+  const UmbraReach reach = umbra_reach(space, light.loop, tree_->box(index));
+  const Loop loop = part_loop(space, scene_, index, scratch.front);
+  // What hides nothing of the whole light hides nothing of a part of it.
+  const auto is_missed = [&](const ShadowVolume& volume) {
+    const auto planes = store_.penumbra(volume);
+    return std::any_of(planes.begin(), planes.end(),
+                       [&](PlaneRef plane) { return scratch.cutter.is_outside(loop, plane); });
+  };
+  bool covered = false;  // by one penumbra: others do not matter any more
   for (const std::uint32_t part : scratch.parts) {
-    if (scene_.parts[part].plane == plane_id_) continue;
+    const bool umbra = reach.may_reach(tree_->box(part));
+    if (covered && !umbra) continue;
+    const auto [begin, end] = volumes_of(part);
+    const auto whole = store_.volumes().subspan(begin, end - begin);
+    if (std::all_of(whole.begin(), whole.end(), is_missed)) continue;
+    const std::size_t first = scratch.own.size();
     add_part_volumes(scratch.builder, space, scene_, part, light, scratch.caster, scratch.own);
+    for (std::size_t i = first; i < scratch.own.size(); ++i) {
+      scratch.volumes.push_back({static_cast<std::uint32_t>(i), umbra});
+      covered = covered || scratch.cutter.is_inside(loop, scratch.own.penumbra(scratch.own[i]));
+    }
   }
-  for (std::uint32_t i = 0; i < scratch.own.size(); ++i) scratch.volumes.push_back(i);
 }
 
 template <VolumeSpaceModel Space>

@@ -96,6 +96,48 @@ bool Shaft::may_meet(const Box& box) const {
   return true;
 }
 
+UmbraReach::UmbraReach(std::span<const std::array<double, 3>> light, const Box& receiver)
+    : receiver_(receiver) {
+  std::array<double, 3> middle{};
+  double square = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    middle[k] = (receiver.low[k] + receiver.high[k]) / 2;
+    square += (receiver.high[k] - receiver.low[k]) * (receiver.high[k] - receiver.low[k]);
+  }
+  const double radius = std::sqrt(square) / 2 + 4 * kMargin;
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    for (std::size_t j = i + 1; j < light.size(); ++j) {
+      std::array<double, 3> a{}, b{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        a[k] = light[i][k] - middle[k];
+        b[k] = light[j][k] - middle[k];
+      }
+      const double to_a = std::hypot(a[0], a[1], a[2]), to_b = std::hypot(b[0], b[1], b[2]);
+      if (!(to_a > 2 * radius) || !(to_b > 2 * radius)) continue;
+      const double angle =
+          std::atan2(std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                                a[0] * b[1] - a[1] * b[0]),
+                     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+      // A ray turns by at most this where p moves in the receiver's ball.
+      const double smallest = angle - std::asin(radius / to_a) - std::asin(radius / to_b);
+      if (smallest > 0) sine_ = std::max(sine_, std::sin(std::min(smallest, 1.5)));
+    }
+  }
+}
+
+bool UmbraReach::may_reach(const Box& caster) const {
+  if (sine_ == 0) return true;
+  double gap = 0, size = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double apart =
+        std::max({receiver_.low[k] - caster.high[k], caster.low[k] - receiver_.high[k], 0.0});
+    const double own = caster.high[k] - caster.low[k];
+    gap += apart * apart;
+    size += own * own;
+  }
+  return std::sqrt(size) + kMargin >= std::sqrt(gap) * sine_ * (1 - kMargin);
+}
+
 CasterTree::CasterTree(const Geometry& geometry, const PreparedScene& scene,
                        std::span<const std::uint32_t> parts)
     : boxes_(scene.parts.size()), order_(parts.begin(), parts.end()) {

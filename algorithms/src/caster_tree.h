@@ -62,6 +62,26 @@ class Shaft {
   std::size_t count_ = 0;
 };
 
+/// Where umbras of an area light may reach. From a point p, two corners a, b of the light are seen
+/// at an angle; a caster that hides both from p has a point on each of the rays, and those are at
+/// least |x - p| sin(angle) apart, x the one towards a. So a caster that is smaller than its
+/// distance from the receiver times the sine of the smallest such angle has no umbra there.
+class UmbraReach {
+ public:
+  static constexpr double kMargin = 1e-9;
+
+  /// Everything is reached.
+  UmbraReach() = default;
+  /// Corners to within kMargin.
+  UmbraReach(std::span<const std::array<double, 3>> light, const Box& receiver);
+  /// False only if a caster in the box certainly has no umbra on the receiver.
+  bool may_reach(const Box& caster) const;
+
+ private:
+  Box receiver_;
+  double sine_ = 0;  // of the smallest angle, or less
+};
+
 class CasterTree {
  public:
   /// Of those parts, by the geometry's grid.

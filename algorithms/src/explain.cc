@@ -45,9 +45,8 @@ Expected<std::optional<FirstDifference>> explain(const PreparedScene& scene,
   auto lights = select_lights(scene, options);
   if (!lights) return tl::unexpected<Error>(lights.error());
   // Lock-step runs walk the SVBSP algorithm, which area lights have no part in.
-  std::erase_if(*lights, [&](std::uint32_t light) {
-    return scene.lights[light].type == LightType::kArea;
-  });
+  std::erase_if(*lights,
+                [&](std::uint32_t light) { return scene.lights[light].type == LightType::kArea; });
   if (lights->empty()) return std::nullopt;
   return options.kernel == KernelId::kEpick ? explain_epick(scene, options, *lights)
                                             : explain_coordinates(scene, options, *lights);

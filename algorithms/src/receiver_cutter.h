@@ -40,6 +40,12 @@ struct PieceClass {
   friend bool operator==(const PieceClass&, const PieceClass&) = default;
 };
 
+/// A volume that may reach a receiver.
+struct VolumeToCut {
+  std::uint32_t volume = 0;  // index into a VolumeStore
+  bool umbra = true;         // false: its umbra certainly does not
+};
+
 template <VolumeSpaceModel Space>
 class ReceiverCutter {
  public:
@@ -52,21 +58,31 @@ class ReceiverCutter {
   std::uint64_t cells() const { return cells_; }
   std::uint64_t vanished() const { return vanished_; }
 
-  /// Cuts `loop` by volumes (indices into `store`) and calls emit(PieceClass, Loop) for each
+  /// Is nothing of the loop in front of the plane?
+  bool is_outside(const Loop& loop, PlaneRef plane);
+  /// Is all of it in front of all planes?
+  bool is_inside(const Loop& loop, std::span<const PlaneRef> planes) {
+    std::uint8_t hint = 0;
+    return relation(loop, planes, hint) == Relation::kInside;
+  }
+
+  /// Cuts `loop` by volumes of `store` and calls emit(PieceClass, Loop) for each
   /// fragment. `in_shadow`: what is in an umbra volume (kUmbra, or kShadow of a point). Planes
   /// added to the space stay until the caller releases them. `emit` returns false to stop.
   template <class Emit>
-  bool cut(const Loop& loop, const VolumeStore& store, std::span<const std::uint32_t> volumes,
+  bool cut(const Loop& loop, const VolumeStore& store, std::span<const VolumeToCut> volumes,
            LightState in_shadow, const Emit& emit);
 
  private:
   /// Cells with more volumes are halved if that helps.
-  static constexpr std::uint32_t kLeaf = 6;
-  static constexpr int kDeepest = 48, kMostInVain = 3;
+  static constexpr std::uint32_t kLeaf = 16;
+  static constexpr int kDeepest = 48, kMostInVain = 8;
 
   struct Entry {
     std::uint32_t volume = 0;
     bool penumbra = true, umbra = true;  // still to be cut by
+    // The planes that last had a piece outside of the two: most likely to have the next one there.
+    std::uint8_t penumbra_hint = 0, umbra_hint = 0;
   };
   struct Frame {
     LoopRange loop;
@@ -89,8 +105,9 @@ class ReceiverCutter {
   enum class Relation : std::uint8_t { kOutside, kInside, kCrossing };
 
   Loop view(const LoopRange& range) const { return store_.view(range, support_); }
-  Relation relation(const Loop& loop, std::span<const PlaneRef> planes);
-  bool clip(const LoopRange& loop, std::span<const PlaneRef> planes, LoopRange& inside);
+  Relation relation(const Loop& loop, std::span<const PlaneRef> planes, std::uint8_t& hint);
+  bool clip(const LoopRange& loop, std::span<const PlaneRef> planes, std::uint8_t& hint,
+            LoopRange& inside);
   bool decide(Frame& frame);
   bool halve(Frame& frame);
   void cut_out(const Frame& frame);
@@ -111,48 +128,46 @@ class ReceiverCutter {
 };
 
 template <VolumeSpaceModel Space>
+bool ReceiverCutter<Space>::is_outside(const Loop& loop, PlaneRef plane) {
+  for (std::uint32_t i = 0; i < loop.size(); ++i) {
+    if (space_->side_of_plane(plane, loop.corner(i)) == Side::kFront) return false;
+  }
+  return true;
+}
+
+/// The planes that the loop spans are left in spanning_.
+template <VolumeSpaceModel Space>
 typename ReceiverCutter<Space>::Relation ReceiverCutter<Space>::relation(
-    const Loop& loop, std::span<const PlaneRef> planes) {
-  bool inside = true;
-  for (const PlaneRef plane : planes) {
-    switch (record_.decide(*space_, plane, loop)) {
+    const Loop& loop, std::span<const PlaneRef> planes, std::uint8_t& hint) {
+  if (is_outside(loop, planes[hint])) return Relation::kOutside;
+  spanning_.clear();
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    switch (record_.decide(*space_, planes[i], loop)) {
       case Placement::kBack:
       case Placement::kOn:
+        hint = static_cast<std::uint8_t>(i);
         return Relation::kOutside;
       case Placement::kSpanning:
-        inside = false;
+        spanning_.push_back(planes[i]);
         break;
       case Placement::kFront:
         break;
     }
   }
-  return inside ? Relation::kInside : Relation::kCrossing;
+  return spanning_.empty() ? Relation::kInside : Relation::kCrossing;
 }
 
 /// Cuts away what is outside of one of the planes: pieces into outside_, what is left into
 /// `inside`. False if nothing is left; the loop is then not cut at all.
 template <VolumeSpaceModel Space>
 bool ReceiverCutter<Space>::clip(const LoopRange& loop, std::span<const PlaneRef> planes,
-                                 LoopRange& inside) {
+                                 std::uint8_t& hint, LoopRange& inside) {
   outside_.clear();
-  spanning_.clear();
-  for (const PlaneRef plane : planes) {
-    switch (record_.decide(*space_, plane, view(loop))) {
-      case Placement::kBack:
-      case Placement::kOn:
-        return false;
-      case Placement::kSpanning:
-        spanning_.push_back(plane);
-        break;
-      case Placement::kFront:
-        break;
-    }
-  }
+  if (relation(view(loop), planes, hint) == Relation::kOutside) return false;
   const std::uint32_t mark = store_.size();
   inside = loop;
   for (std::size_t i = 0; i < spanning_.size(); ++i) {
     const PlaneRef plane = spanning_[i];
-    // The first plane's record is the last one made only if it is the only one.
     const Placement placement = record_.decide(*space_, plane, view(inside));
     if (placement == Placement::kFront) continue;
     if (placement != Placement::kSpanning) {
@@ -190,7 +205,7 @@ bool ReceiverCutter<Space>::decide(Frame& frame) {
     if (frame.state.state != LightState::kLit || volume.penumbra_count == 0) {
       entry.penumbra = false;
     } else if (entry.penumbra) {
-      const Relation penumbra = relation(loop, volumes_->penumbra(volume));
+      const Relation penumbra = relation(loop, volumes_->penumbra(volume), entry.penumbra_hint);
       if (penumbra == Relation::kOutside) continue;
       if (penumbra == Relation::kInside) {
         frame.state = {LightState::kPenumbra, volume.caster, ShadowReason::kNone};
@@ -198,8 +213,9 @@ bool ReceiverCutter<Space>::decide(Frame& frame) {
       }
     }
     if (entry.umbra) {
-      const Relation umbra =
-          volume.umbra_count == 0 ? Relation::kOutside : relation(loop, volumes_->umbra(volume));
+      const Relation umbra = volume.umbra_count == 0
+                                 ? Relation::kOutside
+                                 : relation(loop, volumes_->umbra(volume), entry.umbra_hint);
       if (umbra == Relation::kInside) {
         frame.state = {in_shadow_, volume.caster, ShadowReason::kNone};
         return true;
@@ -263,14 +279,14 @@ void ReceiverCutter<Space>::cut_out(const Frame& frame) {
     pending_.pop_back();
     bool decided = false;
     while (!decided && piece.next < frame.end) {
-      const Entry entry = entries_[piece.next++];
+      Entry& entry = entries_[piece.next++];
       const ShadowVolume& volume = (*volumes_)[entry.volume];
       LoopRange inside = piece.loop;
       PieceClass rest = piece.state;
       bool is_inside = true;
       if (piece.state.state == LightState::kLit && volume.penumbra_count != 0) {
         if (entry.penumbra) {
-          is_inside = clip(piece.loop, volumes_->penumbra(volume), inside);
+          is_inside = clip(piece.loop, volumes_->penumbra(volume), entry.penumbra_hint, inside);
           if (!is_inside) continue;
           for (const LoopRange& range : outside_) {
             pending_.push_back({range, piece.state, piece.next});
@@ -280,7 +296,8 @@ void ReceiverCutter<Space>::cut_out(const Frame& frame) {
       }
       piece.loop = inside;
       piece.state = rest;
-      if (!entry.umbra || !clip(piece.loop, volumes_->umbra(volume), inside)) continue;
+      if (!entry.umbra || !clip(piece.loop, volumes_->umbra(volume), entry.umbra_hint, inside))
+        continue;
       for (const LoopRange& range : outside_) pending_.push_back({range, rest, piece.next});
       piece.loop = inside;
       piece.state = {in_shadow_, volume.caster, ShadowReason::kNone};
@@ -293,14 +310,14 @@ void ReceiverCutter<Space>::cut_out(const Frame& frame) {
 template <VolumeSpaceModel Space>
 template <class Emit>
 bool ReceiverCutter<Space>::cut(const Loop& loop, const VolumeStore& store,
-                                std::span<const std::uint32_t> volumes, LightState in_shadow,
+                                std::span<const VolumeToCut> volumes, LightState in_shadow,
                                 const Emit& emit) {
   volumes_ = &store;
   in_shadow_ = in_shadow;
   support_ = loop.support;
   store_.clear();
   entries_.clear();
-  for (const std::uint32_t volume : volumes) entries_.push_back({volume, true, true});
+  for (const VolumeToCut& volume : volumes) entries_.push_back({volume.volume, true, volume.umbra});
   frames_.clear();
   frames_.emplace_back();
   frames_.back().loop = store_.append(loop);
