@@ -36,7 +36,7 @@ KernelFunctions functions_of(KernelId kernel) {
     case KernelId::kRational:
       return {shadows_rational, area_rational};
     case KernelId::kPlane:
-      return {shadows_plane, nullptr};
+      return {shadows_plane, area_plane};
   }
   return {};
 }

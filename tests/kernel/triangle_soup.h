@@ -13,6 +13,7 @@
 
 #include "gnomon/kernel/corner.h"
 #include "gnomon/kernel/geometry.h"
+#include "gnomon/kernel/nearest_double.h"
 #include "gnomon/scene/random.h"
 
 namespace gnomon::test {
@@ -55,7 +56,7 @@ class TriangleSoup {
           std::array<double, 3> nearest;
           for (int k = 0; k < 3; ++k) {
             coordinates.push_back(triangle[i][k]);
-            nearest[k] = mpq_class(geometry_.step * triangle[i][k]).get_d();
+            nearest[k] = nearest_double(geometry_.step * triangle[i][k]);
           }
           geometry_.positions.push_back(nearest);
         }

@@ -50,6 +50,27 @@ constexpr unsigned edge_against_plane_bits(unsigned b) { return 2 * support_valu
 /// (2 D^3) and a determinant of normals (4 D^6), 32 D^9.
 constexpr unsigned four_planes_bits(unsigned b) { return 9 * b + 6; }
 
+// --- Shadow volumes: planes of any magnitude n of the normal's components, through some point of
+// the scene's box, so that |n . x - d| at a point of the box is at most 3 * 2^n D. ---
+
+/// Magnitude of n . x - d, and of d.
+constexpr unsigned volume_value_bits(unsigned n, unsigned b) { return n + b + 2; }
+/// Magnitude of the normal of a plane through an edge (of a caster or of the light) and a corner of
+/// the other that one support plane cut off: P(u) m - P(v) l with areas l, m, 4 D^5; the same for
+/// the plane through a vertex and the line in which two support planes meet.
+constexpr unsigned cut_once_normal_bits(unsigned b) { return 5 * b + 2; }
+/// Two support planes meet on the light's in a corner X / w seen from a vertex, with three products
+/// of a value (2 D^3) and a cross product of normals (2 D^4): 12 D^7. (b - a) x X: 24 D^8.
+constexpr unsigned cut_twice_normal_bits(unsigned b) { return 8 * b + 5; }
+/// A plane along a direction of components below 2^e: 2 D E.
+constexpr unsigned directional_normal_bits(unsigned b, unsigned e) { return b + e + 1; }
+/// Signed bits of P(v) Q(u) - P(u) Q(v), by the magnitudes of the values.
+constexpr unsigned volume_edge_bits(unsigned p, unsigned q) { return p + q + 2; }
+/// Signed bits of the side that a point of three planes has of a fourth: four products of a value
+/// and of a determinant of the other three normals. `most` is the largest sum of the magnitudes of
+/// one plane's value and the others' normals.
+constexpr unsigned volume_meet_bits(unsigned most) { return most + 2 + 2 + 1; }
+
 // --- In light space. ---
 
 /// Magnitude of a component of q(v): D for a point light (a difference of two positions), 2 D E for

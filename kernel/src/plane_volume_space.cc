@@ -1,0 +1,684 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gnomon/kernel/plane_volume_space.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+#include "gnomon/kernel/fp_environment.h"
+#include "gnomon/kernel/nearest_double.h"
+
+namespace gnomon {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Doubles of a made vertex that are off by more are computed again from the integers.
+constexpr double kWorstError = 0x1p-40;
+
+double largest(const std::array<double, 3>& v) {
+  return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+}
+double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+std::array<double, 3> cross(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// 2^-k with magnitude * 2^-k in [1/2, 1). Requires: magnitude is in [1, 2^1000).
+double normalizer(double magnitude) {
+  const std::uint64_t biased = std::bit_cast<std::uint64_t>(magnitude) >> 52;
+  return std::bit_cast<double>((std::uint64_t{2045} - biased) << 52);
+}
+
+unsigned bits_of(const mpz_class& value) {
+  return sgn(value) == 0 ? 0 : static_cast<unsigned>(mpz_sizeinbase(value.get_mpz_t(), 2));
+}
+unsigned bits_of(const Vector3<mpz_class>& v) {
+  return std::max({bits_of(v[0]), bits_of(v[1]), bits_of(v[2])});
+}
+bool is_zero(const Vector3<mpz_class>& v) {
+  return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0;
+}
+
+Vector3<mpz_class> grid_position(const Geometry& geometry, VertexId v) {
+  return ExactGeometry<mpz_class>(geometry).position(v);
+}
+
+/// Nearest double of an integer of at most 127 bits.
+double to_double(std::int64_t value) { return static_cast<double>(value); }
+double to_double(Int128 value) { return static_cast<double>(value); }
+
+/// n of the plane through three positions. Requires: differences fit into 64 bits.
+template <class Int>
+Vector3<Int> narrow_normal(const GridPositions& grid, const std::array<VertexId, 3>& v) {
+  const std::int64_t* a = grid.narrow_point(v[0]);
+  const std::int64_t* b = grid.narrow_point(v[1]);
+  const std::int64_t* c = grid.narrow_point(v[2]);
+  return gnomon::cross<Int>(Vector3<std::int64_t>{b[0] - a[0], b[1] - a[1], b[2] - a[2]},
+                            Vector3<std::int64_t>{c[0] - a[0], c[1] - a[1], c[2] - a[2]});
+}
+
+}  // namespace
+
+template <class Stats>
+PlaneVolumeSpace<Stats>::PlaneVolumeSpace(const SceneSpace& scene, const KernelOptions&) {
+  auto made = std::make_shared<Shared>();
+  Shared& shared = *made;
+  const Geometry& geometry = scene.geometry();
+  shared.geometry = &geometry;
+  shared.plane_count = static_cast<std::uint32_t>(geometry.planes.size());
+  shared.edge_count = static_cast<std::uint32_t>(geometry.edges.size());
+  shared.b = geometry.grid.bits();
+  shared.narrow = geometry.grid.is_narrow();
+  if (shared.narrow) shared.grid_scale = std::ldexp(1.0, -static_cast<int>(shared.b));
+  for (int k = 0; k < 3; ++k) shared.origin[k] = double_double(geometry.origin[k]);
+  shared.step = double_double(geometry.step);
+  shared.supports.resize(geometry.planes.size());
+  tbb::parallel_for(std::size_t{0}, shared.supports.size(), [&](std::size_t id) {
+    const SupportTriple& triple = geometry.planes[id];
+    plane_through(shared, {triple.a, triple.b, triple.c}, shared.supports[id]);
+  });
+  shared_ = std::move(made);
+}
+
+template <class Stats>
+PlaneVolumeSpace<Stats> PlaneVolumeSpace<Stats>::fork() const {
+  PlaneVolumeSpace result = *this;
+  result.stats_ = {};
+  return result;
+}
+
+/// Each off by at most u of itself (2u on wide grids: GMP truncates).
+template <class Stats>
+std::array<double, 3> PlaneVolumeSpace<Stats>::input_point(const Shared& shared, VertexId v) {
+  const GridPositions& grid = shared.geometry->grid;
+  if (shared.narrow) {
+    const std::int64_t* at = grid.narrow_point(v);
+    return {static_cast<double>(at[0]) * shared.grid_scale,
+            static_cast<double>(at[1]) * shared.grid_scale,
+            static_cast<double>(at[2]) * shared.grid_scale};
+  }
+  std::array<double, 3> x;
+  for (int k = 0; k < 3; ++k) x[k] = to_double_scaled(grid.wide(v, k), shared.b);
+  return x;
+}
+
+template <class Stats>
+typename PlaneVolumeSpace<Stats>::Vertex PlaneVolumeSpace<Stats>::input_vertex(VertexId v) const {
+  Vertex vertex;
+  vertex.x = input_point(*shared_, v);
+  vertex.bound = rounded_up(vertex_bound(shared_->b <= 53 ? 0 : 2 * kUnit, 1));
+  vertex.source = v;
+  return vertex;
+}
+
+// The normal is exact before it is rounded once; d is computed from it in doubles: n . a with
+// factors off by 2u each and roundings of 8u, 20u in all.
+template <class Stats>
+bool PlaneVolumeSpace<Stats>::plane_through(const Shared& shared,
+                                            const std::array<VertexId, 3>& vertices, Plane& plane) {
+  const GridPositions& grid = shared.geometry->grid;
+  plane.source = vertices;
+  const auto finish = [&]<class Int>() {
+    const Vector3<Int> n = narrow_normal<Int>(grid, vertices);
+    plane.n = {to_double(n[0]), to_double(n[1]), to_double(n[2])};
+  };
+  if (shared.b <= 31) {
+    finish.template operator()<std::int64_t>();
+  } else if (shared.narrow) {
+    finish.template operator()<Int128>();
+  } else {
+    const Vector3<mpz_class> a = grid_position(*shared.geometry, vertices[0]),
+                             b = grid_position(*shared.geometry, vertices[1]),
+                             c = grid_position(*shared.geometry, vertices[2]);
+    const Vector3<mpz_class> n = gnomon::cross(difference(b, a), difference(c, a));
+    const unsigned bits = bits_of(n);
+    for (int k = 0; k < 3; ++k) plane.n[k] = to_double_scaled(n[k], bits);
+    plane.d = dot(plane.n, input_point(shared, vertices[0]));
+    return bits != 0;
+  }
+  const double magnitude = largest(plane.n);
+  if (magnitude == 0) return false;
+  const double scale = normalizer(magnitude);
+  for (double& x : plane.n) x *= scale;
+  plane.d = dot(plane.n, input_point(shared, vertices[0]));
+  return true;
+}
+
+template <class Stats>
+PlaneRef PlaneVolumeSpace<Stats>::add_plane(const Corner<Vertex>& a, const Corner<Vertex>& b,
+                                            const Corner<Vertex>& c) {
+  const std::array<VertexId, 3> sources = {a.vertex.source, b.vertex.source, c.vertex.source};
+  if (sources[0] != kMadeVertex && sources[1] != kMadeVertex && sources[2] != kMadeVertex) {
+    Plane plane;
+    if (!plane_through(*shared_, sources, plane)) return {};
+    own_.push_back(plane);
+    return last_plane();
+  }
+  // With points X / w and w > 0: (w_a X_b - w_b X_a) x (w_a X_c - w_c X_a) is a positive multiple
+  // of the normal, and d = n . X_a / w_a.
+  const Homogeneous p = homogeneous(a), q = homogeneous(b), r = homogeneous(c);
+  Vector3<mpz_class> u, v;
+  for (int k = 0; k < 3; ++k) {
+    u[k] = p.w * q.x[k] - q.w * p.x[k];
+    v[k] = p.w * r.x[k] - r.w * p.x[k];
+  }
+  ExactPlane<mpz_class> plane{gnomon::cross(u, v), {}};
+  if (is_zero(plane.n)) return {};
+  plane.d = gnomon::dot(plane.n, p.x);
+  for (mpz_class& x : plane.n) x *= p.w;
+  return add_explicit(std::move(plane));
+}
+
+template <class Stats>
+PlaneRef PlaneVolumeSpace<Stats>::add_plane(const Corner<Vertex>& a, const Corner<Vertex>& b,
+                                            const LightPoint& light) {
+  const Homogeneous p = homogeneous(a), q = homogeneous(b);
+  Vector3<mpz_class> u, v;
+  for (int k = 0; k < 3; ++k) {
+    u[k] = p.w * q.x[k] - q.w * p.x[k];
+    v[k] = light.directional ? light.grid[k] : mpz_class(p.w * light.grid[k] - p.x[k]);
+  }
+  ExactPlane<mpz_class> plane{gnomon::cross(u, v), {}};
+  if (is_zero(plane.n)) return {};
+  plane.d = gnomon::dot(plane.n, p.x);
+  for (mpz_class& x : plane.n) x *= p.w;
+  return add_explicit(std::move(plane));
+}
+
+// value 2^b = m 2^e with an odd m, or 0.
+template <class Stats>
+PlaneRef PlaneVolumeSpace<Stats>::add_axis_plane(int axis, double value) {
+  assert(value >= 0 && value <= 1);
+  ExactPlane<mpz_class> plane;
+  int exponent = 0;
+  const double fraction = std::frexp(value, &exponent);
+  plane.d = std::ldexp(fraction, 53);
+  exponent += static_cast<int>(shared_->b) - 53;
+  plane.n[static_cast<std::size_t>(axis)] = 1;
+  if (exponent >= 0) {
+    plane.d <<= static_cast<unsigned>(exponent);
+  } else {
+    plane.n[static_cast<std::size_t>(axis)] <<= static_cast<unsigned>(-exponent);
+  }
+  return add_explicit(std::move(plane));
+}
+
+template <class Stats>
+PlaneRef PlaneVolumeSpace<Stats>::add_explicit(ExactPlane<mpz_class> exact) {
+  mpz_class divisor = exact.d;
+  for (const mpz_class& x : exact.n) divisor = gcd(divisor, x);
+  if (divisor > 1) {
+    for (mpz_class& x : exact.n) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
+    mpz_divexact(exact.d.get_mpz_t(), exact.d.get_mpz_t(), divisor.get_mpz_t());
+  }
+  Plane plane;
+  const unsigned bits = bits_of(exact.n);
+  for (int k = 0; k < 3; ++k) plane.n[k] = to_double_scaled(exact.n[k], bits);
+  plane.d = to_double_scaled(exact.d, long{bits} + shared_->b);
+  plane.source = {static_cast<std::uint32_t>(explicit_.size()), kExplicit, kExplicit};
+  explicit_.push_back({std::move(exact), bits, static_cast<std::uint32_t>(own_.size())});
+  own_.push_back(plane);
+  return last_plane();
+}
+
+template <class Stats>
+typename PlaneVolumeSpace<Stats>::Homogeneous PlaneVolumeSpace<Stats>::homogeneous(
+    const Corner<Vertex>& corner) {
+  if (corner.vertex.source != kMadeVertex) {
+    return {grid_position(*shared_->geometry, corner.vertex.source), 1};
+  }
+  const std::array<std::uint32_t, 3> key = {corner.support, corner.before.index(),
+                                            corner.after.index()};
+  if (points_.empty()) points_.resize(kPointMemos);
+  PointMemo& memo = points_[(key[0] * 31u + key[1] * 7u + key[2]) % kPointMemos];
+  if (memo.key == key) return memo.point;
+  Homogeneous& point = memo.point;
+  with_exact_point(corner, true, [&]<class Int>(const ExactPoint<Int>& exact) {
+    if constexpr (std::is_same_v<Int, mpz_class>) {
+      const Vector3<mpz_class> origin = grid_position(*shared_->geometry, exact.origin);
+      point.w = exact.w;
+      for (int k = 0; k < 3; ++k) point.x[k] = origin[k] * exact.w + exact.x[k];
+    }
+  });
+  mpz_class divisor = point.w;
+  for (const mpz_class& x : point.x) divisor = gcd(divisor, x);
+  if (sgn(point.w) < 0) divisor = -divisor;
+  for (mpz_class& x : point.x) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
+  mpz_divexact(point.w.get_mpz_t(), point.w.get_mpz_t(), divisor.get_mpz_t());
+  // Planes added here may go, and their numbers with them.
+  const std::uint32_t lasting = shared_->plane_count + shared_->edge_count;
+  memo.key = key;
+  if (std::max({key[0], key[1], key[2]}) >= lasting) memo.key[0] = kMadeVertex;
+  return point;
+}
+
+// --- Integers. ---
+
+template <class Stats>
+template <class Factor>
+Vector3<Factor> PlaneVolumeSpace<Stats>::exact_normal(const Plane& plane) const {
+  if (plane.is_explicit()) {
+    const Vector3<mpz_class>& n = explicit_[plane.source[0]].plane.n;
+    return {integer_from<Factor>(n[0]), integer_from<Factor>(n[1]), integer_from<Factor>(n[2])};
+  }
+  using Position = std::conditional_t<std::is_same_v<Factor, mpz_class>, mpz_class, std::int64_t>;
+  const ExactGeometry<Position> exact(*shared_->geometry);
+  const Vector3<Position> a = exact.position(plane.source[0]);
+  return gnomon::cross<Factor>(difference(exact.position(plane.source[1]), a),
+                               difference(exact.position(plane.source[2]), a));
+}
+
+template <class Stats>
+template <class Value, class Factor>
+Value PlaneVolumeSpace<Stats>::exact_value(const Plane& plane, const Vector3<Factor>& normal,
+                                           VertexId v) const {
+  using Position = std::conditional_t<std::is_same_v<Factor, mpz_class>, mpz_class, std::int64_t>;
+  const ExactGeometry<Position> exact(*shared_->geometry);
+  const Vector3<Position> x = exact.position(v);
+  if (plane.is_explicit()) {
+    return Value(gnomon::dot<Value>(normal, x) -
+                 integer_from<Value>(explicit_[plane.source[0]].plane.d));
+  }
+  return gnomon::dot<Value>(normal, difference(x, exact.position(plane.source[0])));
+}
+
+template <class Stats>
+template <class Predicate>
+Sign PlaneVolumeSpace<Stats>::decide(unsigned factor_bits, unsigned width_bits,
+                                     const Predicate& predicate) {
+  const IntegerWidth width =
+      shared_->narrow ? narrowest_width(width_bits) : IntegerWidth::kUnbounded;
+  stats_.count(exact_stage(width));
+  const Sign sign = with_widths(width, std::max(factor_bits, shared_->b), predicate);
+  if (sign == Sign::kZero) stats_.count_zero();
+  return sign;
+}
+
+template <class Stats>
+Side PlaneVolumeSpace<Stats>::undecided_side(PlaneRef ref, const Corner<Vertex>& corner) {
+  const std::uint32_t index = ref.index();
+  const auto identity = [&] {
+    stats_.count(Stage::kIdentity);
+    return Side::kOn;
+  };
+  if (index == corner.before.index() || index == corner.after.index() || index == corner.support) {
+    return identity();
+  }
+  const Plane& plane = plane_at(index);
+  if (!plane.is_explicit()) {
+    if (corner.vertex.source != kMadeVertex) {
+      if (plane.has(corner.vertex.source)) return identity();
+    } else {
+      // Which of the three vertices that define the plane define each of the corner's.
+      const auto shared_with = [&](PlaneRef other) {
+        const auto mask = [&](const auto& has) {
+          return unsigned{has(plane.source[0])} | unsigned{has(plane.source[1])} << 1 |
+                 unsigned{has(plane.source[2])} << 2;
+        };
+        if (is_input_edge(other)) {
+          const EdgeEnds ends = ends_of(other);
+          return mask([&](VertexId v) { return v == ends.a || v == ends.b; });
+        }
+        const Plane& meeting = plane_at(other.index());
+        if (meeting.is_explicit()) return 0u;
+        return mask([&](VertexId v) { return meeting.has(v); });
+      };
+      const unsigned before = shared_with(corner.before), after = shared_with(corner.after),
+                     support = shared_with(PlaneRef(corner.support));
+      const bool on_edge = (is_input_edge(corner.before) && std::popcount(before) == 2) ||
+                           (is_input_edge(corner.after) && std::popcount(after) == 2);
+      if (on_edge || std::popcount(before & after) == 2 || std::popcount(before & support) == 2 ||
+          std::popcount(after & support) == 2) {
+        return identity();
+      }
+    }
+  }
+  const Sign sign = exact_side(plane, corner);
+  return side_of(ref.flipped() ? -sign : sign);
+}
+
+template <class Stats>
+Sign PlaneVolumeSpace<Stats>::exact_side_of_input(const Plane& plane, VertexId v) {
+  return decide(normal_bits(plane), value_bits(plane) + 1, [&]<class Factor, class Int>() {
+    return sign_of(exact_value<Int>(plane, exact_normal<Factor>(plane), v));
+  });
+}
+
+template <class Stats>
+Sign PlaneVolumeSpace<Stats>::exact_side(const Plane& plane, const Corner<Vertex>& corner) {
+  if (corner.vertex.source != kMadeVertex) return exact_side_of_input(plane, corner.vertex.source);
+  const bool before_is_edge = is_input_edge(corner.before);
+  if (before_is_edge || is_input_edge(corner.after)) {
+    const EdgeEnds ends = ends_of(before_is_edge ? corner.before : corner.after);
+    const Plane& cut = plane_at((before_is_edge ? corner.after : corner.before).index());
+    // With values P of the cut and Q at the ends u, v: the point is (P(v) u - P(u) v) over
+    // P(v) - P(u), so that Q there is (P(v) Q(u) - P(u) Q(v)) over the same.
+    return decide(
+        std::max(normal_bits(plane), normal_bits(cut)),
+        volume_edge_bits(value_bits(plane), value_bits(cut)), [&]<class Factor, class Int>() {
+          using Value = Product<Int, Factor, Factor>;
+          const Vector3<Factor> p = exact_normal<Factor>(cut), q = exact_normal<Factor>(plane);
+          const Value p_u = exact_value<Value>(cut, p, ends.a),
+                      p_v = exact_value<Value>(cut, p, ends.b),
+                      q_u = exact_value<Value>(plane, q, ends.a),
+                      q_v = exact_value<Value>(plane, q, ends.b);
+          return sign_of(Int(multiply<Int>(p_v, q_u) - multiply<Int>(p_u, q_v))) *
+                 sign_of(Value(p_v - p_u));
+        });
+  }
+  Meet meet = meet_of(corner);
+  // The values at a vertex that defines many of the planes are zero.
+  int most = -1;
+  const auto consider = [&](const Plane& candidate) {
+    if (candidate.is_explicit()) return;
+    for (const VertexId v : candidate.source) {
+      int count = !plane.is_explicit() && plane.has(v) ? 1 : 0;
+      for (const Plane* other : meet.planes) {
+        count += !other->is_explicit() && other->has(v) ? 1 : 0;
+      }
+      if (count > most) {
+        most = count;
+        meet.pivot = v;
+      }
+    }
+  };
+  consider(plane);
+  consider(*meet.planes[1]);
+  consider(*meet.planes[2]);
+  if (most < 2) consider(*meet.planes[0]);
+  unsigned normals = normal_bits(plane), factor_bits = normals, rest = value_bits(plane) - normals;
+  for (const Plane* other : meet.planes) {
+    const unsigned n = normal_bits(*other);
+    normals += n;
+    factor_bits = std::max(factor_bits, n);
+    rest = std::max(rest, value_bits(*other) - n);
+  }
+  return decide(factor_bits, volume_meet_bits(normals + rest),
+                [&]<class Factor, class Int>() { return side_of_meet<Factor, Int>(plane, meet); });
+}
+
+// Planes p, q, r meet in o - (P(o) q x r + Q(o) r x p + R(o) p x q) / (p . q x r), by their normals
+// and their values at any point o; a fourth, t, has there the value
+// (T(o) (p . q x r) - P(o) (t . q x r) - Q(o) (t . r x p) - R(o) (t . p x q)) / (p . q x r).
+template <class Stats>
+template <class Factor, class Int>
+Sign PlaneVolumeSpace<Stats>::side_of_meet(const Plane& plane, const Meet& meet) const {
+  using Value = Product<Int, Factor, Factor>;
+  using Cross = Product<Int, Factor, Factor>;
+  using Minor = Product<Int, Factor, Cross>;
+  const Vector3<Factor> t = exact_normal<Factor>(plane);
+  const std::array<Vector3<Factor>, 3> n = {exact_normal<Factor>(*meet.planes[0]),
+                                            exact_normal<Factor>(*meet.planes[1]),
+                                            exact_normal<Factor>(*meet.planes[2])};
+  Value sole{};
+  Minor sole_minor{};
+  Int sum{};
+  int terms = 0;
+  const auto add = [&](const Value& value, const Minor& minor) {
+    if (terms == 0) {
+      sole = value;
+      sole_minor = minor;
+    } else {
+      if (terms == 1) sum = multiply<Int>(sole, sole_minor);
+      sum = Int(sum + multiply<Int>(value, minor));
+    }
+    ++terms;
+  };
+  const Minor w = gnomon::dot<Minor>(n[0], gnomon::cross<Cross>(n[1], n[2]));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Value value = exact_value<Value>(*meet.planes[i], n[i], meet.pivot);
+    if (sign_of(value) == Sign::kZero) continue;
+    // t . n_(i+1) x n_(i+2), with its sign turned.
+    add(value, gnomon::dot<Minor>(t, gnomon::cross<Cross>(n[(i + 2) % 3], n[(i + 1) % 3])));
+  }
+  const Value value = exact_value<Value>(plane, t, meet.pivot);
+  if (sign_of(value) != Sign::kZero) add(value, w);
+  const Sign sign = terms == 0   ? Sign::kZero
+                    : terms == 1 ? sign_of(sole) * sign_of(sole_minor)
+                                 : sign_of(sum);
+  return sign * sign_of(w);
+}
+
+template <class Stats>
+template <class F>
+void PlaneVolumeSpace<Stats>::with_exact_point(const Corner<Vertex>& corner, bool unbounded,
+                                               const F& f) const {
+  const auto call = [&](unsigned factor_bits, unsigned width_bits, const auto& make) {
+    const IntegerWidth width =
+        shared_->narrow && !unbounded ? narrowest_width(width_bits) : IntegerWidth::kUnbounded;
+    with_widths(width, std::max(factor_bits, shared_->b),
+                [&]<class Factor, class Int>() { f(make.template operator()<Factor, Int>()); });
+  };
+  const bool before_is_edge = is_input_edge(corner.before);
+  if (before_is_edge || is_input_edge(corner.after)) {
+    // u + P(u) (v - u) / (P(u) - P(v)).
+    const EdgeEnds ends = ends_of(before_is_edge ? corner.before : corner.after);
+    const Plane& cut = plane_at((before_is_edge ? corner.after : corner.before).index());
+    call(normal_bits(cut), value_bits(cut) + shared_->b + 1, [&]<class Factor, class Int>() {
+      using Position = std::conditional_t<std::is_same_v<Int, mpz_class>, mpz_class, std::int64_t>;
+      const ExactGeometry<Position> exact(*shared_->geometry);
+      const Vector3<Factor> p = exact_normal<Factor>(cut);
+      const Int at_u = exact_value<Int>(cut, p, ends.a), at_v = exact_value<Int>(cut, p, ends.b);
+      const Vector3<Position> step = difference(exact.position(ends.b), exact.position(ends.a));
+      ExactPoint<Int> point;
+      point.origin = ends.a;
+      point.w = at_u - at_v;
+      for (int k = 0; k < 3; ++k) point.x[k] = multiply<Int>(at_u, step[k]);
+      return point;
+    });
+    return;
+  }
+  Meet meet = meet_of(corner);
+  unsigned normals = 0, factor_bits = 0, rest = 0;
+  for (const Plane* plane : meet.planes) {
+    const unsigned n = normal_bits(*plane);
+    normals += n;
+    factor_bits = std::max(factor_bits, n);
+    rest = std::max(rest, value_bits(*plane) - n);
+    if (!plane->is_explicit()) meet.pivot = plane->source[0];
+  }
+  // A value and a cross product of two: three terms of two products. The determinant has less.
+  call(factor_bits, std::max(normals + rest, normals + 1) + 1 + 2 + 1,
+       [&]<class Factor, class Int>() {
+         using Value = Product<Int, Factor, Factor>;
+         using Cross = Product<Int, Factor, Factor>;
+         const std::array<Vector3<Factor>, 3> n = {exact_normal<Factor>(*meet.planes[0]),
+                                                   exact_normal<Factor>(*meet.planes[1]),
+                                                   exact_normal<Factor>(*meet.planes[2])};
+         ExactPoint<Int> point;
+         point.origin = meet.pivot;
+         for (std::size_t i = 0; i < 3; ++i) {
+           const Vector3<Cross> minors = gnomon::cross<Cross>(n[(i + 1) % 3], n[(i + 2) % 3]);
+           const Value value = exact_value<Value>(*meet.planes[i], n[i], meet.pivot);
+           for (std::size_t k = 0; k < 3; ++k) {
+             point.x[k] = Int(point.x[k] - multiply<Int>(value, minors[k]));
+           }
+           if (i == 0) point.w = gnomon::dot<Int>(n[0], minors);
+         }
+         return point;
+       });
+}
+
+// --- Points. ---
+
+// Quotients of integers converted once, 2u each and u: x / w is off by 5u of itself, the origin by
+// 2u, and both are in [-1, 1].
+template <class Stats>
+typename PlaneVolumeSpace<Stats>::Vertex PlaneVolumeSpace<Stats>::repaired(
+    const Corner<Vertex>& corner) const {
+  Vertex vertex;
+  with_exact_point(corner, false, [&]<class Int>(const ExactPoint<Int>& point) {
+    vertex.x = input_point(*shared_, point.origin);
+    long shift = 0;
+    if constexpr (std::is_same_v<Int, mpz_class>) shift = long{bits_of(point.w)};
+    const double w = to_double_scaled(point.w, shift);
+    for (int k = 0; k < 3; ++k) {
+      vertex.x[k] += to_double_scaled(point.x[k], shift + shared_->b) / w;
+    }
+  });
+  const double magnitude = std::max(1.0, largest(vertex.x));
+  vertex.bound = rounded_up(vertex_bound(16 * kUnit * magnitude, 1.01 * magnitude));
+  return vertex;
+}
+
+template <class Stats>
+typename PlaneVolumeSpace<Stats>::Vertex PlaneVolumeSpace<Stats>::crossing(
+    PlaneRef ref, PlaneRef edge, bool, const Corner<Vertex>& from, const Corner<Vertex>&) const {
+  const Plane& t = plane_at(ref.index());
+  Vertex vertex;
+  double error = kInfinity;
+  if (is_input_edge(edge)) {
+    // With values f and g of the ends, each off by v: the parameter f / (f - g) is off by at most
+    // 1.7 v / |f - g| if that is more than 8 v.
+    const EdgeEnds ends = ends_of(edge);
+    const std::array<double, 3> u = input_point(*shared_, ends.a),
+                                v = input_point(*shared_, ends.b);
+    const double f = dot(t.n, u) - t.d, g = dot(t.n, v) - t.d, gap = std::fabs(f - g);
+    const double value_error = vertex_bound(2 * kUnit, 1);
+    if (gap > 8 * value_error) {
+      const double parameter = f / (f - g);
+      double span = 0;
+      for (int k = 0; k < 3; ++k) {
+        const double step = v[k] - u[k];
+        vertex.x[k] = u[k] + parameter * step;
+        span = std::max(span, std::fabs(step));
+      }
+      error = 1.01 * (span + 4 * kUnit) * (1.7 * value_error / gap + 4 * kUnit) + 8 * kUnit;
+    }
+  } else {
+    // From any point x: with the residuals r_i of the planes there, the point where they meet is
+    // x + (r_0 n_1 x n_2 + r_1 n_2 x n_0 + r_2 n_0 x n_1) / (n_0 . n_1 x n_2).
+    const Plane& s = plane_at(from.support);
+    const Plane& e = plane_at(edge.index());
+    const std::array<double, 3>& x = from.vertex.x;
+    const std::array<double, 3> st = cross(s.n, t.n), et = cross(e.n, t.n), se = cross(s.n, e.n);
+    const double det = dot(se, t.n), size = std::fabs(det);
+    const double at_s = s.d - dot(s.n, x), at_e = dot(e.n, x) - e.d, at_t = t.d - dot(t.n, x);
+    const double inverse = 1 / det;
+    double most = 0, moved = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double step = (at_s * et[k] + at_e * st[k] + at_t * se[k]) * inverse;
+      vertex.x[k] = x[k] + step;
+      most = std::max(most, std::fabs(et[k]) + std::fabs(st[k]) + std::fabs(se[k]));
+      moved = std::max(moved, std::fabs(step));
+    }
+    const double magnitude = std::max(1.0, largest(x));
+    const double residuals = std::fabs(at_s) + std::fabs(at_e) + std::fabs(at_t);
+    if (size > 0x1p-30) {
+      error = 1.01 *
+                  (kPlaneError * magnitude * most + 19 * kUnit * residuals + 67 * kUnit * moved) /
+                  size +
+              4 * kUnit * (magnitude + moved);
+    }
+  }
+  if (error < kWorstError) {
+    const double magnitude = std::max(1.0, 1.01 * largest(vertex.x));
+    vertex.bound = rounded_up(vertex_bound(error, magnitude));
+    return vertex;
+  }
+  return repaired(Corner<Vertex>{edge, vertex, ref, from.support});
+}
+
+template <class Stats>
+std::array<Ball, 3> PlaneVolumeSpace<Stats>::position(const Corner<Vertex>& corner) const {
+  const Vertex& vertex = corner.vertex;
+  std::array<Ball, 3> point;
+  if (vertex.source != kMadeVertex) {
+    const double error = shared_->b <= 53 ? 0 : 2 * kUnit;
+    for (int k = 0; k < 3; ++k) {
+      point[k] = Ball(vertex.x[k], error * vertex.x[k] + (shared_->b <= 53 ? 0 : Ball::kTiny));
+    }
+    return point;
+  }
+  // The bound is 3.01 times the error and at least kPlaneError.
+  const double error = (static_cast<double>(vertex.bound) - kPlaneError) / 3;
+  for (int k = 0; k < 3; ++k) point[k] = Ball(vertex.x[k], error);
+  return point;
+}
+
+template <class Stats>
+std::array<mpq_class, 3> PlaneVolumeSpace<Stats>::exact_position(
+    const Corner<Vertex>& corner) const {
+  const Geometry& geometry = *shared_->geometry;
+  std::array<mpq_class, 3> result;
+  if (corner.vertex.source != kMadeVertex) {
+    for (int k = 0; k < 3; ++k) result[k] = geometry.grid.at(corner.vertex.source, k);
+  } else {
+    with_exact_point(corner, true, [&]<class Int>(const ExactPoint<Int>& point) {
+      if constexpr (std::is_same_v<Int, mpz_class>) {
+        for (int k = 0; k < 3; ++k) {
+          result[k] = mpq_class(point.x[k], point.w);
+          result[k].canonicalize();
+          result[k] += geometry.grid.at(point.origin, k);
+        }
+      }
+    });
+  }
+  for (int k = 0; k < 3; ++k) result[k] = geometry.origin[k] + geometry.step * result[k];
+  return result;
+}
+
+// The same in pairs of doubles: every factor errs by less than 2^-100 of itself; the bound is 2^-94
+// of the magnitudes of the terms. A coordinate that all points of one of the planes (or of the
+// edge) have is that of an input vertex: much of a scene stands on z = 0, which no bound can tell.
+template <class Stats>
+std::array<double, 3> PlaneVolumeSpace<Stats>::nearest_position(
+    const Corner<Vertex>& corner) const {
+  const Shared& shared = *shared_;
+  const Geometry& geometry = *shared.geometry;
+  if (corner.vertex.source != kMadeVertex) return geometry.positions[corner.vertex.source];
+  std::array<double, 3> result;
+  std::array<bool, 3> known{};
+  if (shared.narrow) {
+    const auto same = [&](VertexId a, VertexId b, VertexId c) {
+      for (int k = 0; k < 3; ++k) {
+        const std::int64_t x = geometry.grid.narrow(a, k);
+        if (x != geometry.grid.narrow(b, k) || x != geometry.grid.narrow(c, k)) continue;
+        result[k] = geometry.positions[a][k];
+        known[k] = true;
+      }
+    };
+    for (const PlaneRef ref : {PlaneRef(corner.support), corner.before, corner.after}) {
+      if (is_input_edge(ref)) {
+        const EdgeEnds ends = ends_of(ref);
+        same(ends.a, ends.b, ends.b);
+      } else if (const Plane& plane = plane_at(ref.index()); !plane.is_explicit()) {
+        same(plane.source[0], plane.source[1], plane.source[2]);
+      }
+    }
+  }
+  bool all = true;
+  with_exact_point(corner, false, [&]<class Int>(const ExactPoint<Int>& point) {
+    const DoubleDouble w = double_double(point.w);
+    for (int k = 0; k < 3; ++k) {
+      if (known[k]) continue;
+      const DoubleDouble at = shared.narrow ? double_double(geometry.grid.narrow(point.origin, k))
+                                            : double_double(geometry.grid.wide(point.origin, k));
+      const DoubleDouble step = double_double(point.x[k]) / w;
+      const double most = std::fabs(shared.origin[k].high) +
+                          (std::fabs(at.high) + std::fabs(step.high)) * shared.step.high;
+      const std::optional<double> nearest =
+          gnomon::nearest_double(shared.origin[k] + (at + step) * shared.step, 0x1p-94 * most);
+      known[k] = nearest.has_value();
+      all = all && known[k];
+      if (nearest) result[k] = *nearest;
+    }
+  });
+  if (all) return result;
+  const std::array<mpq_class, 3> exact = exact_position(corner);
+  for (int k = 0; k < 3; ++k) {
+    if (!known[k]) result[k] = gnomon::nearest_double(exact[k]);
+  }
+  return result;
+}
+
+template class PlaneVolumeSpace<NoStats>;
+template class PlaneVolumeSpace<CountStats>;
+
+}  // namespace gnomon
