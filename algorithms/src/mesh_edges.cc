@@ -78,8 +78,8 @@ EdgeList::EdgeList(const FaceLoops& loops) {
 }
 
 std::size_t EdgeList::find(std::uint32_t a, std::uint32_t b) const {
-  return static_cast<std::size_t>(
-      std::lower_bound(edges_.begin(), edges_.end(), edge_key(a, b)) - edges_.begin());
+  return static_cast<std::size_t>(std::lower_bound(edges_.begin(), edges_.end(), edge_key(a, b)) -
+                                  edges_.begin());
 }
 
 FaceLoops insert_vertices(const FaceLoops& loops, const EdgeList& edges,
@@ -114,8 +114,8 @@ FaceLoops fit_edges(const FaceLoops& loops, const PointTable& points) {
   // Edges of one line stand together; which line comes first does not matter for the result.
   const auto hash = [&](std::size_t edge) { return static_cast<std::size_t>(lines[edge].hash); };
   const auto same = [&](std::size_t a, std::size_t b) { return lines[a] == lines[b]; };
-  std::unordered_map<std::size_t, std::size_t, decltype(hash), decltype(same)> numbers(
-      edges.size(), hash, same);
+  std::unordered_map<std::size_t, std::size_t, decltype(hash), decltype(same)> numbers(edges.size(),
+                                                                                       hash, same);
   std::vector<std::vector<std::size_t>> on_line;
   for (std::size_t edge = 0; edge < edges.size(); ++edge) {
     const auto [at, is_new] = numbers.emplace(edge, on_line.size());

@@ -30,10 +30,8 @@ bool is_set(const std::atomic<bool>* flag) {
 ExactPoint meet(const ExactPoint& a, const ExactPoint& b, int axis, const mpq_class& line) {
   const auto k = static_cast<std::size_t>(axis);
   // The values of the two ends are of opposite signs; each end weighs as much as the other's value.
-  const mpz_class weight_b =
-      abs(a.numerator[k] * line.get_den() - line.get_num() * a.denominator);
-  const mpz_class weight_a =
-      abs(b.numerator[k] * line.get_den() - line.get_num() * b.denominator);
+  const mpz_class weight_b = abs(a.numerator[k] * line.get_den() - line.get_num() * a.denominator);
+  const mpz_class weight_a = abs(b.numerator[k] * line.get_den() - line.get_num() * b.denominator);
   ExactPoint result;
   for (std::size_t i = 0; i < 3; ++i) {
     result.numerator[i] = weight_a * a.numerator[i] + weight_b * b.numerator[i];
@@ -165,7 +163,9 @@ class FaceCutter {
 };
 
 /// Which grids cut an edge along which axes: a bit for each.
-constexpr unsigned bit_of(std::size_t grid, int axis) { return 1u << (3 * grid + static_cast<unsigned>(axis)); }
+constexpr unsigned bit_of(std::size_t grid, int axis) {
+  return 1u << (3 * grid + static_cast<unsigned>(axis));
+}
 
 /// The vertices of all grids asked for on one edge, in order, each once.
 std::vector<NewPoint> points_on_edge(const PointTable& points, std::uint32_t from, std::uint32_t to,
@@ -287,10 +287,10 @@ Expected<GridCut> cut_by_grids(const PreparedScene& scene, const FaceLoops& loop
     cells += across[0] * across[1] - 1;
   }
   if (cells > request.max_faces) {
-    return fail(ErrorCode::kLimit,
-                "the grid cuts the scene into more than " + std::to_string(request.max_faces) +
-                    " faces",
-                "a larger step");
+    return fail(
+        ErrorCode::kLimit,
+        "the grid cuts the scene into more than " + std::to_string(request.max_faces) + " faces",
+        "a larger step");
   }
 
   const EdgeList edges(loops);

@@ -48,8 +48,8 @@ struct Node {
   std::uint32_t vertex = 0;
   std::uint32_t part = 0;
   Side side = Side::kFront;
-  std::uint64_t lit_by = 0, penumbra_of = 0;           // classes of faces that meet in it
-  std::uint64_t known_lit = 0, known_penumbra = 0;     // what its values were computed as
+  std::uint64_t lit_by = 0, penumbra_of = 0;        // classes of faces that meet in it
+  std::uint64_t known_lit = 0, known_penumbra = 0;  // what its values were computed as
 };
 
 /// Vertices of one side of the mesh and their illumination, each computed once.
@@ -174,28 +174,29 @@ class MeshMaker {
  private:
   Expected<void> check() const {
     if (!result_.exact) {
-      return fail(ErrorCode::kUsage, "kernel " + result_.kernel + " rounds: its fragments do not fit",
+      return fail(ErrorCode::kUsage,
+                  "kernel " + result_.kernel + " rounds: its fragments do not fit",
                   "the result of an exact kernel");
     }
     if (result_.lights.empty() || result_.lights.size() > 64) {
       return fail(ErrorCode::kUsage, std::to_string(result_.lights.size()) + " lights to shade by",
                   "1 to 64");
     }
-    const bool has_points = result_.lights.size() > 1 || !result_.combined.empty()
-                                ? !result_.combined_exact_points.empty()
-                                : result_.lights[0].fragments.empty() ||
-                                      !result_.lights[0].exact_points.empty();
+    const bool has_points =
+        result_.lights.size() > 1 || !result_.combined.empty()
+            ? !result_.combined_exact_points.empty()
+            : result_.lights[0].fragments.empty() || !result_.lights[0].exact_points.empty();
     if (!has_points) {
-      return fail(ErrorCode::kUsage, "the result has no exact points of fragments that are shared "
-                                     "by all lights",
+      return fail(ErrorCode::kUsage,
+                  "the result has no exact points of fragments that are shared "
+                  "by all lights",
                   "ShadowOptions::keep_exact_points, and combined for several lights");
     }
     return {};
   }
 
   bool is_interrupted() const {
-    return options_.interrupted != nullptr &&
-           options_.interrupted->load(std::memory_order_relaxed);
+    return options_.interrupted != nullptr && options_.interrupted->load(std::memory_order_relaxed);
   }
   static tl::unexpected<Error> stopped() {
     return fail(ErrorCode::kInterrupted, "interrupted while shading");
@@ -215,8 +216,9 @@ class MeshMaker {
     std::vector<Given> given;
     if (result_.lights.size() > 1 || !result_.combined.empty()) {
       for (const CombinedFragment& fragment : result_.combined) {
-        given.push_back({{fragment.part, fragment.side, fragment.lit_by, fragment.penumbra_of, 0, 0},
-                         {result_.combined_exact_points.data() + fragment.first, fragment.count}});
+        given.push_back(
+            {{fragment.part, fragment.side, fragment.lit_by, fragment.penumbra_of, 0, 0},
+             {result_.combined_exact_points.data() + fragment.first, fragment.count}});
       }
     } else {
       const LightResult& light = result_.lights[0];
@@ -367,8 +369,8 @@ class MeshMaker {
         mean += (at - points_.nearest(loop[0])[k]) / static_cast<double>(loop.size());
       }
       mean += points_.nearest(loop[0])[k];
-      // 2^-12 of the face's size moves nothing that matters.
-      const int unit = high > low ? std::ilogb(high - low) - 12 : std::ilogb(mean) - 52;
+      // 2^-24 of the face's size is less than any tolerance.
+      const int unit = high > low ? std::ilogb(high - low) - 24 : std::ilogb(mean) - 52;
       const double rounded = std::ldexp(std::nearbyint(std::ldexp(mean, -unit)), unit);
       point[k] = std::isfinite(rounded) ? rounded : mean;
     }
@@ -506,8 +508,8 @@ class MeshMaker {
           mesh_.points.push_back(points_.nearest(vertex));
           mesh_.exact_points.push_back(std::move(points_.exact_points()[vertex]));
         }
-        const auto [at, is_new] = samples.emplace(
-            std::pair(node, shone_on), static_cast<std::uint32_t>(mesh_.samples.size()));
+        const auto [at, is_new] = samples.emplace(std::pair(node, shone_on),
+                                                  static_cast<std::uint32_t>(mesh_.samples.size()));
         if (is_new) {
           mesh_.samples.push_back({number, nodes_[node].part, nodes_[node].side});
           for (std::size_t light = 0; light < lights; ++light) {

@@ -105,19 +105,20 @@ struct LightShadingStats {
   // What was computed, vertices that faces share counted once: unobstructed, with the search for
   // casters, and the ambient term alone.
   std::uint64_t illuminated_lit = 0, illuminated_penumbra = 0, illuminated_umbra = 0;
-  double seconds = 0;      // of computing them, wall clock
+  double seconds = 0;        // of computing them, wall clock
   double largest_error = 0;  // the largest error bound of a value, in the light's intensity
 };
 
 struct ShadingStats {
   std::uint64_t fragments = 0, faces = 0, vertices = 0;
-  unsigned depth = 0;        // how many times adaptive subdivision cut something
-  double grid_seconds = 0;   // from fragments to faces, without illumination; wall clock
+  unsigned depth = 0;       // how many times adaptive subdivision cut something
+  double grid_seconds = 0;  // from fragments to faces, without illumination; wall clock
   std::vector<LightShadingStats> lights;
 };
 
 struct ShadingMesh {
-  std::vector<std::uint32_t> lights;  // indices into PreparedScene::lights; bit i of a face's classes
+  std::vector<std::uint32_t>
+      lights;  // indices into PreparedScene::lights; bit i of a face's classes
   std::vector<ExactPoint> exact_points;
   std::vector<std::array<double, 3>> points;  // nearest doubles
   std::vector<MeshFace> faces;                // by part, front before back
