@@ -96,13 +96,21 @@ class PartMeasure {
   }
 
  private:
+  /// A kernel that can tells where the corner is as seen from the part's first vertex.
+  std::array<Ball, 3> point(const Corner<typename Space::Vertex>& corner) const {
+    if constexpr (requires { space_.offset(VertexId{}, corner); }) {
+      return space_.offset(part_.vertices[0].source, corner);
+    } else {
+      return space_.position(corner);
+    }
+  }
   /// Twice the signed area in the chart.
   Ball enclosed_area(const Loop& loop) const {
     Ball sum;
-    const auto first = space_.position(loop.corner(0));
-    auto previous = space_.position(loop.corner(1));
+    const auto first = point(loop.corner(0));
+    auto previous = point(loop.corner(1));
     for (std::uint32_t i = 2; i < loop.size(); ++i) {
-      const auto next = space_.position(loop.corner(i));
+      const auto next = point(loop.corner(i));
       sum = sum + (previous[chart_.u] - first[chart_.u]) * (next[chart_.v] - first[chart_.v]) -
             (previous[chart_.v] - first[chart_.v]) * (next[chart_.u] - first[chart_.u]);
       previous = next;

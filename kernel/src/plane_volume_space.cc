@@ -18,6 +18,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Doubles of a made vertex that are off by more are computed again from the integers.
 constexpr double kWorstError = 0x1p-40;
+/// Of normals in doubles; below, offsets are computed from the integers.
+constexpr double kLeastDeterminant = 0x1p-6;
 
 double largest(const std::array<double, 3>& v) {
   return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
@@ -239,7 +241,7 @@ typename PlaneVolumeSpace<Stats>::Homogeneous PlaneVolumeSpace<Stats>::homogeneo
   PointMemo& memo = points_[(key[0] * 31u + key[1] * 7u + key[2]) % kPointMemos];
   if (memo.key == key) return memo.point;
   Homogeneous& point = memo.point;
-  with_exact_point(corner, true, [&]<class Int>(const ExactPoint<Int>& exact) {
+  with_exact_point(corner, true, some_pivot(corner), [&]<class Int>(const ExactPoint<Int>& exact) {
     if constexpr (std::is_same_v<Int, mpz_class>) {
       const Vector3<mpz_class> origin = grid_position(*shared_->geometry, exact.origin);
       point.w = exact.w;
@@ -448,7 +450,7 @@ Sign PlaneVolumeSpace<Stats>::side_of_meet(const Plane& plane, const Meet& meet)
 template <class Stats>
 template <class F>
 void PlaneVolumeSpace<Stats>::with_exact_point(const Corner<Vertex>& corner, bool unbounded,
-                                               const F& f) const {
+                                               VertexId pivot, const F& f) const {
   const auto call = [&](unsigned factor_bits, unsigned width_bits, const auto& make) {
     const IntegerWidth width =
         shared_->narrow && !unbounded ? narrowest_width(width_bits) : IntegerWidth::kUnbounded;
@@ -475,13 +477,13 @@ void PlaneVolumeSpace<Stats>::with_exact_point(const Corner<Vertex>& corner, boo
     return;
   }
   Meet meet = meet_of(corner);
+  meet.pivot = pivot;
   unsigned normals = 0, factor_bits = 0, rest = 0;
   for (const Plane* plane : meet.planes) {
     const unsigned n = normal_bits(*plane);
     normals += n;
     factor_bits = std::max(factor_bits, n);
     rest = std::max(rest, value_bits(*plane) - n);
-    if (!plane->is_explicit()) meet.pivot = plane->source[0];
   }
   // A value and a cross product of two: three terms of two products. The determinant has less.
   call(factor_bits, std::max(normals + rest, normals + 1) + 1 + 2 + 1,
@@ -507,13 +509,23 @@ void PlaneVolumeSpace<Stats>::with_exact_point(const Corner<Vertex>& corner, boo
 
 // --- Points. ---
 
+template <class Stats>
+VertexId PlaneVolumeSpace<Stats>::some_pivot(const Corner<Vertex>& corner) const {
+  for (const PlaneRef ref : {PlaneRef(corner.support), corner.before, corner.after}) {
+    if (is_input_edge(ref)) continue;
+    const Plane& plane = plane_at(ref.index());
+    if (!plane.is_explicit()) return plane.source[0];
+  }
+  return 0;
+}
+
 // Quotients of integers converted once, 2u each and u: x / w is off by 5u of itself, the origin by
 // 2u, and both are in [-1, 1].
 template <class Stats>
 typename PlaneVolumeSpace<Stats>::Vertex PlaneVolumeSpace<Stats>::repaired(
     const Corner<Vertex>& corner) const {
   Vertex vertex;
-  with_exact_point(corner, false, [&]<class Int>(const ExactPoint<Int>& point) {
+  with_exact_point(corner, false, some_pivot(corner), [&]<class Int>(const ExactPoint<Int>& point) {
     vertex.x = input_point(*shared_, point.origin);
     long shift = 0;
     if constexpr (std::is_same_v<Int, mpz_class>) shift = long{bits_of(point.w)};
@@ -603,6 +615,108 @@ std::array<Ball, 3> PlaneVolumeSpace<Stats>::position(const Corner<Vertex>& corn
 }
 
 template <class Stats>
+double PlaneVolumeSpace<Stats>::accurate_value(const Plane& plane, VertexId v) const {
+  double result = 0;
+  const auto compute = [&]<class Factor, class Int>() {
+    const Vector3<Factor> n = exact_normal<Factor>(plane);
+    const Int value = exact_value<Int>(plane, n, v);
+    if (plane.is_explicit() || std::is_same_v<Int, mpz_class>) {
+      long bits = 0;
+      if (plane.is_explicit()) {
+        bits = explicit_[plane.source[0]].bits;
+      } else if constexpr (std::is_same_v<Factor, mpz_class>) {
+        bits = bits_of(n);
+      }
+      result = to_double_scaled(value, bits + shared_->b);
+    } else if constexpr (!std::is_same_v<Int, mpz_class>) {
+      // As plane_through() scales it.
+      const double magnitude = largest(std::array<double, 3>{
+          to_double_scaled(n[0], 0), to_double_scaled(n[1], 0), to_double_scaled(n[2], 0)});
+      result = to_double_scaled(value, 0) * normalizer(magnitude) * shared_->grid_scale;
+    }
+  };
+  with_widths(shared_->narrow ? narrowest_width(value_bits(plane) + 1) : IntegerWidth::kUnbounded,
+              std::max(normal_bits(plane), shared_->b), compute);
+  return result;
+}
+
+template <class Stats>
+std::array<Ball, 3> PlaneVolumeSpace<Stats>::exact_offset(VertexId origin,
+                                                          const Corner<Vertex>& corner) const {
+  std::array<Ball, 3> result;
+  with_exact_point(corner, false, origin, [&]<class Int>(const ExactPoint<Int>& point) {
+    long shift = 0;
+    if constexpr (std::is_same_v<Int, mpz_class>) shift = long{bits_of(point.w)};
+    const double w = to_double_scaled(point.w, shift);
+    const std::array<Ball, 3> from = input_offset(origin, point.origin);
+    for (int k = 0; k < 3; ++k) {
+      const double step = to_double_scaled(point.x[k], shift + shared_->b) / w;
+      result[k] = from[k] + Ball(step, 5.1 * kUnit * std::fabs(step) + Ball::kTiny);
+    }
+  });
+  return result;
+}
+
+template <class Stats>
+std::array<Ball, 3> PlaneVolumeSpace<Stats>::input_offset(VertexId from, VertexId to) const {
+  const GridPositions& grid = shared_->geometry->grid;
+  std::array<Ball, 3> result;
+  if (from == to) return result;
+  for (int k = 0; k < 3; ++k) {
+    const double step =
+        shared_->narrow
+            ? static_cast<double>(grid.narrow(to, k) - grid.narrow(from, k)) * shared_->grid_scale
+            : to_double_scaled(mpz_class(grid.wide(to, k) - grid.wide(from, k)), shared_->b);
+    result[k] = Ball(step, 2 * kUnit * std::fabs(step) + (shared_->narrow ? 0 : Ball::kTiny));
+  }
+  return result;
+}
+
+// With values v_i at the origin, off by 2u each, and cross products c_i of normals, off by 12.2u
+// and at most 2: v_0 c_0 + v_1 c_1 + v_2 c_2 is off by 24.2u (|v_0| + |v_1| + |v_2|), and the
+// determinant by 66u (see crossing()).
+template <class Stats>
+std::array<Ball, 3> PlaneVolumeSpace<Stats>::offset(VertexId origin,
+                                                    const Corner<Vertex>& corner) const {
+  if (corner.vertex.source != kMadeVertex) return input_offset(origin, corner.vertex.source);
+  std::array<Ball, 3> result;
+  const bool before_is_edge = is_input_edge(corner.before);
+  if (before_is_edge || is_input_edge(corner.after)) {
+    const EdgeEnds ends = ends_of(before_is_edge ? corner.before : corner.after);
+    const Plane& cut = plane_at((before_is_edge ? corner.after : corner.before).index());
+    const double at_a = accurate_value(cut, ends.a), at_b = accurate_value(cut, ends.b);
+    // Of different signs: 2u each, two roundings.
+    const double t = at_a / (at_a - at_b);
+    if (!(std::fabs(at_a) + std::fabs(at_b) > 0x1p-900)) return exact_offset(origin, corner);
+    const std::array<Ball, 3> from = input_offset(origin, ends.a),
+                              step = input_offset(ends.a, ends.b);
+    const Ball parameter(t, 6.1 * kUnit * std::fabs(t) + Ball::kTiny);
+    for (int k = 0; k < 3; ++k) result[k] = from[k] + parameter * step[k];
+    return result;
+  }
+  const Meet meet = meet_of(corner);
+  const std::array<double, 3>&p = meet.planes[0]->n, &q = meet.planes[1]->n, &r = meet.planes[2]->n;
+  const std::array<double, 3> qr = cross(q, r), rp = cross(r, p), pq = cross(p, q);
+  const double det = dot(p, qr), size = std::fabs(det);
+  if (!(size > kLeastDeterminant)) return exact_offset(origin, corner);
+  std::array<double, 3> v;
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    v[i] = -accurate_value(*meet.planes[i], origin);
+    sum += std::fabs(v[i]);
+  }
+  if (!(sum > 0x1p-800) && sum != 0) return exact_offset(origin, corner);
+  const double inverse = 1 / det;
+  for (int k = 0; k < 3; ++k) {
+    const double step = (v[0] * qr[k] + v[1] * rp[k] + v[2] * pq[k]) * inverse;
+    const double magnitude = std::fabs(step);
+    result[k] = Ball(step, 1.01 * kUnit * (25 * sum + 67 * magnitude) / size +
+                               4 * kUnit * magnitude + Ball::kTiny);
+  }
+  return result;
+}
+
+template <class Stats>
 std::array<mpq_class, 3> PlaneVolumeSpace<Stats>::exact_position(
     const Corner<Vertex>& corner) const {
   const Geometry& geometry = *shared_->geometry;
@@ -610,15 +724,16 @@ std::array<mpq_class, 3> PlaneVolumeSpace<Stats>::exact_position(
   if (corner.vertex.source != kMadeVertex) {
     for (int k = 0; k < 3; ++k) result[k] = geometry.grid.at(corner.vertex.source, k);
   } else {
-    with_exact_point(corner, true, [&]<class Int>(const ExactPoint<Int>& point) {
-      if constexpr (std::is_same_v<Int, mpz_class>) {
-        for (int k = 0; k < 3; ++k) {
-          result[k] = mpq_class(point.x[k], point.w);
-          result[k].canonicalize();
-          result[k] += geometry.grid.at(point.origin, k);
-        }
-      }
-    });
+    with_exact_point(corner, true, some_pivot(corner),
+                     [&]<class Int>(const ExactPoint<Int>& point) {
+                       if constexpr (std::is_same_v<Int, mpz_class>) {
+                         for (int k = 0; k < 3; ++k) {
+                           result[k] = mpq_class(point.x[k], point.w);
+                           result[k].canonicalize();
+                           result[k] += geometry.grid.at(point.origin, k);
+                         }
+                       }
+                     });
   }
   for (int k = 0; k < 3; ++k) result[k] = geometry.origin[k] + geometry.step * result[k];
   return result;
@@ -654,7 +769,7 @@ std::array<double, 3> PlaneVolumeSpace<Stats>::nearest_position(
     }
   }
   bool all = true;
-  with_exact_point(corner, false, [&]<class Int>(const ExactPoint<Int>& point) {
+  with_exact_point(corner, false, some_pivot(corner), [&]<class Int>(const ExactPoint<Int>& point) {
     const DoubleDouble w = double_double(point.w);
     for (int k = 0; k < 3; ++k) {
       if (known[k]) continue;

@@ -120,10 +120,17 @@ class Tracked {
     const Geometry& geometry = soup.geometry();
     mpq_class scale(1, mpz_class(1) << geometry.grid.bits());
     scale.canonicalize();
+    mpq_class extent = 0;
+    for (const VertexId v : soup.loop(support_)) {
+      const Integers step = minus(soup.at(v), soup.at(soup.loop(support_)[0]));
+      for (const mpz_class& x : step) extent = std::max(extent, mpq_class(abs(x) * scale));
+    }
+    const double size = extent.get_d();
     for (std::size_t i = 0; i < loop_.size(); ++i) {
       const Rationals& exact = loop_[i].exact;
       const std::array<Ball, 3> point = space.position(corner(i));
       const Rationals position = space.exact_position(corner(i));
+      const std::array<Ball, 3> offset = space.offset(soup.loop(support_)[0], corner(i));
       std::array<double, 3> rounded{};
       if (nearest) rounded = space.nearest_position(corner(i));
       for (std::size_t k = 0; k < 3; ++k) {
@@ -134,10 +141,14 @@ class Tracked {
         EXPECT_LE(point[k].radius, 0x1p-39);
         const mpq_class there = geometry.origin[k] + geometry.step * exact[k];
         EXPECT_EQ(position[k], there);
+        const mpq_class step = fraction - scale * soup.at(soup.loop(support_)[0])[k];
+        EXPECT_LE(abs(mpq_class(offset[k].middle) - step), mpq_class(offset[k].radius))
+            << "radius " << offset[k].radius;
         if (nearest) {
           EXPECT_EQ(rounded[k], nearest_double(there));
         }
       }
+      for (const Ball& x : offset) EXPECT_LE(x.radius, 0x1p-36 * size + 8 * Ball::kTiny);
     }
   }
 

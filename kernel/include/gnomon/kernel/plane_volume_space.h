@@ -67,7 +67,7 @@ class PlaneVolumeSpace {
     while (!explicit_.empty() && explicit_.back().owner >= mark) explicit_.pop_back();
   }
 
-  /// A plane and its doubles in the orientation asked for, to test many vertices against.
+  /// A plane and its doubles, to test many vertices against.
   struct LoadedPlane {
     std::array<double, 3> n;
     double d;
@@ -75,8 +75,7 @@ class PlaneVolumeSpace {
   };
   LoadedPlane load(PlaneRef ref) const {
     const Plane& plane = plane_at(ref.index());
-    if (!ref.flipped()) return {plane.n, plane.d, ref};
-    return {{-plane.n[0], -plane.n[1], -plane.n[2]}, -plane.d, ref};
+    return {plane.n, plane.d, ref};
   }
   /// Identities: (1) the support plane and the planes of the corner's edges contain it; (2) a plane
   /// contains the input vertices that define it, and so every point on the line through two of
@@ -86,7 +85,8 @@ class PlaneVolumeSpace {
     const double value = plane.n[0] * x[0] + plane.n[1] * x[1] + plane.n[2] * x[2] - plane.d;
     if (std::fabs(value) > static_cast<double>(corner.vertex.bound)) {
       stats_.count(Stage::kFilter);
-      return value > 0 ? Side::kFront : Side::kBack;
+      // Without a branch, which would be mispredicted half of the time.
+      return static_cast<Side>(2 * int{(value > 0) != plane.plane.flipped()} - 1);
     }
     return undecided_side(plane.plane, corner);
   }
@@ -101,6 +101,9 @@ class PlaneVolumeSpace {
 
   /// Enclosures in grid units times 2^-b; of made vertices by what their doubles are known to.
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
+  /// The same as seen from vertex `origin`, with errors that are small against the distances from
+  /// it: areas of small polygons are then not measured on the scale of the scene.
+  std::array<Ball, 3> offset(VertexId origin, const Corner<Vertex>& corner) const;
   /// Scene units.
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
   /// The nearest doubles of exact_position(), mostly from some 100 bits.
@@ -224,9 +227,17 @@ class PlaneVolumeSpace {
   }
   template <class Factor, class Int>
   Sign side_of_meet(const Plane& plane, const Meet& meet) const;
-  /// Calls f(ExactPoint<Int>) with integers that hold a made corner's point.
+  /// Calls f(ExactPoint<Int>) with integers that hold a made corner's point, seen from `pivot` if
+  /// it is where three planes meet.
   template <class F>
-  void with_exact_point(const Corner<Vertex>& corner, bool unbounded, const F& f) const;
+  void with_exact_point(const Corner<Vertex>& corner, bool unbounded, VertexId pivot,
+                        const F& f) const;
+  /// A vertex that defines one of a made corner's planes, or any.
+  VertexId some_pivot(const Corner<Vertex>& corner) const;
+  /// (n . v - d) 2^-b of the doubles' normal: off by at most 2u of itself.
+  double accurate_value(const Plane& plane, VertexId v) const;
+  std::array<Ball, 3> input_offset(VertexId from, VertexId to) const;
+  std::array<Ball, 3> exact_offset(VertexId origin, const Corner<Vertex>& corner) const;
   /// Doubles from the integers: off by at most 8u.
   Vertex repaired(const Corner<Vertex>& corner) const;
 
