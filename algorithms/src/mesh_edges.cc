@@ -65,10 +65,10 @@ void FaceLoops::add(MeshFace like, std::span<const std::uint32_t> loop) {
   corners.insert(corners.end(), loop.begin(), loop.end());
 }
 
-EdgeList::EdgeList(const FaceLoops& loops) {
-  edges_.reserve(loops.corners.size());
-  for (const MeshFace& face : loops.faces) {
-    const auto loop = loops.loop(face);
+EdgeList::EdgeList(const FaceLoops& loops, const std::function<bool(std::size_t)>& takes) {
+  for (std::size_t f = 0; f < loops.faces.size(); ++f) {
+    if (!takes(f)) continue;
+    const auto loop = loops.loop(loops.faces[f]);
     for (std::size_t i = 0; i < loop.size(); ++i) {
       edges_.push_back(edge_key(loop[i], loop[(i + 1) % loop.size()]));
     }
@@ -78,8 +78,10 @@ EdgeList::EdgeList(const FaceLoops& loops) {
 }
 
 std::size_t EdgeList::find(std::uint32_t a, std::uint32_t b) const {
-  return static_cast<std::size_t>(std::lower_bound(edges_.begin(), edges_.end(), edge_key(a, b)) -
-                                  edges_.begin());
+  const std::uint64_t key = edge_key(a, b);
+  const auto at = std::lower_bound(edges_.begin(), edges_.end(), key);
+  if (at == edges_.end() || *at != key) return kNone;
+  return static_cast<std::size_t>(at - edges_.begin());
 }
 
 FaceLoops insert_vertices(const FaceLoops& loops, const EdgeList& edges,
@@ -92,8 +94,10 @@ FaceLoops insert_vertices(const FaceLoops& loops, const EdgeList& edges,
     longer.clear();
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::uint32_t a = loop[i], b = loop[(i + 1) % loop.size()];
-      const std::vector<std::uint32_t>& between = inserted[edges.find(a, b)];
       longer.push_back(a);
+      const std::size_t edge = edges.find(a, b);
+      if (edge == EdgeList::kNone) continue;
+      const std::vector<std::uint32_t>& between = inserted[edge];
       if (a < b) {
         longer.insert(longer.end(), between.begin(), between.end());
       } else {
@@ -106,7 +110,7 @@ FaceLoops insert_vertices(const FaceLoops& loops, const EdgeList& edges,
 }
 
 FaceLoops fit_edges(const FaceLoops& loops, const PointTable& points) {
-  const EdgeList edges(loops);
+  const EdgeList edges(loops, [](std::size_t) { return true; });
   std::vector<LineKey> lines(edges.size());
   tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t edge) {
     lines[edge] = line_through(points.exact(edges.from(edge)), points.exact(edges.to(edge)));

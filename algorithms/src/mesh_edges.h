@@ -9,6 +9,7 @@
 #define GNOMON_ALGORITHMS_SRC_MESH_EDGES_H
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,14 +34,17 @@ struct FaceLoops {
 /// The distinct edges of faces, sorted, each from its smaller vertex number to its larger one.
 class EdgeList {
  public:
-  explicit EdgeList(const FaceLoops& loops);
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+  /// `takes`: whether it has the edges of a face, by the face's number.
+  EdgeList(const FaceLoops& loops, const std::function<bool(std::size_t)>& takes);
 
   std::size_t size() const { return edges_.size(); }
   std::uint32_t from(std::size_t edge) const {
     return static_cast<std::uint32_t>(edges_[edge] >> 32);
   }
   std::uint32_t to(std::size_t edge) const { return static_cast<std::uint32_t>(edges_[edge]); }
-  /// Requires: it is an edge.
+  /// kNone if it is not in the list.
   std::size_t find(std::uint32_t a, std::uint32_t b) const;
 
  private:
@@ -48,7 +52,7 @@ class EdgeList {
 };
 
 /// inserted[e]: the vertices to put into edge e, in order from its smaller vertex to its larger
-/// one. The loops with them.
+/// one. The loops with them; edges that are not in the list stay as they are.
 FaceLoops insert_vertices(const FaceLoops& loops, const EdgeList& edges,
                           const std::vector<std::vector<std::uint32_t>>& inserted);
 

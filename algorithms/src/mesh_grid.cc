@@ -201,30 +201,46 @@ std::vector<NewPoint> points_on_edge(const PointTable& points, std::uint32_t fro
 
 }  // namespace
 
-GridLines::GridLines(mpq_class step, bool rounded) : step_(std::move(step)), rounded_(rounded) {}
+GridLines::GridLines(mpq_class step, bool rounded)
+    : step_(std::move(step)), nearest_step_(step_.get_d()), rounded_(rounded) {
+  constexpr std::size_t kShort = 53;
+  is_short_ = mpz_sizeinbase(step_.get_num_mpz_t(), 2) <= kShort &&
+              mpz_sizeinbase(step_.get_den_mpz_t(), 2) <= kShort;
+}
+
+double GridLines::rounded_at(std::int64_t line) const {
+  if (is_short_) {
+    const double numerator = static_cast<double>(line) * step_.get_num().get_d();
+    // Below 2^53 the product is exact.
+    if (std::fabs(numerator) < 0x1p53) return numerator / step_.get_den().get_d();
+  }
+  return nearest_double(step_ * mpq_class(static_cast<long>(line)));
+}
 
 mpq_class GridLines::at(std::int64_t line) const {
-  const mpq_class exact = step_ * mpq_class(static_cast<long>(line));
-  return rounded_ ? mpq_class(nearest_double(exact)) : exact;
+  return rounded_ ? mpq_class(rounded_at(line)) : step_ * mpq_class(static_cast<long>(line));
 }
 
 std::int64_t GridLines::place(const PointTable& points, std::uint32_t point, int axis) const {
   const auto k = static_cast<std::size_t>(axis);
   const ExactPoint& exact = points.exact(point);
-  mpz_class quotient, rest;
-  const mpz_class dividend = exact.numerator[k] * step_.get_den();
-  const mpz_class divisor = exact.denominator * step_.get_num();
-  mpz_fdiv_qr(quotient.get_mpz_t(), rest.get_mpz_t(), dividend.get_mpz_t(), divisor.get_mpz_t());
-  const std::int64_t line = quotient.get_si();
-  if (!rounded_) return 2 * line + (sgn(rest) != 0 ? 1 : 0);
-  // The rounded lines around it may be on the other side of the coordinate.
-  const auto beyond = [&](const mpq_class& at) {
-    return cmp(exact.numerator[k] * at.get_den(), at.get_num() * exact.denominator);
-  };
-  const int low = beyond(at(line));
-  if (low <= 0) return 2 * line - (low < 0 ? 1 : 0);
-  const int high = beyond(at(line + 1));
-  return high < 0 ? 2 * line + 1 : 2 * line + 2 + (high > 0 ? 1 : 0);
+  if (!rounded_) {
+    mpz_class quotient, rest;
+    const mpz_class dividend = exact.numerator[k] * step_.get_den();
+    const mpz_class divisor = exact.denominator * step_.get_num();
+    mpz_fdiv_qr(quotient.get_mpz_t(), rest.get_mpz_t(), dividend.get_mpz_t(), divisor.get_mpz_t());
+    return 2 * std::int64_t{quotient.get_si()} + (sgn(rest) != 0 ? 1 : 0);
+  }
+  // Rounding to the nearest double keeps the order, and lines are doubles: only a coordinate whose
+  // nearest double is a line may be on either side of it.
+  const double nearest = points.nearest(point)[k];
+  auto line = static_cast<std::int64_t>(std::floor(nearest / nearest_step_));
+  while (rounded_at(line) > nearest) --line;
+  while (rounded_at(line + 1) <= nearest) ++line;
+  if (rounded_at(line) != nearest) return 2 * line + 1;
+  const mpq_class at(nearest);
+  const int order = cmp(exact.numerator[k] * at.get_den(), at.get_num() * exact.denominator);
+  return 2 * line + (order > 0 ? 1 : order < 0 ? -1 : 0);
 }
 
 MeshPlane mesh_plane(const PreparedScene& scene, PlaneId plane) {
@@ -293,7 +309,7 @@ Expected<GridCut> cut_by_grids(const PreparedScene& scene, const FaceLoops& loop
         "a larger step");
   }
 
-  const EdgeList edges(loops);
+  const EdgeList edges(loops, [&](std::size_t f) { return request.grid_of[f] != kNoGrid; });
   std::vector<std::uint8_t> asked(edges.size(), 0);
   for (std::size_t f = 0; f < face_count; ++f) {
     const std::uint8_t grid = request.grid_of[f];
@@ -307,7 +323,7 @@ Expected<GridCut> cut_by_grids(const PreparedScene& scene, const FaceLoops& loop
   }
   std::vector<std::vector<NewPoint>> made(edges.size());
   tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t edge) {
-    if (asked[edge] == 0 || interrupted()) return;
+    if (interrupted()) return;
     made[edge] =
         points_on_edge(points, edges.from(edge), edges.to(edge), asked[edge], request.grids);
   });

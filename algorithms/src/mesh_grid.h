@@ -43,7 +43,12 @@ class GridLines {
   std::int64_t place(const PointTable& points, std::uint32_t point, int axis) const;
 
  private:
+  double rounded_at(std::int64_t line) const;
+
   mpq_class step_;
+  double nearest_step_ = 0;
+  // Terms of a fraction that are doubles: quotients of doubles are rounded to the nearest.
+  bool is_short_ = false;
   bool rounded_ = false;
 };
 

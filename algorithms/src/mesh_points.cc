@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "mesh_points.h"
 
+#include <cmath>
+
 #include "gnomon/kernel/nearest_double.h"
 
 namespace gnomon {
@@ -55,12 +57,39 @@ void make_primitive(ExactPoint& point) {
   }
 }
 
+namespace {
+
+/// The double nearest to a quotient. Requires: denominator > 0.
+double nearest_quotient(const mpz_class& numerator, const mpz_class& denominator) {
+  if (sgn(numerator) == 0) return 0;
+  // A quotient of 63 or 64 bits whose last bit stands for whatever follows: rounding it to 53 bits
+  // rounds the true value, ties included.
+  constexpr long kBits = 64;
+  const long shift = kBits + static_cast<long>(mpz_sizeinbase(denominator.get_mpz_t(), 2)) - 1 -
+                     static_cast<long>(mpz_sizeinbase(numerator.get_mpz_t(), 2));
+  if (shift < -900 || shift > 900) {  // near the ends of the range of doubles
+    mpq_class value(numerator, denominator);
+    value.canonicalize();
+    return nearest_double(value);
+  }
+  mpz_class dividend = abs(numerator), divisor = denominator, quotient, rest;
+  if (shift >= 0) {
+    dividend <<= static_cast<unsigned long>(shift);
+  } else {
+    divisor <<= static_cast<unsigned long>(-shift);
+  }
+  mpz_tdiv_qr(quotient.get_mpz_t(), rest.get_mpz_t(), dividend.get_mpz_t(), divisor.get_mpz_t());
+  const std::uint64_t bits = mpz_getlimbn(quotient.get_mpz_t(), 0) | (sgn(rest) != 0 ? 1u : 0u);
+  const double magnitude = std::ldexp(static_cast<double>(bits), static_cast<int>(-shift));
+  return sgn(numerator) < 0 ? -magnitude : magnitude;
+}
+
+}  // namespace
+
 std::array<double, 3> nearest_doubles(const ExactPoint& point) {
   std::array<double, 3> result{};
   for (std::size_t k = 0; k < 3; ++k) {
-    mpq_class value(point.numerator[k], point.denominator);
-    value.canonicalize();
-    result[k] = nearest_double(value);
+    result[k] = nearest_quotient(point.numerator[k], point.denominator);
   }
   return result;
 }

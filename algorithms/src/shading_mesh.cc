@@ -118,6 +118,17 @@ class NodeTable {
     }
   }
 
+  /// Of all lights together.
+  double largest_shade() const {
+    double largest = 0;
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      double sum = 0;
+      for (std::size_t light = 0; light < lights_; ++light) sum += values_[n * lights_ + light];
+      largest = std::max(largest, sum);
+    }
+    return largest;
+  }
+
   double largest_error(std::size_t light) const {
     double largest = 0;
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
@@ -389,23 +400,15 @@ class MeshMaker {
       if (open[f] != 0) tested.push_back(f);
     }
     // The middle of every edge of a tested face, each made once.
-    const EdgeList edges(loops_);
-    std::vector<std::uint8_t> asked(edges.size(), 0);
-    for (const std::uint32_t f : tested) {
-      const auto loop = loops_.loop(loops_.faces[f]);
-      for (std::size_t i = 0; i < loop.size(); ++i) {
-        asked[edges.find(loop[i], loop[(i + 1) % loop.size()])] = 1;
-      }
-    }
+    const EdgeList edges(loops_, [&](std::size_t f) { return open[f] != 0; });
     std::vector<NewPoint> made(edges.size());
     tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t edge) {
-      if (asked[edge] == 0) return;
       made[edge] =
           new_point(middle(points_.exact(edges.from(edge)), points_.exact(edges.to(edge))));
     });
     std::vector<std::uint32_t> middles(edges.size(), 0);
     for (std::size_t edge = 0; edge < edges.size(); ++edge) {
-      if (asked[edge] != 0) middles[edge] = points_.insert(std::move(made[edge]));
+      middles[edge] = points_.insert(std::move(made[edge]));
     }
     std::unordered_map<PlaneId, MeshPlane> planes;
     for (const std::uint32_t f : tested) {
@@ -425,8 +428,10 @@ class MeshMaker {
       const auto loop = loops_.loop(face);
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const std::size_t edge = edges.find(loop[i], loop[(i + 1) % loop.size()]);
+        if (edge == EdgeList::kNone) continue;
         nodes_.add(loop[i], face);
-        if (asked[edge] != 0) nodes_.add(middles[edge], face);
+        nodes_.add(loop[(i + 1) % loop.size()], face);
+        nodes_.add(middles[edge], face);
       }
     }
     std::vector<std::uint32_t> centre_nodes;
@@ -436,13 +441,7 @@ class MeshMaker {
     }
     if (!illuminate()) return false;
 
-    double largest = 0;
-    for (const MeshFace& face : loops_.faces) {
-      for (const std::uint32_t vertex : loops_.loop(face)) {
-        largest = std::max(largest, nodes_.shade(nodes_.add(vertex, face), face));
-      }
-    }
-    const double allowed = options_.tolerance * largest;
+    const double allowed = options_.tolerance * nodes_.largest_shade();
     for (std::size_t i = 0; i < tested.size(); ++i) {
       const MeshFace& face = loops_.faces[tested[i]];
       const auto loop = loops_.loop(face);
