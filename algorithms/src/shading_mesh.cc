@@ -109,8 +109,8 @@ class NodeTable {
       tbb::parallel_for(begin, end, [&](std::size_t i) {
         Node& node = nodes_[missing[i]];
         const bool lit = (node.lit_by & bit) != 0;
-        const PointShade result = shade(static_cast<std::uint32_t>(light), node.part, node.side,
-                                        points.exact(node.vertex).rational(), lit);
+        const PointShade result = shade({static_cast<std::uint32_t>(light), node.part, node.side,
+                                         points.exact(node.vertex).rational(), lit, nullptr});
         values_[missing[i] * lights_ + light] = result.value;
         errors_[missing[i] * lights_ + light] = result.error_bound;
         (lit ? node.known_lit : node.known_penumbra) |= bit;

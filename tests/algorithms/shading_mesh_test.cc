@@ -57,10 +57,11 @@ Solved solve(const char* text, std::vector<std::uint32_t> lights) {
   return {*std::move(prepared), *std::move(result)};
 }
 
-PointShade bright(std::uint32_t light, std::uint32_t, Side, const Rational& point,
-                  bool unobstructed) {
-  const double x = point[0].get_d() - 2.5, y = point[1].get_d() - 2.5, z = point[2].get_d() - 4;
-  return {(unobstructed ? 2.0 : 1.0) * (light + 1) / (1 + x * x + y * y + z * z), 1e-12};
+PointShade bright(const ShadeRequest& asked) {
+  const double x = asked.point[0].get_d() - 2.5, y = asked.point[1].get_d() - 2.5,
+               z = asked.point[2].get_d() - 4;
+  return {(asked.unobstructed ? 2.0 : 1.0) * (asked.light + 1) / (1 + x * x + y * y + z * z),
+          1e-12};
 }
 
 ShadingMesh mesh_of(const Solved& solved, const ShadingOptions& options,
@@ -242,13 +243,12 @@ TEST(ShadingMesh, VerticesAreComputedOnceByTheRulesOfThePaper) {
   };
   std::mutex mutex;
   std::map<Call, bool> calls;
-  const ShadingMesh mesh = mesh_of(
-      solved, with_grid("1", "1/2"),
-      [&](std::uint32_t light, std::uint32_t part, Side side, const Rational& point, bool lit) {
-        const std::scoped_lock lock(mutex);
-        EXPECT_TRUE(calls.emplace(Call(light, plane_of(part, side), point), lit).second) << "twice";
-        return PointShade{lit ? 2.0 : 1.0, 0x1p-30};
-      });
+  const ShadingMesh mesh = mesh_of(solved, with_grid("1", "1/2"), [&](const ShadeRequest& asked) {
+    const std::scoped_lock lock(mutex);
+    const Call call(asked.light, plane_of(asked.part, asked.side), asked.point);
+    EXPECT_TRUE(calls.emplace(call, asked.unobstructed).second) << "twice";
+    return PointShade{asked.unobstructed ? 2.0 : 1.0, 0x1p-30};
+  });
   const std::vector<Rational> points = rationals(mesh);
   std::size_t shared_lit_penumbra = 0, shared_with_umbra = 0;
   for (std::uint32_t light = 0; light < 3; ++light) {
@@ -267,7 +267,9 @@ TEST(ShadingMesh, VerticesAreComputedOnceByTheRulesOfThePaper) {
     for (const auto& [node, states] : nodes) {
       const auto call = calls.find(Call(light, node.second, points[node.first]));
       EXPECT_EQ(call != calls.end(), states[0] || states[1]);
-      if (call != calls.end()) { EXPECT_EQ(call->second, states[0]); }
+      if (call != calls.end()) {
+        EXPECT_EQ(call->second, states[0]);
+      }
       computed[0] += states[0] ? 1 : 0;
       computed[1] += !states[0] && states[1] ? 1 : 0;
       computed[2] += states[2] ? 1 : 0;
@@ -366,7 +368,8 @@ TEST(ShadingMesh, AdaptiveSubdivisionConverges) {
           for (std::size_t k = 0; k < 3; ++k) centre[k] += point[k] / 3;
           mean += mesh.values[loop[corner].sample] / 3;
         }
-        worst = std::max(worst, std::fabs(bright(0, 0, Side::kFront, centre, true).value - mean));
+        worst = std::max(
+            worst, std::fabs(bright({0, 0, Side::kFront, centre, true, nullptr}).value - mean));
       }
     }
     EXPECT_LE(worst, 2 * tolerance * largest);
@@ -379,10 +382,9 @@ TEST(ShadingMesh, WhatIsLinearIsNotCut) {
   const Solved solved = solve(kRoom, {0});
   ShadingOptions options;
   options.tolerance = 1e-6;
-  const ShadingMesh mesh =
-      mesh_of(solved, options, [](std::uint32_t, std::uint32_t, Side, const Rational& point, bool) {
-        return PointShade{3 + point[0].get_d() + point[1].get_d() / 2, 0};
-      });
+  const ShadingMesh mesh = mesh_of(solved, options, [](const ShadeRequest& asked) {
+    return PointShade{3 + asked.point[0].get_d() + asked.point[1].get_d() / 2, 0};
+  });
   EXPECT_EQ(mesh.stats.faces, mesh.stats.fragments);
   EXPECT_EQ(mesh.stats.depth, 0u);
 }

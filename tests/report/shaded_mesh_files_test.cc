@@ -46,8 +46,8 @@ Shaded shaded() {
   shading.ambient = 0.125;
   auto mesh = make_shading_mesh(
       *prepared, *result,
-      [](std::uint32_t, std::uint32_t, Side, const std::array<mpq_class, 3>& point, bool lit) {
-        return PointShade{(lit ? 2 : 1) / (1 + point[1].get_d()), 0};
+      [](const ShadeRequest& asked) {
+        return PointShade{(asked.unobstructed ? 2 : 1) / (1 + asked.point[1].get_d()), 0};
       },
       shading);
   EXPECT_TRUE(mesh);

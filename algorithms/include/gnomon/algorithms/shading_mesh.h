@@ -50,12 +50,20 @@ struct PointShade {
   double error_bound = 0;
 };
 
-/// The illumination of a point of one side of a part by light number `light` of the result that the
-/// mesh is made of. `unobstructed`: the point is lit, casters need not be asked. Called by many
-/// threads at once.
-using ShadeFunction =
-    std::function<PointShade(std::uint32_t light, std::uint32_t part, Side side,
-                             const std::array<mpq_class, 3>& point, bool unobstructed)>;
+/// A point of one side of a part, and a light.
+struct ShadeRequest {
+  std::uint32_t light = 0;  // number in the result that the mesh is made of
+  std::uint32_t part = 0;
+  Side side = Side::kFront;
+  std::array<mpq_class, 3> point;
+  bool unobstructed = false;  // the point is lit, casters need not be asked
+  /// If there: the shade is that at the point's border of the face that this point is inside of,
+  /// the limit along the line from here to `point`.
+  const std::array<mpq_class, 3>* inwards = nullptr;
+};
+
+/// The illumination asked for. Called by many threads at once.
+using ShadeFunction = std::function<PointShade(const ShadeRequest&)>;
 
 struct ShadingOptions {
   // Regular gridding: the step of the grid in lit faces and in those in the penumbra of some light,
