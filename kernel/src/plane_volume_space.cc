@@ -43,6 +43,19 @@ unsigned bits_of(const mpz_class& value) {
 unsigned bits_of(const Vector3<mpz_class>& v) {
   return std::max({bits_of(v[0]), bits_of(v[1]), bits_of(v[2])});
 }
+unsigned bits_of(Int128 value) {
+  const UInt128 magnitude = static_cast<UInt128>(value < 0 ? -value : value);
+  const auto high = static_cast<std::uint64_t>(magnitude >> 64);
+  return static_cast<unsigned>(high != 0 ? 64 + std::bit_width(high)
+                                         : std::bit_width(static_cast<std::uint64_t>(magnitude)));
+}
+unsigned bits_of(const Vector3<Int128>& v) {
+  return std::max({bits_of(v[0]), bits_of(v[1]), bits_of(v[2])});
+}
+template <class Int>
+bool is_zero(const Vector3<Int>& v) {
+  return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
 bool is_zero(const Vector3<mpz_class>& v) {
   return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0;
 }
@@ -155,92 +168,224 @@ bool PlaneVolumeSpace<Stats>::plane_through(const Shared& shared,
 template <class Stats>
 PlaneRef PlaneVolumeSpace<Stats>::add_plane(const Corner<Vertex>& a, const Corner<Vertex>& b,
                                             const Corner<Vertex>& c) {
-  const std::array<VertexId, 3> sources = {a.vertex.source, b.vertex.source, c.vertex.source};
-  if (sources[0] != kMadeVertex && sources[1] != kMadeVertex && sources[2] != kMadeVertex) {
-    Plane plane;
-    if (!plane_through(*shared_, sources, plane)) return {};
-    own_.push_back(plane);
-    return last_plane();
+  const std::array<const Corner<Vertex>*, 3> corners = {&a, &b, &c};
+  int made = 0, last_made = 0, last_input = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (corners[i]->vertex.source == kMadeVertex) {
+      ++made;
+      last_made = i;
+    } else {
+      last_input = i;
+    }
+  }
+  if (made == 0) return add_through({a.vertex.source, b.vertex.source, c.vertex.source});
+  if (shared_->narrow && made == 1) {
+    const auto added =
+        add_through_made(corners[(last_made + 1) % 3]->vertex.source,
+                         corners[(last_made + 2) % 3]->vertex.source, *corners[last_made]);
+    if (added) return *added;
+  }
+  if (shared_->narrow && made == 2) {
+    const auto added = add_through_edge(*corners[last_input], *corners[(last_input + 1) % 3],
+                                        *corners[(last_input + 2) % 3]);
+    if (added) return *added;
   }
   // With points X / w and w > 0: (w_a X_b - w_b X_a) x (w_a X_c - w_c X_a) is a positive multiple
   // of the normal, and d = n . X_a / w_a.
-  const Homogeneous p = homogeneous(a), q = homogeneous(b), r = homogeneous(c);
+  const Homogeneous<mpz_class> p = homogeneous(a), q = homogeneous(b), r = homogeneous(c);
   Vector3<mpz_class> u, v;
   for (int k = 0; k < 3; ++k) {
     u[k] = p.w * q.x[k] - q.w * p.x[k];
     v[k] = p.w * r.x[k] - r.w * p.x[k];
   }
   ExactPlane<mpz_class> plane{gnomon::cross(u, v), {}};
-  if (is_zero(plane.n)) return {};
   plane.d = gnomon::dot(plane.n, p.x);
   for (mpz_class& x : plane.n) x *= p.w;
   return add_explicit(std::move(plane));
 }
 
+// A made corner on an input edge that starts at one of the vertices lies on the way to the other
+// end. Otherwise, with the corner X / w: (q - p) x (X - w p).
+template <class Stats>
+std::optional<PlaneRef> PlaneVolumeSpace<Stats>::add_through_made(VertexId p, VertexId q,
+                                                                  const Corner<Vertex>& made) {
+  for (const PlaneRef ref : {made.before, made.after}) {
+    if (!is_input_edge(ref)) continue;
+    const EdgeEnds ends = ends_of(ref);
+    for (const auto [near, far] : {std::array{ends.a, ends.b}, std::array{ends.b, ends.a}}) {
+      if (near == p || near == q) return add_through({p, q, far});
+    }
+  }
+  const unsigned b = shared_->b;
+  const PointMemo& memo = made_point(made);
+  if (memo.bits + b + 2 > kNarrowBits) return std::nullopt;
+  const ExactGeometry<std::int64_t> exact(*shared_->geometry);
+  const Vector3<std::int64_t> origin = exact.position(p), u = difference(exact.position(q), origin);
+  Vector3<Int128> v;
+  for (int k = 0; k < 3; ++k) v[k] = memo.narrow.x[k] - memo.narrow.w * origin[k];
+  // n below 2^(b + 1) times v, and n . p below 3 2^b times that.
+  if (bits_of(v) + 2 * b + 4 > kNarrowBits) return std::nullopt;
+  ExactPlane<Int128> plane{gnomon::cross<Int128>(u, v), {}};
+  plane.d = gnomon::dot<Int128>(plane.n, origin);
+  return add_narrow(plane);
+}
+
+// The edge is an input edge, or the line in which two planes A and B meet; the plane through p and
+// that line is A(p) B - B(p) A or its opposite. Which one, doubles tell: those of differences of
+// points off by e are off by 2 e and u, of their cross products by 4.1 times that and 3u, and of
+// the product with the normal by 13 times that and 20u.
+template <class Stats>
+std::optional<PlaneRef> PlaneVolumeSpace<Stats>::add_through_edge(const Corner<Vertex>& p,
+                                                                  const Corner<Vertex>& q,
+                                                                  const Corner<Vertex>& r) {
+  PlaneRef edge;
+  for (const PlaneRef ref : {q.before, q.after}) {
+    if (ref.same_plane(r.before) || ref.same_plane(r.after)) edge = ref;
+  }
+  if (!edge.valid() || q.support != r.support) return std::nullopt;
+  const VertexId v = p.vertex.source;
+  PlaneRef added;
+  if (is_input_edge(edge)) {
+    const EdgeEnds ends = ends_of(edge);
+    added = add_through({v, ends.a, ends.b});
+  } else {
+    const Plane& first = plane_at(q.support);
+    const Plane& second = plane_at(edge.index());
+    if (first.is_explicit() || second.is_explicit() ||
+        volume_value_bits(cut_once_normal_bits(shared_->b), shared_->b) > kNarrowBits) {
+      return std::nullopt;
+    }
+    const Vector3<Int128> m = exact_normal<Int128>(first), n = exact_normal<Int128>(second);
+    const Int128 at_first = exact_value<Int128>(first, m, v),
+                 at_second = exact_value<Int128>(second, n, v);
+    ExactPlane<Int128> plane;
+    for (int k = 0; k < 3; ++k) plane.n[k] = at_first * n[k] - at_second * m[k];
+    const ExactGeometry<std::int64_t> exact(*shared_->geometry);
+    plane.d = gnomon::dot<Int128>(plane.n, exact.position(v));
+    added = add_narrow(plane);
+  }
+  if (!added.valid()) return added;
+  std::array<double, 3> to_q, to_r;
+  for (int k = 0; k < 3; ++k) {
+    to_q[k] = q.vertex.x[k] - p.vertex.x[k];
+    to_r[k] = r.vertex.x[k] - p.vertex.x[k];
+  }
+  const double turn = dot(own_.back().n, cross(to_q, to_r));
+  const double error = error_of(p.vertex) + error_of(q.vertex) + error_of(r.vertex);
+  if (std::fabs(turn) > 64 * (error + kUnit)) return turn > 0 ? added : -added;
+  release_planes(plane_mark() - 1);
+  return std::nullopt;
+}
+
 template <class Stats>
 PlaneRef PlaneVolumeSpace<Stats>::add_plane(const Corner<Vertex>& a, const Corner<Vertex>& b,
                                             const LightPoint& light) {
-  const Homogeneous p = homogeneous(a), q = homogeneous(b);
+  if (shared_->narrow && light.directional && a.vertex.source != kMadeVertex &&
+      b.vertex.source != kMadeVertex && bits_of(light.grid) <= 62 &&
+      bits_of(light.grid) + 2 * shared_->b + 4 <= kNarrowBits) {
+    const ExactGeometry<std::int64_t> exact(*shared_->geometry);
+    const Vector3<std::int64_t> origin = exact.position(a.vertex.source),
+                                direction = {light.grid[0].get_si(), light.grid[1].get_si(),
+                                             light.grid[2].get_si()};
+    ExactPlane<Int128> plane{
+        gnomon::cross<Int128>(difference(exact.position(b.vertex.source), origin), direction), {}};
+    plane.d = gnomon::dot<Int128>(plane.n, origin);
+    return add_narrow(plane);
+  }
+  const Homogeneous<mpz_class> p = homogeneous(a), q = homogeneous(b);
   Vector3<mpz_class> u, v;
   for (int k = 0; k < 3; ++k) {
     u[k] = p.w * q.x[k] - q.w * p.x[k];
     v[k] = light.directional ? light.grid[k] : mpz_class(p.w * light.grid[k] - p.x[k]);
   }
   ExactPlane<mpz_class> plane{gnomon::cross(u, v), {}};
-  if (is_zero(plane.n)) return {};
   plane.d = gnomon::dot(plane.n, p.x);
   for (mpz_class& x : plane.n) x *= p.w;
   return add_explicit(std::move(plane));
 }
 
-// value 2^b = m 2^e with an odd m, or 0.
+// value 2^b = m 2^e with an integer m below 2^53.
 template <class Stats>
 PlaneRef PlaneVolumeSpace<Stats>::add_axis_plane(int axis, double value) {
   assert(value >= 0 && value <= 1);
-  ExactPlane<mpz_class> plane;
   int exponent = 0;
-  const double fraction = std::frexp(value, &exponent);
-  plane.d = std::ldexp(fraction, 53);
+  const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
   exponent += static_cast<int>(shared_->b) - 53;
-  plane.n[static_cast<std::size_t>(axis)] = 1;
-  if (exponent >= 0) {
-    plane.d <<= static_cast<unsigned>(exponent);
-  } else {
-    plane.n[static_cast<std::size_t>(axis)] <<= static_cast<unsigned>(-exponent);
+  const auto k = static_cast<std::size_t>(axis);
+  if (shared_->narrow && exponent > -static_cast<int>(kNarrowBits)) {
+    // The grid has at most 63 bits.
+    ExactPlane<Int128> plane{};
+    plane.n[k] = Int128{1} << std::max(0, -exponent);
+    plane.d = Int128{mantissa} << std::max(0, exponent);
+    return add_narrow(plane);
   }
+  ExactPlane<mpz_class> plane;
+  plane.n[k] = mpz_class(1) << static_cast<unsigned>(std::max(0, -exponent));
+  plane.d = integer_from<mpz_class>(mantissa) << static_cast<unsigned>(std::max(0, exponent));
   return add_explicit(std::move(plane));
 }
 
 template <class Stats>
+PlaneRef PlaneVolumeSpace<Stats>::add_narrow(const ExactPlane<Int128>& exact) {
+  if (is_zero(exact.n)) return {};
+  Plane plane;
+  for (int k = 0; k < 3; ++k) plane.n[k] = to_double(exact.n[k]);
+  const double scale = normalizer(largest(plane.n));
+  for (double& x : plane.n) x *= scale;
+  plane.d = to_double(exact.d) * scale * shared_->grid_scale;
+  plane.source = {static_cast<std::uint32_t>(explicit_.size()), kExplicit, kExplicit};
+  explicit_.push_back({exact, kNotWide, bits_of(exact.n), static_cast<std::uint32_t>(own_.size())});
+  own_.push_back(plane);
+  return last_plane();
+}
+
+template <class Stats>
 PlaneRef PlaneVolumeSpace<Stats>::add_explicit(ExactPlane<mpz_class> exact) {
+  if (is_zero(exact.n)) return {};
   mpz_class divisor = exact.d;
   for (const mpz_class& x : exact.n) divisor = gcd(divisor, x);
   if (divisor > 1) {
     for (mpz_class& x : exact.n) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
     mpz_divexact(exact.d.get_mpz_t(), exact.d.get_mpz_t(), divisor.get_mpz_t());
   }
-  Plane plane;
   const unsigned bits = bits_of(exact.n);
+  if (shared_->narrow && std::max(bits, bits_of(exact.d)) <= kNarrowBits) {
+    ExactPlane<Int128> plane;
+    for (int k = 0; k < 3; ++k) plane.n[k] = integer_from<Int128>(exact.n[k]);
+    plane.d = integer_from<Int128>(exact.d);
+    return add_narrow(plane);
+  }
+  Plane plane;
   for (int k = 0; k < 3; ++k) plane.n[k] = to_double_scaled(exact.n[k], bits);
   plane.d = to_double_scaled(exact.d, long{bits} + shared_->b);
   plane.source = {static_cast<std::uint32_t>(explicit_.size()), kExplicit, kExplicit};
-  explicit_.push_back({std::move(exact), bits, static_cast<std::uint32_t>(own_.size())});
+  explicit_.push_back({{},
+                       static_cast<std::uint32_t>(wide_.size()),
+                       bits,
+                       static_cast<std::uint32_t>(own_.size())});
+  wide_.push_back(std::move(exact));
   own_.push_back(plane);
   return last_plane();
 }
 
 template <class Stats>
-typename PlaneVolumeSpace<Stats>::Homogeneous PlaneVolumeSpace<Stats>::homogeneous(
-    const Corner<Vertex>& corner) {
+typename PlaneVolumeSpace<Stats>::template Homogeneous<mpz_class>
+PlaneVolumeSpace<Stats>::homogeneous(const Corner<Vertex>& corner) {
   if (corner.vertex.source != kMadeVertex) {
     return {grid_position(*shared_->geometry, corner.vertex.source), 1};
   }
+  return made_point(corner).point;
+}
+
+template <class Stats>
+const typename PlaneVolumeSpace<Stats>::PointMemo& PlaneVolumeSpace<Stats>::made_point(
+    const Corner<Vertex>& corner) {
   const std::array<std::uint32_t, 3> key = {corner.support, corner.before.index(),
                                             corner.after.index()};
   if (points_.empty()) points_.resize(kPointMemos);
   PointMemo& memo = points_[(key[0] * 31u + key[1] * 7u + key[2]) % kPointMemos];
-  if (memo.key == key) return memo.point;
-  Homogeneous& point = memo.point;
+  if (memo.key == key) return memo;
+  Homogeneous<mpz_class>& point = memo.point;
   with_exact_point(corner, true, some_pivot(corner), [&]<class Int>(const ExactPoint<Int>& exact) {
     if constexpr (std::is_same_v<Int, mpz_class>) {
       const Vector3<mpz_class> origin = grid_position(*shared_->geometry, exact.origin);
@@ -253,11 +398,16 @@ typename PlaneVolumeSpace<Stats>::Homogeneous PlaneVolumeSpace<Stats>::homogeneo
   if (sgn(point.w) < 0) divisor = -divisor;
   for (mpz_class& x : point.x) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
   mpz_divexact(point.w.get_mpz_t(), point.w.get_mpz_t(), divisor.get_mpz_t());
+  memo.bits = std::max(bits_of(point.x), bits_of(point.w));
+  if (memo.bits <= kNarrowBits) {
+    for (int k = 0; k < 3; ++k) memo.narrow.x[k] = integer_from<Int128>(point.x[k]);
+    memo.narrow.w = integer_from<Int128>(point.w);
+  }
   // Planes added here may go, and their numbers with them.
   const std::uint32_t lasting = shared_->plane_count + shared_->edge_count;
   memo.key = key;
   if (std::max({key[0], key[1], key[2]}) >= lasting) memo.key[0] = kMadeVertex;
-  return point;
+  return memo;
 }
 
 // --- Integers. ---
@@ -266,8 +416,11 @@ template <class Stats>
 template <class Factor>
 Vector3<Factor> PlaneVolumeSpace<Stats>::exact_normal(const Plane& plane) const {
   if (plane.is_explicit()) {
-    const Vector3<mpz_class>& n = explicit_[plane.source[0]].plane.n;
-    return {integer_from<Factor>(n[0]), integer_from<Factor>(n[1]), integer_from<Factor>(n[2])};
+    const auto convert = [](const auto& n) -> Vector3<Factor> {
+      return {integer_from<Factor>(n[0]), integer_from<Factor>(n[1]), integer_from<Factor>(n[2])};
+    };
+    const Explicit& exact = explicit_[plane.source[0]];
+    return exact.is_wide() ? convert(wide_[exact.wide].n) : convert(exact.plane.n);
   }
   using Position = std::conditional_t<std::is_same_v<Factor, mpz_class>, mpz_class, std::int64_t>;
   const ExactGeometry<Position> exact(*shared_->geometry);
@@ -284,8 +437,10 @@ Value PlaneVolumeSpace<Stats>::exact_value(const Plane& plane, const Vector3<Fac
   const ExactGeometry<Position> exact(*shared_->geometry);
   const Vector3<Position> x = exact.position(v);
   if (plane.is_explicit()) {
-    return Value(gnomon::dot<Value>(normal, x) -
-                 integer_from<Value>(explicit_[plane.source[0]].plane.d));
+    const Explicit& given = explicit_[plane.source[0]];
+    const Value d = given.is_wide() ? integer_from<Value>(wide_[given.wide].d)
+                                    : integer_from<Value>(given.plane.d);
+    return Value(gnomon::dot<Value>(normal, x) - d);
   }
   return gnomon::dot<Value>(normal, difference(x, exact.position(plane.source[0])));
 }
@@ -608,8 +763,7 @@ std::array<Ball, 3> PlaneVolumeSpace<Stats>::position(const Corner<Vertex>& corn
     }
     return point;
   }
-  // The bound is 3.01 times the error and at least kPlaneError.
-  const double error = (static_cast<double>(vertex.bound) - kPlaneError) / 3;
+  const double error = error_of(vertex);
   for (int k = 0; k < 3; ++k) point[k] = Ball(vertex.x[k], error);
   return point;
 }
@@ -620,20 +774,17 @@ double PlaneVolumeSpace<Stats>::accurate_value(const Plane& plane, VertexId v) c
   const auto compute = [&]<class Factor, class Int>() {
     const Vector3<Factor> n = exact_normal<Factor>(plane);
     const Int value = exact_value<Int>(plane, n, v);
-    if (plane.is_explicit() || std::is_same_v<Int, mpz_class>) {
-      long bits = 0;
-      if (plane.is_explicit()) {
-        bits = explicit_[plane.source[0]].bits;
-      } else if constexpr (std::is_same_v<Factor, mpz_class>) {
-        bits = bits_of(n);
+    // By the same power of two as the normal's doubles, which may be rounded up to the next one.
+    if constexpr (kLimbsOf<Factor> == 1 || kLimbsOf<Factor> == 2) {
+      if (shared_->narrow && !(plane.is_explicit() && explicit_[plane.source[0]].is_wide())) {
+        const double magnitude =
+            largest(std::array<double, 3>{to_double(n[0]), to_double(n[1]), to_double(n[2])});
+        result = to_double_scaled(value, 0) * normalizer(magnitude) * shared_->grid_scale;
+        return;
       }
-      result = to_double_scaled(value, bits + shared_->b);
-    } else if constexpr (!std::is_same_v<Int, mpz_class>) {
-      // As plane_through() scales it.
-      const double magnitude = largest(std::array<double, 3>{
-          to_double_scaled(n[0], 0), to_double_scaled(n[1], 0), to_double_scaled(n[2], 0)});
-      result = to_double_scaled(value, 0) * normalizer(magnitude) * shared_->grid_scale;
     }
+    const Vector3<mpz_class> m = exact_normal<mpz_class>(plane);
+    result = to_double_scaled(value, long{bits_of(m)} + shared_->b);
   };
   with_widths(shared_->narrow ? narrowest_width(value_bits(plane) + 1) : IntegerWidth::kUnbounded,
               std::max(normal_bits(plane), shared_->b), compute);

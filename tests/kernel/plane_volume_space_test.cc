@@ -246,8 +246,12 @@ class Planes {
   }
   void add(PlaneRef ref, const RationalPlane& exact) {
     EXPECT_TRUE(ref.valid());
+    // Kept in the orientation of its number.
     refs_.push_back(ref);
     exact_.push_back(exact);
+    if (!ref.flipped()) return;
+    for (mpq_class& x : exact_.back().n) x = -x;
+    exact_.back().d = -exact_.back().d;
   }
   void add_checked(PlaneRef ref, const RationalPlane& exact) {
     EXPECT_EQ(ref.valid(), !is_zero(exact.n));

@@ -95,6 +95,15 @@ Int integer_from(std::int64_t value) {
 }
 /// Requires: `value` fits into Int.
 template <class Int>
+Int integer_from(const Int128& value) {
+  if constexpr (std::is_same_v<Int, mpz_class>) {
+    return to_mpz(WideInteger<2>(value));
+  } else {
+    return static_cast<Int>(value);
+  }
+}
+/// Requires: `value` fits into Int.
+template <class Int>
 Int integer_from(const mpz_class& value) {
   if constexpr (std::is_same_v<Int, mpz_class>) {
     return value;

@@ -64,7 +64,10 @@ class PlaneVolumeSpace {
   std::uint32_t plane_mark() const { return static_cast<std::uint32_t>(own_.size()); }
   void release_planes(std::uint32_t mark) {
     own_.resize(mark);
-    while (!explicit_.empty() && explicit_.back().owner >= mark) explicit_.pop_back();
+    while (!explicit_.empty() && explicit_.back().owner >= mark) {
+      if (explicit_.back().is_wide()) wide_.pop_back();
+      explicit_.pop_back();
+    }
   }
 
   /// A plane and its doubles, to test many vertices against.
@@ -123,13 +126,18 @@ class PlaneVolumeSpace {
     bool has(VertexId v) const { return source[0] == v || source[1] == v || source[2] == v; }
   };
   static constexpr std::uint32_t kExplicit = kMadeVertex;
-  /// A plane of a point of the scene's box, by integers: |d| and every |n . x - d| with x in the
-  /// box are at most 3 D largest |n_k|.
+  /// A plane through a point of the scene's box, by integers: |d| and every |n . x - d| with x in
+  /// the box are at most 3 D times the largest |n_k|.
   struct Explicit {
-    ExactPlane<mpz_class> plane;
-    unsigned bits = 0;        // of the largest |n_k|
-    std::uint32_t owner = 0;  // its index in own_
+    ExactPlane<Int128> plane;       // below 2^kNarrowBits
+    std::uint32_t wide = kNotWide;  // or an index into wide_
+    unsigned bits = 0;              // of the largest |n_k|
+    std::uint32_t owner = 0;        // its index in own_
+
+    bool is_wide() const { return wide != kNotWide; }
   };
+  static constexpr std::uint32_t kNotWide = 0xffffffffu;
+  static constexpr unsigned kNarrowBits = 126;
   /// What forks have in common.
   struct Shared {
     const Geometry* geometry = nullptr;
@@ -149,14 +157,17 @@ class PlaneVolumeSpace {
     Int w{};
   };
   /// Homogeneous coordinates, w > 0, no common divisor.
+  template <class Int>
   struct Homogeneous {
-    Vector3<mpz_class> x;
-    mpz_class w;
+    Vector3<Int> x{};
+    Int w{};
   };
   /// Made corners of lights that planes were put through lately.
   struct PointMemo {
     std::array<std::uint32_t, 3> key{kMadeVertex, kMadeVertex, kMadeVertex};
-    Homogeneous point;
+    Homogeneous<mpz_class> point;
+    Homogeneous<Int128> narrow;  // the same, if `bits` is at most kNarrowBits
+    unsigned bits = 0;           // of the largest coordinate
   };
   static constexpr std::size_t kPointMemos = 64;
 
@@ -167,6 +178,10 @@ class PlaneVolumeSpace {
   /// The same for x off by `error` in each coordinate, |x_k| <= magnitude, magnitude >= 1.
   static constexpr double vertex_bound(double error, double magnitude) {
     return 3.01 * error + kPlaneError * magnitude;
+  }
+  /// Of a coordinate: the bound is 3.01 times that and at least kPlaneError.
+  static double error_of(const Vertex& vertex) {
+    return (static_cast<double>(vertex.bound) - kPlaneError) / 3;
   }
   /// A float that is not smaller.
   static constexpr float rounded_up(double bound) {
@@ -193,9 +208,24 @@ class PlaneVolumeSpace {
   static std::array<double, 3> input_point(const Shared& shared, VertexId v);
   static bool plane_through(const Shared& shared, const std::array<VertexId, 3>& vertices,
                             Plane& plane);
-  /// Makes it primitive. Requires: not all of n is zero.
+  PlaneRef add_through(const std::array<VertexId, 3>& vertices) {
+    Plane plane;
+    if (!plane_through(*shared_, vertices, plane)) return {};
+    own_.push_back(plane);
+    return last_plane();
+  }
+  /// Makes it primitive; not valid() if n is zero.
   PlaneRef add_explicit(ExactPlane<mpz_class> plane);
-  Homogeneous homogeneous(const Corner<Vertex>& corner);
+  /// As it is. Requires: below 2^kNarrowBits, and the grid is narrow.
+  PlaneRef add_narrow(const ExactPlane<Int128>& plane);
+  /// Through two input vertices and a made corner, if 128 bits hold it.
+  std::optional<PlaneRef> add_through_made(VertexId p, VertexId q, const Corner<Vertex>& made);
+  /// Through an input vertex and two made corners of one edge, if 128 bits hold it.
+  std::optional<PlaneRef> add_through_edge(const Corner<Vertex>& p, const Corner<Vertex>& q,
+                                           const Corner<Vertex>& r);
+  Homogeneous<mpz_class> homogeneous(const Corner<Vertex>& corner);
+  /// Valid until the next call.
+  const PointMemo& made_point(const Corner<Vertex>& corner);
 
   Side undecided_side(PlaneRef plane, const Corner<Vertex>& corner);
   Sign exact_side(const Plane& plane, const Corner<Vertex>& corner);
@@ -244,6 +274,7 @@ class PlaneVolumeSpace {
   std::shared_ptr<const Shared> shared_;
   std::vector<Plane> own_;  // a stack
   std::vector<Explicit> explicit_;
+  std::vector<ExactPlane<mpz_class>> wide_;
   std::vector<PointMemo> points_;
   [[no_unique_address]] Stats stats_;
 };
