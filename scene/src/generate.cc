@@ -12,13 +12,26 @@ namespace {
 
 using scene_detail::Generator;
 
+/// Whoever lets a light be chosen lets it be an area light.
+void add_area_parameters(std::vector<GeneratorParameter>& parameters) {
+  const auto has = [&](const GeneratorParameter& parameter) {
+    return std::ranges::find(parameters, parameter.name, &GeneratorParameter::name) !=
+           parameters.end();
+  };
+  if (!has(scene_detail::kLightParameter) || has(scene_detail::kAreaParameter)) return;
+  parameters.push_back(scene_detail::kAreaParameter);
+  parameters.push_back(scene_detail::kAreaSizeParameter);
+}
+
 const std::vector<Generator>& registry() {
   static const std::vector<Generator> all = [] {
     std::vector<Generator> result;
     for (auto family : {scene_detail::paper_generators, scene_detail::large_generators,
-                        scene_detail::hard_generators, scene_detail::repair_generators}) {
+                        scene_detail::hard_generators, scene_detail::repair_generators,
+                        scene_detail::area_paper_generators, scene_detail::area_generators}) {
       for (Generator& generator : family()) result.push_back(std::move(generator));
     }
+    for (Generator& generator : result) add_area_parameters(generator.info.parameters);
     std::sort(result.begin(), result.end(),
               [](const Generator& a, const Generator& b) { return a.info.name < b.info.name; });
     return result;

@@ -8,10 +8,6 @@
 namespace gnomon::scene_detail {
 namespace {
 
-const GeneratorParameter kLightParameter{"light", 0, 0, 2, "0: a lamp, 1: the sun, 2: both"};
-
-std::int64_t at(const Values& values, std::string_view name) { return values.find(name)->second; }
-
 Int3 lattice_point(Random& random, std::int64_t size) {
   return {random.between(0, size), random.between(0, size), random.between(0, size)};
 }
@@ -22,6 +18,16 @@ Int3 direction(Random& random, std::int64_t size) {
     d = {random.between(-size, size), random.between(-size, size), random.between(-size, size)};
   }
   return d;
+}
+
+std::vector<Int3> panel_on_lattice(Random& random, std::int64_t size) {
+  for (;;) {
+    const Int3 p = lattice_point(random, size), q = lattice_point(random, size),
+               r = lattice_point(random, size);
+    if (is_zero(cross(q - p, r - p))) continue;
+    if (random.chance(1, 2)) return {p, q, q + r - p, r};
+    return {p, q, r};
+  }
 }
 
 void add_floor(SceneMaker& maker, std::int64_t reach, std::int64_t z) {
@@ -47,7 +53,9 @@ void lattice(SceneMaker& maker, const Values& values, Random& random) {
                         ? lattice_point(random, size)
                         : Int3{random.between(-size, 2 * size), random.between(-size, 2 * size),
                                size + 1 + random.between(0, size)};
-  maker.lights(at(values, "light"), lamp, direction(random, 2));
+  const Int3 to_sun = direction(random, 2);
+  if (at(values, "area") != 1) maker.lamp_and_sun(at(values, "light"), lamp, to_sun);
+  if (at(values, "area") != 0) maker.panel(panel_on_lattice(random, size));
 }
 
 // Unit blocks of a few sizes on a lattice, which touch in faces, edges and vertices; none overlap.
@@ -80,10 +88,10 @@ void touching_boxes(SceneMaker& maker, const Values& values, Random& random) {
     }
     if (free) maker.box("box" + std::to_string(made++), low, high);
   }
-  maker.lights(at(values, "light"),
-               {random.between(-size, 2 * size), random.between(-size, 2 * size),
-                size + random.between(1, size)},
-               {random.between(-3, 3), random.between(-3, 3), random.between(1, 3)});
+  const Int3 to_sun{random.between(-3, 3), random.between(-3, 3), random.between(1, 3)};
+  const Int3 lamp{random.between(-size, 2 * size), random.between(-size, 2 * size),
+                  size + random.between(1, size)};
+  maker.lights(values, lamp, to_sun, 4 * size);
 }
 
 // Long thin parallelograms through each other: hard for any order from back to front.
@@ -98,7 +106,7 @@ void crossing_sticks(SceneMaker& maker, const Values& values, Random& random) {
     maker.face("stick" + std::to_string(i++),
                {middle - along, middle + along, middle + along + across, middle - along + across});
   }
-  maker.lights(at(values, "light"), {size / 2, size / 2, 3 * size}, {1, -1, 4});
+  maker.lights(values, {size / 2, size / 2, 3 * size}, {1, -1, 4}, 4 * size);
 }
 
 // Every polygon has something to do with the lamp: it lies in the polygon's plane, in the line of
@@ -138,7 +146,7 @@ void grazing(SceneMaker& maker, const Values& values, Random& random) {
     last = u;
     maker.face("p" + std::to_string(i++), loop);
   }
-  maker.lights(at(values, "light"), lamp, last);
+  maker.lights(values, lamp, last, 8 * size);
 }
 
 // Triangles a million times as long as wide, some with a common edge or tip.
@@ -163,7 +171,7 @@ void needles(SceneMaker& maker, const Values& values, Random& random) {
     if (is_zero(cross(foot - tip, side))) continue;
     maker.face("needle" + std::to_string(i++), {tip, foot, foot + side});
   }
-  maker.lights(at(values, "light"), {length, -length, 6 * length}, {1, 2, 5});
+  maker.lights(values, {length, -length, 6 * length}, {1, 2, 5}, 8 * length);
 }
 
 // A slanted polygon reaches through the plane of another, with a third between its two pieces: an
@@ -193,7 +201,7 @@ void pinwheel(SceneMaker& maker, const Values& values, Random&) {
     maker.face("d" + std::to_string(i),
                {{-8, 12, z}, {-8, -12, z + 8}, {-4, -12, z + 8}, {-4, 12, z}});
   }
-  maker.lights(at(values, "light"), {1, 2, 40 + 12 * turns}, {1, 2, 16});
+  maker.lights(values, {1, 2, 40 + 12 * turns}, {1, 2, 16}, 32);
 }
 
 // Panels that lie in a tilted wall's plane, or a hair's breadth before or behind it.
@@ -219,8 +227,8 @@ void near_coplanar(SceneMaker& maker, const Values& values, Random& random) {
       .face("fin", {in_wall(8, 0), in_wall(8, 16), in_wall(8, 16) + Int3{0, 8 * side * unit, 0},
                     in_wall(8, 0) + Int3{0, 8 * side * unit, 0}})
       .two_sided = true;
-  maker.lights(at(values, "light"), in_wall(4, 20) + Int3{0, 24 * side * unit, 16 * unit},
-               {-2, 5 * side, 3});
+  maker.lights(values, in_wall(4, 20) + Int3{0, 24 * side * unit, 16 * unit}, {-2, 5 * side, 3},
+               64 * unit);
 }
 
 }  // namespace
@@ -245,7 +253,8 @@ std::vector<Generator> hard_generators() {
       {count(8, "polygons"),
        size(3, "lattice points along an axis, less one"),
        {"two_sided", 1, 0, 1, "both sides receive and cast"},
-       kLightParameter},
+       kLightParameter,
+       kAreaParameter},
       "every kind of incidence", lattice);
   add("touching-boxes",
       "up to n boxes on a lattice that touch but never overlap, and a floor: at most 6 n + 1 "

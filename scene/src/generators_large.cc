@@ -8,10 +8,6 @@
 namespace gnomon::scene_detail {
 namespace {
 
-const GeneratorParameter kLightParameter{"light", 0, 0, 2, "0: a lamp, 1: the sun, 2: both"};
-
-std::int64_t at(const Values& values, std::string_view name) { return values.find(name)->second; }
-
 /// Smallest s with s * s >= n.
 std::int64_t side_for(std::int64_t n) {
   std::int64_t s = 1;
@@ -40,7 +36,7 @@ void city(SceneMaker& maker, const Values& values, Random& random) {
   if (at(values, "shuffle") != 0) maker.shuffle_polygons(random);
   const Int3 inside{(side / 2) * kLot, (side / 2) * kLot, 5};
   const Int3 outside{-2 * kLot - 1, -3 * kLot - 2, 160 + width / 8};
-  maker.lights(at(values, "light"), at(values, "inside") != 0 ? inside : outside, {-3, -5, 7});
+  maker.lights(values, at(values, "inside") != 0 ? inside : outside, {-3, -5, 7}, width);
 }
 
 // Parallelograms at random places in a cube of 2^16 units, over a floor; their size shrinks as
@@ -75,7 +71,7 @@ void quads(SceneMaker& maker, const Values& values, Random& random) {
     maker.face("quad" + std::to_string(i), loop);
     ++i;
   }
-  maker.lights(at(values, "light"), lamp, sun);
+  maker.lights(values, lamp, sun, kExtent);
 }
 
 // Thin upright teeth side by side between a lamp and a wall: stripes of light, all of them
@@ -89,7 +85,7 @@ void comb(SceneMaker& maker, const Values& values, Random&) {
     maker.face("tooth" + std::to_string(i),
                {{4 * i, 0, 0}, {4 * i + 2, 0, 0}, {4 * i + 2, 0, 32}, {4 * i, 0, 32}});
   }
-  maker.lights(at(values, "light"), {2 * n + 1, -40, 48}, {1, -5, 6});
+  maker.lights(values, {2 * n + 1, -40, 48}, {1, -5, 6}, 4 * n);
 }
 
 // A flight of stairs: neighbours share edges, and each side panel meets two treads in T-junctions.
@@ -108,7 +104,7 @@ void stairs(SceneMaker& maker, const Values& values, Random&) {
   }
   const std::int64_t x = 4 * n, z = 3 * n;
   maker.face("back", {{x, 0, 0}, {x, width, 0}, {x, width, z}, {x, 0, z}});
-  maker.lights(at(values, "light"), {-10, -12, 4 * n + 20}, {-2, -1, 4});
+  maker.lights(values, {-10, -12, 4 * n + 20}, {-2, -1, 4}, 4 * n);
 }
 
 // Boxes in boxes, each without a lid and with a slit, walls seen from both sides; the lamp in the
@@ -128,7 +124,7 @@ void nested_boxes(SceneMaker& maker, const Values& values, Random&) {
     maker.face(id + ".right0", {{r, -r, 0}, {r, -1, 0}, {r, -1, h}, {r, -r, h}});
     maker.face(id + ".right1", {{r, 1, 0}, {r, r, 0}, {r, r, h}, {r, 1, h}});
   }
-  maker.lights(at(values, "light"), {0, 0, 2}, {1, 2, 9});
+  maker.lights(values, {0, 0, 2}, {1, 2, 9}, 8 * n);
 }
 
 // Tiles in a few horizontal planes: abutting, overlapping, one on another, and exact duplicates.
@@ -152,8 +148,7 @@ void coplanar_tiles(SceneMaker& maker, const Values& values, Random& random) {
     maker.face("tile" + std::to_string(i),
                {{x, y, z}, {x + w, y, z}, {x + w, y + d, z}, {x, y + d, z}});
   }
-  maker.lights(at(values, "light"), {size / 2, size / 2, 16 * at(values, "levels") + 16},
-               {1, 1, 2});
+  maker.lights(values, {size / 2, size / 2, 16 * at(values, "levels") + 16}, {1, 1, 2}, size);
 }
 
 // Many polygons at one line right under the lamp: in light space all of them meet in one edge
@@ -194,7 +189,7 @@ void radial_fan(SceneMaker& maker, const Values& values, Random&) {
         break;
     }
   }
-  maker.lights(at(values, "light"), {0, 0, 2 * r}, {0, 0, 1});
+  maker.lights(values, {0, 0, 2 * r}, {0, 0, 1}, r);
 }
 
 }  // namespace

@@ -5,61 +5,23 @@
 #include <array>
 
 #include "scene_maker.h"
+#include "scene_shapes.h"
 
 namespace gnomon::scene_detail {
 namespace {
 
-std::int64_t at(const Values& values, std::string_view name) { return values.find(name)->second; }
-
-void floor_at(SceneMaker& maker, Int3 low, Int3 high) {
-  maker.face("floor",
-             {low, {high.x, low.y, low.z}, {high.x, high.y, low.z}, {low.x, high.y, low.z}});
-}
-
-/// Four triangles seen from outside, whatever the orientation of the corners.
-void tetrahedron(SceneMaker& maker, const std::string& id, const std::array<Int3, 4>& v) {
-  const bool positive = dot(cross(v[1] - v[0], v[2] - v[0]), v[3] - v[0]) > 0;
-  const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  for (int f = 0; f < 4; ++f) {
-    const auto corner = [&](int k) { return v[static_cast<std::size_t>(faces[f][k])]; };
-    std::vector<Int3> loop{corner(0), corner(1), corner(2)};
-    if (!positive) std::reverse(loop.begin(), loop.end());
-    maker.face(id + "." + std::to_string(f), loop);
-  }
-}
-
 // Ground, cube, hexagonal prism, octahedron and tetrahedron: 1 + 6 + 8 + 8 + 4 = 27 polygons.
-void solids(SceneMaker& maker, const Values&, Random&) {
+void solids(SceneMaker& maker, const Values& values, Random&) {
   floor_at(maker, {0, 0, 0}, {64, 64, 0});
   maker.box("cube", {8, 8, 0}, {20, 20, 12});
-
-  const Int3 c{46, 18, 0};
-  const std::array<Int3, 6> hexagon{
-      {{8, 0, 0}, {4, 7, 0}, {-4, 7, 0}, {-8, 0, 0}, {-4, -7, 0}, {4, -7, 0}}};
-  std::vector<Int3> top, bottom;
-  for (const Int3& p : hexagon) {
-    top.push_back(c + p + Int3{0, 0, 16});
-    bottom.insert(bottom.begin(), c + p);
-  }
-  maker.face("prism.top", top);
-  maker.face("prism.bottom", bottom);
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Int3 p = c + hexagon[i], q = c + hexagon[(i + 1) % 6];
-    maker.face("prism." + std::to_string(i), {p, q, q + Int3{0, 0, 16}, p + Int3{0, 0, 16}});
-  }
-
-  const Int3 o{18, 46, 10};
-  const std::array<Int3, 4> waist{{{10, 0, 0}, {0, 10, 0}, {-10, 0, 0}, {0, -10, 0}}};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Int3 p = o + waist[i], q = o + waist[(i + 1) % 4];
-    maker.face("octahedron.up" + std::to_string(i), {p, q, o + Int3{0, 0, 10}});
-    maker.face("octahedron.down" + std::to_string(i), {q, p, o - Int3{0, 0, 10}});
-  }
+  hexagonal_prism(maker, "prism", {46, 18, 0}, 8, 16);
+  octahedron(maker, "octahedron", {18, 46, 10}, 10);
   tetrahedron(maker, "tetrahedron", {{{38, 40, 0}, {58, 44, 0}, {42, 58, 0}, {46, 47, 18}}});
 
-  maker.lamp({-10, -14, 60});
-  maker.lamp({80, 10, 50});
-  maker.lamp({30, 33, 90});
+  for (const Int3& place : {Int3{-10, -14, 60}, Int3{80, 10, 50}, Int3{30, 33, 90}}) {
+    if (at(values, "area") != 1) maker.lamp(place);
+    if (at(values, "area") != 0) maker.panel_above(values, place, 64);
+  }
 }
 
 /// 4^(level - 1) tetrahedra of 4 faces: Haines's recursive tetrahedron, inscribed in a cube so that
@@ -125,23 +87,6 @@ void tetra_staircase(SceneMaker& maker, const Values&, Random&) {
   maker.lamp({-70, -60, 120});
 }
 
-/// Top of 6 faces and 4 legs of 4 sides each that end under it: 22 polygons.
-void table(SceneMaker& maker, const std::string& id, Int3 o, std::int64_t width, std::int64_t depth,
-           std::int64_t height) {
-  maker.box(id + ".top", o + Int3{0, 0, height - 2}, o + Int3{width, depth, height});
-  for (int k = 0; k < 4; ++k) {
-    const Int3 foot = o + Int3{(k & 1) != 0 ? width - 3 : 1, (k & 2) != 0 ? depth - 3 : 1, 0};
-    maker.box(id + ".leg" + std::to_string(k), foot, foot + Int3{2, 2, height - 2},
-              SceneMaker::kSides);
-  }
-}
-
-/// A low table with a back of 6 faces: 28 polygons.
-void chair(SceneMaker& maker, const std::string& id, Int3 o) {
-  table(maker, id, o, 14, 14, 15);
-  maker.box(id + ".back", o + Int3{0, 12, 15}, o + Int3{14, 14, 32});
-}
-
 // Floor, two walls, table (22), chair (28), two boxes on the table (12): 65 quadrilaterals.
 void table_chair(SceneMaker& maker, const Values&, Random&) {
   floor_at(maker, {0, 0, 0}, {96, 80, 0});
@@ -155,12 +100,8 @@ void table_chair(SceneMaker& maker, const Values&, Random&) {
   maker.lamp({20, 10, 90});
 }
 
-void room_shell(SceneMaker& maker, Int3 high) {
-  maker.box("room", {0, 0, 0}, high, SceneMaker::kAll, true);
-}
-
 // A closed room (6), a table (22), two chairs (56), cabinet, box and shelf (18), a pillar (4): 106.
-void room(SceneMaker& maker, const Values&, Random&) {
+void room(SceneMaker& maker, const Values& values, Random&) {
   room_shell(maker, {128, 112, 72});
   table(maker, "table", {40, 44, 0}, 44, 28, 26);
   chair(maker, "chair0", {54, 22, 0});
@@ -169,8 +110,10 @@ void room(SceneMaker& maker, const Values&, Random&) {
   maker.box("parcel", {64, 54, 26}, {74, 62, 32});
   maker.box("shelf", {44, 104, 48}, {92, 112, 51});
   maker.box("pillar", {112, 24, 0}, {120, 32, 72}, SceneMaker::kSides);
-  maker.lamp({60, 60, 66});
-  maker.lamp({16, 20, 60});
+  for (const Int3& place : {Int3{60, 60, 66}, Int3{16, 20, 60}}) {
+    if (at(values, "area") != 1) maker.lamp(place);
+    if (at(values, "area") != 0) maker.panel_above(values, place, 128);
+  }
 }
 
 // A closed room filled with tables, chairs and blocks until it has exactly n polygons.
@@ -207,8 +150,14 @@ void slater_room(SceneMaker& maker, const Values& values, Random& random) {
     maker.face("picture" + std::to_string(i),
                {{0, y, 40}, {0, y + 6, 40}, {0, y + 6, 52}, {0, y, 52}});
   }
-  maker.lamp({high.x / 2 + 1, high.y / 2 - 3, 76});
-  if (at(values, "lights") == 2) maker.lamp({high.x / 4 + 1, high.y / 4 + 2, 70});
+  const std::array<Int3, 2> places{
+      {{high.x / 2 + 1, high.y / 2 - 3, 76}, {high.x / 4 + 1, high.y / 4 + 2, 70}}};
+  const auto count = static_cast<std::size_t>(at(values, "lights"));
+  const std::int64_t area = at(values, "area");
+  for (std::size_t i = 0; i < count && area != 1; ++i) maker.lamp(places[i]);
+  for (std::size_t i = 0; i < count && area != 0; ++i) {
+    maker.panel_above(values, places[i], high.x);
+  }
 }
 
 }  // namespace
@@ -218,7 +167,7 @@ std::vector<Generator> paper_generators() {
   const std::string chin = "Chin & Feiner 1989, Table 1";
   result.push_back({{"solids",
                      "ground, cube, prism, octahedron and tetrahedron: 27 polygons, 3 lamps",
-                     {},
+                     {kAreaParameter, kAreaSizeParameter},
                      chin},
                     solids});
   result.push_back(
@@ -227,8 +176,11 @@ std::vector<Generator> paper_generators() {
   result.push_back(
       {{"table-chair", "table and chair before two walls: 65 polygons, 2 lamps", {}, chin},
        table_chair});
-  result.push_back(
-      {{"room", "a furnished closed room: 106 polygons, 2 lamps inside", {}, chin}, room});
+  result.push_back({{"room",
+                     "a furnished closed room: 106 polygons, 2 lamps inside",
+                     {kAreaParameter, kAreaSizeParameter},
+                     chin},
+                    room});
   result.push_back(
       {{"tetra",
         "recursive tetrahedron of 4^level triangles and its ground: 4^level + ground polygons",
@@ -239,7 +191,9 @@ std::vector<Generator> paper_generators() {
   result.push_back({{"slater-room",
                      "a closed room with tables, chairs and blocks: exactly n polygons",
                      {{"n", 138, 12, 100000, "polygons; the paper has 138 to 318"},
-                      {"lights", 1, 1, 2, "lamps"}},
+                      {"lights", 1, 1, 2, "lamps"},
+                      kAreaParameter,
+                      kAreaSizeParameter},
                      "Slater 1992"},
                     slater_room});
   return result;

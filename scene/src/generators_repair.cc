@@ -7,8 +7,6 @@
 namespace gnomon::scene_detail {
 namespace {
 
-std::int64_t at(const Values& values, std::string_view name) { return values.find(name)->second; }
-
 // A wall with n holes in rows, some of them touching each other or the wall's border, of either
 // orientation, before a floor; the wall is tilted so that its plane is no axis plane.
 void holed_wall(SceneMaker& maker, const Values& values, Random& random) {
@@ -79,7 +77,7 @@ void terrain(SceneMaker& maker, const Values& values, Random& random) {
                  {point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)});
     }
   }
-  maker.lights(at(values, "light"), {-20, -30, 40 + 4 * n}, {-3, -2, 2});
+  maker.lights(values, {-20, -30, 40 + 4 * n}, {-3, -2, 2}, 8 * n);
 }
 
 }  // namespace
@@ -101,8 +99,7 @@ std::vector<Generator> repair_generators() {
                     spiral});
   result.push_back({{"terrain",
                      "a height field of n x n quads, few of them planar: n^2 polygons",
-                     {{"n", 5, 1, 1000, "quads along a side"},
-                      {"light", 0, 0, 2, "0: a lamp, 1: the sun, 2: both"}},
+                     {{"n", 5, 1, 1000, "quads along a side"}, kLightParameter},
                      "non-planar input",
                      true},
                     terrain});

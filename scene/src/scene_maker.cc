@@ -97,4 +97,21 @@ void SceneMaker::panel(const std::vector<Int3>& loop) {
   for (const Int3& p : loop) panel.loop.push_back({number(p.x), number(p.y), number(p.z)});
 }
 
+void SceneMaker::panel_above(const Values& values, Int3 middle, std::int64_t width) {
+  const std::int64_t half = std::max<std::int64_t>(1, width * at(values, "area_size") / 200);
+  panel({middle + Int3{-half, -half, 0}, middle + Int3{-half, half, 0},
+         middle + Int3{half, half, 0}, middle + Int3{half, -half, 0}});
+}
+
+void SceneMaker::lamp_and_sun(std::int64_t which, Int3 lamp_position, Int3 to_sun) {
+  if (which != 1) lamp(lamp_position);
+  if (which != 0) sun(to_sun);
+}
+
+void SceneMaker::lights(const Values& values, Int3 lamp_position, Int3 to_sun, std::int64_t width) {
+  const std::int64_t area = at(values, "area");
+  if (area != 1) lamp_and_sun(at(values, "light"), lamp_position, to_sun);
+  if (area != 0) panel_above(values, lamp_position, width);
+}
+
 }  // namespace gnomon::scene_detail

@@ -29,6 +29,19 @@ inline Int3 cross(Int3 a, Int3 b) {
 inline std::int64_t dot(Int3 a, Int3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline bool is_zero(Int3 a) { return a == Int3{}; }
 
+using Values = std::map<std::string, std::int64_t, std::less<>>;
+
+inline std::int64_t at(const Values& values, std::string_view name) {
+  return values.find(name)->second;
+}
+
+/// The parameters that SceneMaker::lights(values, ...) reads.
+inline const GeneratorParameter kLightParameter{"light", 0, 0, 2, "0: a lamp, 1: the sun, 2: both"};
+inline const GeneratorParameter kAreaParameter{
+    "area", 0, 0, 2, "1: an area light instead of the other lights, 2: besides them"};
+inline const GeneratorParameter kAreaSizeParameter{
+    "area_size", 10, 1, 1000, "its length and width, in hundredths of the scene's"};
+
 /// Coordinates are given as integers; the scene's are these times 2^-fraction_bits.
 class SceneMaker {
  public:
@@ -59,12 +72,14 @@ class SceneMaker {
 
   void lamp(Int3 position);
   void sun(Int3 to_light);
+  /// An area light; it emits to where its loop is counter-clockwise.
   void panel(const std::vector<Int3>& loop);
+  /// One that looks down, `area_size` hundredths of `width` long and wide.
+  void panel_above(const Values& values, Int3 middle, std::int64_t width);
   /// 0: the lamp, 1: the sun, 2: both.
-  void lights(std::int64_t which, Int3 lamp_position, Int3 to_sun) {
-    if (which != 1) lamp(lamp_position);
-    if (which != 0) sun(to_sun);
-  }
+  void lamp_and_sun(std::int64_t which, Int3 lamp_position, Int3 to_sun);
+  /// What the parameters above ask for; a panel round the lamp's place.
+  void lights(const Values& values, Int3 lamp_position, Int3 to_sun, std::int64_t width);
 
   void set_two_sided(bool two_sided) { scene_.two_sided = two_sided; }
   void shuffle_polygons(Random& random) { random.shuffle(std::span(scene_.polygons)); }
@@ -85,8 +100,6 @@ class SceneMaker {
   std::map<std::string, int> light_counts_;
 };
 
-using Values = std::map<std::string, std::int64_t, std::less<>>;
-
 /// One generator: what it is, and the function that fills the scene.
 struct Generator {
   GeneratorInfo info;
@@ -97,6 +110,8 @@ std::vector<Generator> paper_generators();
 std::vector<Generator> large_generators();
 std::vector<Generator> hard_generators();
 std::vector<Generator> repair_generators();
+std::vector<Generator> area_paper_generators();
+std::vector<Generator> area_generators();
 
 }  // namespace gnomon::scene_detail
 

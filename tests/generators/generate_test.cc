@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <set>
 
@@ -57,6 +58,15 @@ TEST(Counts, AreThoseOfThePapers) {
   for (const std::int64_t n : {12, 17, 138, 200, 318}) {
     EXPECT_EQ(polygons("slater-room", {{"n", n}}), static_cast<std::size_t>(n));
   }
+  EXPECT_EQ(polygons("plates1"), 14u);
+  EXPECT_EQ(polygons("room1992"), 149u);
+  EXPECT_EQ(polygons("room1992", {{"lights", 2}}), 151u);
+  EXPECT_EQ(polygons("room1992", {{"lights", 2}, {"playpen", 0}}), 70u);
+  EXPECT_EQ(make("room1992", {{"lights", 2}}).lights.size(), 2u);
+  EXPECT_EQ(polygons("figure-4f"), 4u);
+  EXPECT_EQ(polygons("figure-6"), 3u);
+  EXPECT_EQ(polygons("solids-field", {{"n", 8}}), 53u);
+  EXPECT_EQ(polygons("panel-contacts", {{"n", 5}}), 6u);
   EXPECT_EQ(polygons("city", {{"n", 24000}}), 120001u);
   EXPECT_EQ(polygons("quads", {{"n", 50}}), 51u);
   EXPECT_EQ(polygons("comb", {{"n", 5}}), 7u);
@@ -139,6 +149,84 @@ TEST(Sound, Variants) {
   check("near-coplanar", {{"closeness", 44}});
   check("tetra", {{"level", 1}});
   check("lattice", {{"n", 200}, {"size", 2}, {"light", 2}});
+}
+
+std::size_t area_lights(const Scene& scene) {
+  return static_cast<std::size_t>(std::ranges::count(scene.lights, LightType::kArea, &Light::type));
+}
+
+bool has_parameter(const GeneratorInfo& info, const std::string& name) {
+  return std::ranges::find(info.parameters, name, &GeneratorParameter::name) !=
+         info.parameters.end();
+}
+
+TEST(AreaLights, EveryFamilyThatChoosesItsLightHasThem) {
+  for (const GeneratorInfo& info : generators()) {
+    if (!has_parameter(info, "area")) {
+      EXPECT_FALSE(has_parameter(info, "light")) << info.name;
+      continue;
+    }
+    for (std::uint64_t seed = 1; seed < (info.small ? 30 : 3); ++seed) {
+      expect_sound(info, {{"area", 1}}, seed);
+    }
+    const Scene alone = make(info.name, {{"area", 1}});
+    const Scene mixed = make(info.name, {{"area", 2}});
+    EXPECT_EQ(area_lights(alone), alone.lights.size()) << info.name;
+    EXPECT_EQ(area_lights(mixed), area_lights(alone)) << info.name;
+    EXPECT_GT(mixed.lights.size(), area_lights(mixed)) << info.name;
+    EXPECT_EQ(alone.lights.front().id, "panel");
+    EXPECT_EQ(alone.polygons.size(), mixed.polygons.size());
+  }
+}
+
+TEST(AreaLights, HaveTheSizeThatWasAskedFor) {
+  for (const std::int64_t percent : {1, 50}) {
+    const Scene scene = make("quads", {{"n", 10}, {"area", 1}, {"area_size", percent}});
+    const auto& loop = scene.lights.front().loop;
+    const double width = loop[2][0].nearest() - loop[0][0].nearest();
+    EXPECT_NEAR(width, 65536.0 * static_cast<double>(percent) / 100, 2);
+    // It looks down: clockwise seen from above.
+    EXPECT_GT(loop[1][1].nearest(), loop[0][1].nearest());
+  }
+}
+
+/// How many of `points` are before and behind the plane of `loop`, by plain arithmetic.
+struct Sides {
+  std::size_t front = 0, back = 0, on = 0;
+};
+Sides sides_of(const std::vector<Exact3>& loop, const std::vector<Exact3>& points) {
+  const Exact3 normal = plain_cross(loop[0], loop[1], loop[2]);
+  Sides sides;
+  for (const Exact3& p : points) {
+    mpz_class value = 0;
+    for (std::size_t k = 0; k < 3; ++k) value += normal[k] * (p[k] - loop[0][k]);
+    ++(value > 0 ? sides.front : value < 0 ? sides.back : sides.on);
+  }
+  return sides;
+}
+
+TEST(AreaLights, ContactsComeInEveryKind) {
+  std::size_t at_vertex = 0, at_edge = 0, in_plane = 0, cuts = 0, is_cut = 0;
+  for (std::uint64_t seed = 1; seed < 40; ++seed) {
+    const auto prepared = prepare(make("panel-contacts", {}, seed));
+    ASSERT_TRUE(prepared);
+    const auto& light = prepared->lights.front().area_loop;
+    for (const Part& part : prepared->parts) {
+      std::vector<Exact3> loop;
+      for (const VertexId v : prepared->loop(part)) loop.push_back(grid_point(*prepared, v));
+      const auto shared = std::ranges::count_if(
+          loop, [&](const Exact3& p) { return std::ranges::find(light, p) != light.end(); });
+      at_vertex += shared == 1;
+      at_edge += shared == 2;
+      const Sides of_light = sides_of(loop, light), of_part = sides_of(light, loop);
+      in_plane += of_light.on == light.size();
+      cuts += of_light.front > 0 && of_light.back > 0;
+      is_cut += of_part.front > 0 && of_part.back > 0;
+    }
+  }
+  for (const std::size_t count : {at_vertex, at_edge, in_plane, cuts, is_cut}) {
+    EXPECT_GT(count, 15u);
+  }
 }
 
 TEST(Random, IsTheSameEverywhere) {
