@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "mesh_contacts.h"
 #include "mesh_edges.h"
 #include "mesh_grid.h"
 #include "mesh_points.h"
@@ -31,21 +32,26 @@ FaceClass class_of(const MeshFace& face) {
 }
 
 /// A vertex on an oriented plane: what illumination depends on, whichever part of that plane it
-/// belongs to, since coplanar polygons do not shadow each other.
+/// belongs to, since coplanar polygons do not shadow each other. Where a caster touches the plane,
+/// each face behind it has the vertex for itself.
 struct NodeKey {
+  static constexpr std::uint32_t kShared = 0xffffffffu;
   std::uint32_t vertex = 0;
-  std::uint32_t plane = 0;  // 2 plane, + 1 for its back
+  std::uint32_t plane = 0;         // 2 plane, + 1 for its back
+  std::uint32_t inside = kShared;  // a face's own: the number of a point inside of it
   friend bool operator==(NodeKey, NodeKey) = default;
 };
 struct NodeHash {
   std::size_t operator()(NodeKey key) const {
     std::uint64_t hash = (std::uint64_t{key.vertex} << 32 | key.plane) * 0x9e3779b97f4a7c15u;
+    hash = (hash ^ key.inside) * 0x9e3779b97f4a7c15u;
     return static_cast<std::size_t>(hash ^ hash >> 29);
   }
 };
 
 struct Node {
   std::uint32_t vertex = 0;
+  std::uint32_t inside = NodeKey::kShared;  // of the face whose own it is
   std::uint32_t part = 0;
   Side side = Side::kFront;
   std::uint64_t lit_by = 0, penumbra_of = 0;        // classes of faces that meet in it
@@ -57,14 +63,16 @@ class NodeTable {
  public:
   NodeTable(const PreparedScene& scene, std::size_t lights) : scene_(scene), lights_(lights) {}
 
-  /// The node of a vertex of this face, which now belongs to the face's classes too.
-  std::uint32_t add(std::uint32_t vertex, const MeshFace& face) {
+  /// The node of a vertex of this face, which now belongs to the face's classes too. `inside`: a
+  /// point inside of the face if the node is to be its own, else kShared.
+  std::uint32_t add(std::uint32_t vertex, const MeshFace& face, std::uint32_t inside) {
     const Part& part = scene_.parts[face.part];
     const bool back = part.flipped != (face.side == Side::kBack);
-    const auto [at, is_new] = numbers_.emplace(NodeKey{vertex, 2 * part.plane + (back ? 1 : 0)},
-                                               static_cast<std::uint32_t>(nodes_.size()));
+    const auto [at, is_new] =
+        numbers_.emplace(NodeKey{vertex, 2 * part.plane + (back ? 1 : 0), inside},
+                         static_cast<std::uint32_t>(nodes_.size()));
     if (is_new) {
-      nodes_.push_back({vertex, face.part, face.side, 0, 0, 0, 0});
+      nodes_.push_back({vertex, inside, face.part, face.side, 0, 0, 0, 0});
       values_.resize(values_.size() + lights_, 0);
       errors_.resize(errors_.size() + lights_, 0);
     }
@@ -109,8 +117,11 @@ class NodeTable {
       tbb::parallel_for(begin, end, [&](std::size_t i) {
         Node& node = nodes_[missing[i]];
         const bool lit = (node.lit_by & bit) != 0;
+        std::array<mpq_class, 3> inside;
+        if (node.inside != NodeKey::kShared) inside = points.exact(node.inside).rational();
         const PointShade result = shade({static_cast<std::uint32_t>(light), node.part, node.side,
-                                         points.exact(node.vertex).rational(), lit, nullptr});
+                                         points.exact(node.vertex).rational(), lit,
+                                         node.inside == NodeKey::kShared ? nullptr : &inside});
         values_[missing[i] * lights_ + light] = result.value;
         errors_[missing[i] * lights_ + light] = result.error_bound;
         (lit ? node.known_lit : node.known_penumbra) |= bit;
@@ -153,6 +164,7 @@ class MeshMaker {
         result_(result),
         shade_(shade),
         options_(options),
+        contacts_(scene),
         nodes_(scene, result.lights.size()) {}
 
   Expected<ShadingMesh> make() {
@@ -174,8 +186,9 @@ class MeshMaker {
     if (options_.tolerance > 0) {
       if (auto done = refine(); !done) return tl::unexpected(std::move(done.error()));
     }
-    for (const MeshFace& face : loops_.faces) {
-      for (const std::uint32_t vertex : loops_.loop(face)) nodes_.add(vertex, face);
+    find_contacts({});
+    for (std::uint32_t f = 0; f < loops_.faces.size(); ++f) {
+      for (const std::uint32_t vertex : loops_.loop(loops_.faces[f])) node(vertex, f);
     }
     if (!illuminate()) return stopped();
     finish();
@@ -292,6 +305,34 @@ class MeshMaker {
       for (NewPoint& point : made[i]) loop.push_back(points_.insert(std::move(point)));
       loops_.add(given[i].face, loop);
     }
+  }
+
+  // ---- nodes
+
+  /// Finds where casters touch the penumbra faces, at their corners and at other points. To be
+  /// called whenever there are new faces, before their nodes are asked for.
+  void find_contacts(std::vector<std::uint32_t> vertices) {
+    insides_.assign(loops_.faces.size(), NodeKey::kShared);
+    for (const MeshFace& face : loops_.faces) {
+      if (face.penumbra_of == 0) continue;
+      const auto loop = loops_.loop(face);
+      vertices.insert(vertices.end(), loop.begin(), loop.end());
+    }
+    contacts_.find(points_, vertices);
+  }
+
+  /// The node of a point of a face. Lit faces need no node of their own: they are lit whatever
+  /// touches them.
+  std::uint32_t node(std::uint32_t vertex, std::uint32_t f) {
+    const MeshFace& face = loops_.faces[f];
+    if (face.penumbra_of == 0 || !contacts_.touches(vertex, face)) {
+      return nodes_.add(vertex, face, NodeKey::kShared);
+    }
+    if (insides_[f] == NodeKey::kShared) {
+      insides_[f] = points_.insert(new_point(inner_point(loops_.loop(face), points_)));
+    }
+    const bool own = contacts_.is_behind(vertex, face, points_.exact(insides_[f]));
+    return nodes_.add(vertex, face, own ? insides_[f] : NodeKey::kShared);
   }
 
   // ---- subdivision
@@ -424,20 +465,24 @@ class MeshMaker {
 
     // Nodes of every face that has a tested edge: where a lit face meets a penumbra face, its
     // middle is lit for both.
-    for (const MeshFace& face : loops_.faces) {
-      const auto loop = loops_.loop(face);
+    std::vector<std::uint32_t> centre_points;
+    for (NewPoint& point : centres) centre_points.push_back(points_.insert(std::move(point)));
+    std::vector<std::uint32_t> others = middles;
+    others.insert(others.end(), centre_points.begin(), centre_points.end());
+    find_contacts(std::move(others));
+    for (std::uint32_t f = 0; f < loops_.faces.size(); ++f) {
+      const auto loop = loops_.loop(loops_.faces[f]);
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const std::size_t edge = edges.find(loop[i], loop[(i + 1) % loop.size()]);
         if (edge == EdgeList::kNone) continue;
-        nodes_.add(loop[i], face);
-        nodes_.add(loop[(i + 1) % loop.size()], face);
-        nodes_.add(middles[edge], face);
+        node(loop[i], f);
+        node(loop[(i + 1) % loop.size()], f);
+        node(middles[edge], f);
       }
     }
     std::vector<std::uint32_t> centre_nodes;
     for (std::size_t i = 0; i < tested.size(); ++i) {
-      centre_nodes.push_back(
-          nodes_.add(points_.insert(std::move(centres[i])), loops_.faces[tested[i]]));
+      centre_nodes.push_back(node(centre_points[i], tested[i]));
     }
     if (!illuminate()) return false;
 
@@ -449,9 +494,9 @@ class MeshMaker {
       bool good = true;
       for (std::size_t c = 0; c < loop.size() && good; ++c) {
         const std::uint32_t next = loop[(c + 1) % loop.size()];
-        const double a = nodes_.shade(nodes_.add(loop[c], face), face);
-        const double b = nodes_.shade(nodes_.add(next, face), face);
-        const std::uint32_t between = nodes_.add(middles[edges.find(loop[c], next)], face);
+        const double a = nodes_.shade(node(loop[c], tested[i]), face);
+        const double b = nodes_.shade(node(next, tested[i]), face);
+        const std::uint32_t between = node(middles[edges.find(loop[c], next)], tested[i]);
         good = std::fabs(nodes_.shade(between, face) - (a + b) / 2) <= allowed;
         sum += a;
       }
@@ -485,6 +530,7 @@ class MeshMaker {
     const std::size_t lights = mesh_.lights.size();
     constexpr std::uint32_t kNone = 0xffffffffu;
     std::vector<std::uint32_t> vertex_numbers(points_.size(), kNone);
+    std::vector<std::uint32_t> numbered;
     struct SampleHash {
       std::size_t operator()(const std::pair<std::uint32_t, std::uint64_t>& key) const {
         const std::uint64_t hash = (key.second ^ key.first) * 0x9e3779b97f4a7c15u + key.first;
@@ -494,25 +540,27 @@ class MeshMaker {
     std::unordered_map<std::pair<std::uint32_t, std::uint64_t>, std::uint32_t, SampleHash> samples;
     std::vector<std::uint64_t> umbra(nodes_.size(), 0);
     const std::uint64_t all = lights == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << lights) - 1;
-    for (const MeshFace& face : loops_.faces) {
+    for (std::uint32_t f = 0; f < loops_.faces.size(); ++f) {
+      const MeshFace& face = loops_.faces[f];
       MeshFace copy = face;
       copy.first = static_cast<std::uint32_t>(mesh_.corners.size());
       const std::uint64_t shone_on = face.lit_by | face.penumbra_of;
       for (const std::uint32_t vertex : loops_.loop(face)) {
-        const std::uint32_t node = nodes_.add(vertex, face);
-        umbra[node] |= all & ~shone_on;
+        const std::uint32_t at_vertex = node(vertex, f);
+        umbra[at_vertex] |= all & ~shone_on;
         std::uint32_t& number = vertex_numbers[vertex];
         if (number == kNone) {
           number = static_cast<std::uint32_t>(mesh_.points.size());
           mesh_.points.push_back(points_.nearest(vertex));
-          mesh_.exact_points.push_back(std::move(points_.exact_points()[vertex]));
+          numbered.push_back(vertex);
         }
-        const auto [at, is_new] = samples.emplace(std::pair(node, shone_on),
+        const auto [at, is_new] = samples.emplace(std::pair(at_vertex, shone_on),
                                                   static_cast<std::uint32_t>(mesh_.samples.size()));
         if (is_new) {
-          mesh_.samples.push_back({number, nodes_[node].part, nodes_[node].side});
+          mesh_.samples.push_back({number, nodes_[at_vertex].part, nodes_[at_vertex].side});
           for (std::size_t light = 0; light < lights; ++light) {
-            mesh_.values.push_back((shone_on >> light & 1) != 0 ? nodes_.value(node, light) : 0);
+            mesh_.values.push_back((shone_on >> light & 1) != 0 ? nodes_.value(at_vertex, light)
+                                                                : 0);
           }
         }
         mesh_.corners.push_back({number, at->second});
@@ -524,6 +572,9 @@ class MeshMaker {
          : (face.penumbra_of >> light & 1) != 0 ? stats.penumbra
                                                 : stats.umbra) += face.count;
       }
+    }
+    for (const std::uint32_t vertex : numbered) {
+      mesh_.exact_points.push_back(std::move(points_.exact_points()[vertex]));
     }
     mesh_.stats.faces = mesh_.faces.size();
     mesh_.stats.vertices = mesh_.points.size();
@@ -549,6 +600,8 @@ class MeshMaker {
   const ShadingOptions& options_;
   PointTable points_;
   FaceLoops loops_;
+  std::vector<std::uint32_t> insides_;  // of faces, or kShared if not asked for yet
+  Contacts contacts_;
   NodeTable nodes_;
   ShadingMesh mesh_;
 };

@@ -234,7 +234,10 @@ TEST(ShadingMesh, AdaptiveMeshesHaveNoTVerticesEither) {
 
 /// What the shade of every call depended on, and what the mesh makes of it.
 TEST(ShadingMesh, VerticesAreComputedOnceByTheRulesOfThePaper) {
-  const Solved solved = solve(kRoom, {0, 1, 2});
+  // The sheet lifted off the floor: where it touches, faces have vertices of their own.
+  std::string lifted = kRoom;
+  lifted.replace(lifted.find("[5,0.5,0]"), 9, "[5,0.5,0.125]");
+  const Solved solved = solve(lifted.c_str(), {0, 1, 2});
   const PreparedScene& scene = solved.prepared;
   using Call = std::tuple<std::uint32_t, std::uint32_t, Rational>;  // light, oriented plane, point
   const auto plane_of = [&](std::uint32_t part, Side side) {
@@ -293,6 +296,53 @@ TEST(ShadingMesh, VerticesAreComputedOnceByTheRulesOfThePaper) {
   }
   EXPECT_GT(shared_lit_penumbra, 0u);
   EXPECT_GT(shared_with_umbra, 0u);
+}
+
+/// A wall, seen from both sides, in the middle of a floor under a panel: neither side of its foot
+/// is dark, and neither has what the other has.
+constexpr const char* kFoot = R"({"format": "gnomon-scene", "version": 1,
+  "vertices": [[0,0,0],[8,0,0],[8,8,0],[0,8,0],[4,2,0],[4,6,0],[4,6,2],[4,2,2]],
+  "polygons": [{"id": "floor", "loop": [0,1,2,3]},
+               {"id": "wall", "loop": [4,5,6,7], "two_sided": true}],
+  "lights": [{"id": "panel", "type": "area", "loop": [[2.5,3,6],[2.5,5,6],[5,5,6],[5,3,6]]}]})";
+
+TEST(ShadingMesh, TheFootOfAWallHasAValueOnEachSide) {
+  const Solved solved = solve(kFoot, {0});
+  std::mutex mutex;
+  std::set<std::pair<Rational, Rational>> own;
+  const ShadeFunction shade = [&](const ShadeRequest& asked) {
+    if (asked.inwards == nullptr) return PointShade{1, 0};
+    const std::scoped_lock lock(mutex);
+    EXPECT_FALSE(asked.unobstructed);
+    EXPECT_EQ(asked.point[0], 4);
+    EXPECT_TRUE(own.emplace(asked.point, *asked.inwards).second) << "twice";
+    return PointShade{asked.inwards->front() < 4 ? 3.0 : 2.0, 0};
+  };
+  ShadingOptions options = with_grid("1", "1/2");
+  for (const double tolerance : {0.0, 0.05}) {
+    own.clear();
+    options.tolerance = tolerance;
+    options.max_depth = 2;
+    const ShadingMesh mesh = mesh_of(solved, options, shade);
+    check_mesh(mesh, solved);
+    EXPECT_FALSE(own.empty());
+    std::array<std::size_t, 2> feet{};
+    for (const MeshFace& face : mesh.faces) {
+      if (face.part != 0 || face.penumbra_of == 0) continue;
+      double mean = 0;
+      for (const MeshCorner& corner : mesh.loop(face)) {
+        mean += mesh.points[corner.vertex][0] / face.count;
+      }
+      for (const MeshCorner& corner : mesh.loop(face)) {
+        const auto& point = mesh.points[corner.vertex];
+        const bool at_foot = point[0] == 4 && point[1] >= 2 && point[1] <= 6;
+        EXPECT_EQ(mesh.values[corner.sample], !at_foot ? 1 : mean < 4 ? 3 : 2);
+        if (at_foot) ++feet[mean < 4 ? 0 : 1];
+      }
+    }
+    EXPECT_GT(feet[0], 0u);
+    EXPECT_GT(feet[1], 0u);
+  }
 }
 
 TEST(ShadingMesh, ShadeIsTheAmbientTermAndAllLights) {

@@ -11,7 +11,8 @@
 //    (of the same side, of a part that shares the edge, of a wall that stands on it) is a vertex of
 //    that face too, as one more corner between two collinear edges;
 //  * equal positions are one vertex, and a vertex's illumination by one light is computed once for
-//    each oriented plane that it is on;
+//    each oriented plane that it is on (where a caster touches that plane, illumination jumps:
+//    there each penumbra face behind the caster has the limit from its own inside);
 //  * the mesh does not depend on the number of threads.
 // A corner of one coplanar polygon that touches the middle of an edge of another is not inserted
 // there, nor are overlapping coplanar polygons fitted to each other.
@@ -145,7 +146,8 @@ struct ShadingMesh {
 
 /// The paper's rules for a vertex on which classes meet: lit and penumbra faces share it as lit,
 /// without a search for casters; an umbra face has the ambient term there, whatever others have.
-/// Every side that receives has faces: those that see no light are one umbra face.
+/// The foot of a caster is an exception to the first: a penumbra face behind it has a value of its
+/// own. Every side that receives has faces: those that see no light are one umbra face.
 ///
 /// `result` needs exact points: combined_exact_points of several lights (ShadowOptions::combined),
 /// exact_points of one. Runs on the threads of the caller's task arena (oneTBB). Errors: kUsage (a
