@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnomon/oracle/compare.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "clearance.h"
+#include "deep_umbra.h"
 #include "group_overlay.h"
 #include "region_width.h"
 
@@ -13,37 +18,67 @@ namespace gnomon::oracle {
 
 namespace {
 
+/// What a candidate's classes are judged by.
+struct Rules {
+  bool area = false;        // of an area light
+  bool per_caster = false;  // umbra is what one caster alone hides
+};
+
 /// What one cell of the overlay says.
 struct Cell {
   bool inside = false;  // of the receiver
   ShadeClass truth = ShadeClass::kLit;
-  bool claims_lit = false, claims_shadow = false;
+  bool deep = false;              // certified: no light arrives
+  std::array<bool, 4> claimed{};  // by ShadeClass
   bool misclassified = false, uncovered = false, overlapping = false, outside = false;
+  bool missing_umbra = false;
 
   bool errs() const { return misclassified || overlapping || outside; }
+  bool claims(ShadeClass shade) const { return claimed[static_cast<std::size_t>(shade)]; }
+  bool accepts(ShadeClass shade, const Rules& rules) const {
+    if (shade == truth) return true;
+    if (!rules.area || rules.per_caster) return false;
+    return (truth == ShadeClass::kUmbra && shade == ShadeClass::kPenumbra) ||
+           (truth == ShadeClass::kPenumbra && shade == ShadeClass::kUmbra && deep);
+  }
 };
 
-Cell read_cell(const Winding& winding, std::optional<ShadeClass> background, bool optional) {
+constexpr ShadeClass kClasses[] = {ShadeClass::kLit, ShadeClass::kShadow, ShadeClass::kPenumbra,
+                                   ShadeClass::kUmbra};
+
+Cell read_cell(const Winding& winding, std::optional<ShadeClass> background, bool optional,
+               const Rules& rules) {
+  constexpr Layer kLayerOf[] = {kLit, kShadow, kPenumbra, kUmbra};
   Cell cell;
-  const int lit = winding[kLit], shadow = winding[kShadow];
+  int claims = 0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    claims += winding[kLayerOf[c]];
+    cell.claimed[c] = winding[kLayerOf[c]] > 0;
+  }
   cell.inside = winding[kReceiver] != 0;
-  cell.truth = winding[kTruth] != 0 ? ShadeClass::kShadow : ShadeClass::kLit;
-  cell.claims_lit = lit > 0;
-  cell.claims_shadow = shadow > 0;
-  cell.overlapping = lit + shadow > 1;
+  cell.truth = winding[kTrueUmbra] != 0 ? ShadeClass::kUmbra
+               : winding[kTruth] == 0   ? ShadeClass::kLit
+               : rules.area             ? ShadeClass::kPenumbra
+                                        : ShadeClass::kShadow;
+  cell.deep = winding[kDeep] != 0;
+  cell.overlapping = claims > 1;
   if (!cell.inside) {
-    cell.outside = lit + shadow > 0;
+    cell.outside = claims > 0;
     return cell;
   }
-  if (lit + shadow == 0) {
+  if (claims == 0) {
     if (optional) return cell;
     cell.uncovered = !background;
-    cell.claims_lit = background == ShadeClass::kLit;
-    cell.claims_shadow = background && !cell.claims_lit;
+    if (background) cell.claimed[static_cast<std::size_t>(*background)] = true;
   }
-  const bool right = cell.truth == ShadeClass::kLit ? cell.claims_lit && !cell.claims_shadow
-                                                    : cell.claims_shadow && !cell.claims_lit;
+  const auto classes = std::count(cell.claimed.begin(), cell.claimed.end(), true);
+  const bool right =
+      classes == 1 && std::any_of(std::begin(kClasses), std::end(kClasses), [&](ShadeClass shade) {
+        return cell.claims(shade) && cell.accepts(shade, rules);
+      });
   cell.misclassified = !right;
+  cell.missing_umbra =
+      cell.truth == ShadeClass::kUmbra && classes == 1 && cell.claims(ShadeClass::kPenumbra);
   return cell;
 }
 
@@ -75,13 +110,11 @@ std::vector<std::uint32_t> connect(const Overlay& overlay, const Joined& joined)
 /// Regions that claim class c where it is false and touch no region where it is true; and true
 /// regions of class c in which it was found nowhere.
 void count_leaks(const Overlay& overlay, const std::vector<Cell>& cells, ShadeClass shade,
-                 PolygonComparison& result) {
-  const auto claims = [&](std::uint32_t f) {
-    return shade == ShadeClass::kLit ? cells[f].claims_lit : cells[f].claims_shadow;
-  };
+                 const Rules& rules, PolygonComparison& result) {
+  const auto claims = [&](std::uint32_t f) { return cells[f].claims(shade); };
   const auto is_true = [&](std::uint32_t f) { return cells[f].inside && cells[f].truth == shade; };
   const auto claims_wrongly = [&](std::uint32_t f) {
-    return cells[f].inside && claims(f) && !is_true(f);
+    return cells[f].inside && claims(f) && !cells[f].accepts(shade, rules);
   };
   const std::vector<std::uint32_t> wrong = connect(overlay, [&](std::uint32_t a, std::uint32_t b) {
     return claims_wrongly(a) && claims_wrongly(b);
@@ -95,7 +128,8 @@ void count_leaks(const Overlay& overlay, const std::vector<Cell>& cells, ShadeCl
     if (claims_wrongly(here) && is_true(there)) touches[wrong[here]] = true;
   }
   for (std::uint32_t f = 1; f < cells.size(); ++f) {
-    if (is_true(f) && claims(f)) found[right[f]] = true;
+    // Where another class is as good, it counts as found.
+    if (is_true(f) && (claims(f) || !cells[f].misclassified)) found[right[f]] = true;
   }
   for (std::uint32_t f = 1; f < cells.size(); ++f) {
     if (claims_wrongly(f) && wrong[f] == f && !touches[f]) ++result.invented;
@@ -118,13 +152,14 @@ struct ProjectedFragment {
 class GroupComparison {
  public:
   GroupComparison(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
-                  const ReceiverGroup& group, std::optional<ShadeClass> background,
+                  const ReceiverGroup& group, const ClaimedTerms& terms,
                   const ComparisonOptions& options, PolygonComparison& result)
       : answer_(answer),
         light_(light),
         entry_(entry),
         group_(group),
-        background_(background),
+        background_(terms.background),
+        rules_{answer.is_area(light), terms.per_caster_umbra},
         options_(options),
         result_(result),
         overlay_(answer, light, group) {}
@@ -133,29 +168,47 @@ class GroupComparison {
   void compare();
 
   struct Shares {
-    AreaShare lit, shadow, misclassified, uncovered, overlapping, outside, ill_conditioned;
+    AreaShare lit, shadow, penumbra, umbra, missing_umbra, misclassified, uncovered, overlapping,
+        outside, ill_conditioned;
     AreaShare judged_misclassified, judged_uncovered, judged_overlapping, judged_outside;
   };
   const Shares& shares() const { return shares_; }
   Enclosure whole_area() const { return overlay_.whole_area(); }
 
  private:
+  Layer layer_of(ShadeClass shade) const;
+  void add_deep_umbra();
   void examine_regions(const std::vector<Cell>& cells, std::vector<bool>& ill_conditioned);
   ErrorRegion examine(const std::vector<std::uint32_t>& faces,
                       const std::vector<std::uint32_t>& boundary, const std::vector<Cell>& cells);
   void describe(Witness& witness, const Cell& cell, const ChartPoint& point) const;
+  std::string describe_shadow(Witness& witness, const std::string& claimed,
+                              const ChartPoint& point) const;
+  std::string describe_area(Witness& witness, const std::string& claimed,
+                            const ChartPoint& point) const;
+  const std::string& id_of(std::uint32_t part) const {
+    return answer_.scene().polygons[answer_.prepared().parts[part].polygon].id;
+  }
 
   const ExactAnswer& answer_;
   std::uint32_t light_;
   const AnswerEntry& entry_;
   const ReceiverGroup& group_;
   std::optional<ShadeClass> background_;
+  Rules rules_;
   const ComparisonOptions& options_;
   PolygonComparison& result_;
   GroupOverlay overlay_;
   std::vector<ProjectedFragment> fragments_;
   Shares shares_;
 };
+
+// A class that the light does not have fails the candidate elsewhere; here it is some darkness.
+Layer GroupComparison::layer_of(ShadeClass shade) const {
+  if (shade == ShadeClass::kLit) return kLit;
+  if (!rules_.area) return kShadow;
+  return shade == ShadeClass::kUmbra ? kUmbra : kPenumbra;
+}
 
 void GroupComparison::add(const CandidateFragment& fragment) {
   const Geometry& geometry = answer_.prepared().geometry;
@@ -175,13 +228,14 @@ void GroupComparison::add(const CandidateFragment& fragment) {
   }
   ProjectedFragment projected{&fragment, normalise(std::move(loop))};
   if (projected.loop.crosses_itself) ++result_.self_crossing;
-  const Layer layer = fragment.shade == ShadeClass::kLit ? kLit : kShadow;
+  const Layer layer = layer_of(fragment.shade);
   overlay_.overlay().add_loop(projected.loop.loop, layer);
   for (const auto& [a, b] : projected.loop.edges) overlay_.overlay().add_edge(a, b, layer);
   fragments_.push_back(std::move(projected));
 }
 
 void GroupComparison::compare() {
+  if (rules_.area && !rules_.per_caster && group_.faces) add_deep_umbra();
   overlay_.build();
   const Overlay& overlay = overlay_.overlay();
   if (!overlay.consistent()) {
@@ -189,8 +243,10 @@ void GroupComparison::compare() {
     return;
   }
   std::vector<Cell> cells;
+  std::optional<ShadeClass> background = background_;
+  if (background && layer_of(*background) == kShadow) background = ShadeClass::kShadow;
   for (const Overlay::Face& face : overlay.faces()) {
-    cells.push_back(read_cell(face.winding, background_, group_.optional));
+    cells.push_back(read_cell(face.winding, background, group_.optional, rules_));
   }
   cells[0] = Cell{};
   result_.t_vertices += overlay.t_vertices();
@@ -199,22 +255,21 @@ void GroupComparison::compare() {
     examine_regions(cells, ill_conditioned);
   }
   if (!group_.optional) {
-    count_leaks(overlay, cells, ShadeClass::kLit, result_);
-    count_leaks(overlay, cells, ShadeClass::kShadow, result_);
+    for (const ShadeClass shade : kClasses) count_leaks(overlay, cells, shade, rules_, result_);
   }
   const auto share = [&](const auto& choice) {
     std::vector<bool> chosen(cells.size());
     for (std::size_t f = 1; f < cells.size(); ++f) chosen[f] = choice(cells[f], f);
     return overlay_.share(chosen, options_.exact_limit);
   };
-  const auto is_lit = [](const Cell& cell, std::size_t) {
-    return cell.inside && cell.truth == ShadeClass::kLit;
+  const auto truth = [&](ShadeClass shade) {
+    return share([=](const Cell& cell, std::size_t) { return cell.inside && cell.truth == shade; });
   };
-  const auto is_shadow = [](const Cell& cell, std::size_t) {
-    return cell.inside && cell.truth == ShadeClass::kShadow;
-  };
-  shares_.lit = share(is_lit);
-  shares_.shadow = share(is_shadow);
+  shares_.lit = truth(ShadeClass::kLit);
+  shares_.shadow = truth(ShadeClass::kShadow);
+  shares_.penumbra = truth(ShadeClass::kPenumbra);
+  shares_.umbra = truth(ShadeClass::kUmbra);
+  shares_.missing_umbra = share([](const Cell& cell, std::size_t) { return cell.missing_umbra; });
   const bool some_ill =
       std::find(ill_conditioned.begin(), ill_conditioned.end(), true) != ill_conditioned.end();
   const auto both = [&](bool Cell::*member, AreaShare& all, AreaShare& judged) {
@@ -230,6 +285,24 @@ void GroupComparison::compare() {
   both(&Cell::outside, shares_.outside, shares_.judged_outside);
   shares_.ill_conditioned =
       share([&](const Cell&, std::size_t f) { return bool{ill_conditioned[f]}; });
+}
+
+void GroupComparison::add_deep_umbra() {
+  DeepUmbra deep(answer_, light_, group_, overlay_.chart());
+  for (const ProjectedFragment& fragment : fragments_) {
+    if (fragment.fragment->shade != ShadeClass::kUmbra) continue;
+    if (fragment.loop.convex) {
+      deep.certify(fragment.loop.loop);
+      continue;
+    }
+    std::vector<ChartPoint> corners;
+    for (const auto& [a, b] : fragment.loop.edges) corners.push_back(a);
+    deep.certify_box_of(corners);
+  }
+  if (background_ == ShadeClass::kUmbra) deep.certify_whole();
+  for (const std::vector<ChartPoint>& loop : deep.certified()) {
+    overlay_.overlay().add_loop(loop, kDeep);
+  }
 }
 
 void GroupComparison::examine_regions(const std::vector<Cell>& cells,
@@ -314,17 +387,20 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
   const Cell& cell = cells[worst];
   witness.kind = kind_of(cell);
   if (cell.inside) witness.truth = cell.truth;
-  if (cell.claims_lit && !(cell.truth == ShadeClass::kLit && cell.claims_shadow)) {
-    witness.found = ShadeClass::kLit;
-  } else if (cell.claims_shadow) {
-    witness.found = ShadeClass::kShadow;
+  // Of several classes one that is wrong.
+  bool wrong = false;
+  for (const ShadeClass shade : kClasses) {
+    if (!cell.claims(shade) || wrong) continue;
+    witness.found = shade;
+    wrong = !cell.accepts(shade, rules_);
   }
   witness.point = overlay_.chart().lift_to_scene(geometry, inner);
   for (int k = 0; k < 3; ++k) witness.nearest[k] = enclose(witness.point[k]).middle();
   witness.light = answer_.scene().lights[answer_.prepared().lights[light_].light].id;
   witness.polygon = result_.polygon;
   witness.side = entry_.side;
-  if (options_.clearance > 0 && group_.faces && witness.kind == ErrorKind::kMisclassified) {
+  if (options_.clearance > 0 && group_.faces && !rules_.area &&
+      witness.kind == ErrorKind::kMisclassified) {
     witness.clearance = decide(answer_.prepared(), answer_.prepared().lights[light_],
                                group_.parts.front(), witness.point)
                             .clearance;
@@ -334,11 +410,65 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
   return region;
 }
 
-void GroupComparison::describe(Witness& witness, const Cell& cell, const ChartPoint& point) const {
+/// Names the caster that decides, and what follows the true class in a sentence.
+std::string GroupComparison::describe_shadow(Witness& witness, const std::string& claimed,
+                                             const ChartPoint& point) const {
+  if (!group_.faces) {
+    return group_.light_in_plane ? " (the light is in its plane)" : " (it faces away)";
+  }
   const PreparedScene& prepared = answer_.prepared();
-  const auto id_of = [&](std::uint32_t part) {
-    return answer_.scene().polygons[prepared.parts[part].polygon].id;
-  };
+  for (std::uint32_t part : group_.parts) {
+    for (const ShadowPiece& piece : answer_.shadows(light_, part)) {
+      if (witness.caster.empty() && contains(piece.loop, point)) {
+        witness.caster = id_of(piece.caster);
+      }
+    }
+  }
+  const Decision decision =
+      decide(prepared, prepared.lights[light_], group_.parts.front(), witness.point);
+  if (!witness.clearance) witness.clearance = decision.clearance;
+  if (witness.caster.empty()) {
+    witness.caster = !claimed.empty()  ? claimed
+                     : decision.caster ? id_of(*decision.caster)
+                                       : std::string();
+  }
+  return witness.truth == ShadeClass::kShadow ? " behind '" + witness.caster + "'" : std::string();
+}
+
+std::string GroupComparison::describe_area(Witness& witness, const std::string& claimed,
+                                           const ChartPoint& point) const {
+  if (!group_.faces) return " (it sees nothing of the light)";
+  bool penumbra = false;
+  for (std::uint32_t part : group_.parts) {
+    const AreaShade& shade = answer_.area_shade(light_, part, group_.side);
+    if (!shade.behind.empty() && contains(shade.behind, point)) return " (behind the light)";
+    for (const ShadowPiece& piece : shade.umbra) {
+      if (!contains(piece.loop, point)) continue;
+      witness.caster = id_of(piece.caster);
+      return " behind '" + witness.caster + "'";
+    }
+    for (const ShadowPiece& piece : shade.penumbra) {
+      if (penumbra || !contains(piece.loop, point)) continue;
+      penumbra = true;
+      witness.caster = id_of(piece.caster);
+    }
+  }
+  if (!penumbra) {
+    witness.caster = claimed;
+    return {};
+  }
+  std::string text = " of '" + witness.caster + "'";
+  if (witness.found == ShadeClass::kUmbra && !rules_.per_caster) {
+    const Side side = group_.side == PolygonSide::kFront ? Side::kFront : Side::kBack;
+    const AreaPointVisibility seen =
+        answer_.area_visibility(light_).at(group_.parts.front(), side, witness.point);
+    text += seen.deep() ? "; that no light arrives nearby could not be certified"
+                        : fmt::format("; {:.3g} of the light is seen", seen.visible.get_d());
+  }
+  return text;
+}
+
+void GroupComparison::describe(Witness& witness, const Cell& cell, const ChartPoint& point) const {
   std::string claimed;
   for (const ProjectedFragment& fragment : fragments_) {
     if (fragment.loop.convex && contains(fragment.loop.loop, point)) {
@@ -346,38 +476,18 @@ void GroupComparison::describe(Witness& witness, const Cell& cell, const ChartPo
       if (!claimed.empty()) break;
     }
   }
-  if (cell.inside && group_.faces) {
-    for (std::uint32_t part : group_.parts) {
-      for (const ShadowPiece& piece : answer_.shadows(light_, part)) {
-        if (witness.caster.empty() && contains(piece.loop, point)) {
-          witness.caster = id_of(piece.caster);
-        }
-      }
-    }
-    const Decision decision =
-        decide(prepared, prepared.lights[light_], group_.parts.front(), witness.point);
-    if (!witness.clearance) witness.clearance = decision.clearance;
-    if (witness.caster.empty()) {
-      witness.caster = !claimed.empty()  ? claimed
-                       : decision.caster ? id_of(*decision.caster)
-                                         : std::string();
-    }
-  }
   std::string truth = "outside the polygon";
   if (cell.inside) {
     truth = std::string("truly ") + name_of(cell.truth);
-    if (!group_.faces) {
-      truth += group_.light_in_plane ? " (the light is in its plane)" : " (it faces away)";
-    } else if (cell.truth == ShadeClass::kShadow) {
-      truth += " behind '" + witness.caster + "'";
-    }
+    truth += rules_.area ? describe_area(witness, claimed, point)
+                         : describe_shadow(witness, claimed, point);
   }
   std::string found = "nothing found";
   if (witness.kind == ErrorKind::kOverlapping) {
     found = "covered more than once";
   } else if (witness.found) {
     found = std::string("found ") + name_of(*witness.found);
-    if (!claimed.empty() && *witness.found == ShadeClass::kShadow) {
+    if (!claimed.empty() && *witness.found != ShadeClass::kLit) {
       found += " (caster '" + claimed + "')";
     }
   }
@@ -471,8 +581,7 @@ std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
 
 PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
                                 const AnswerEntry& entry, const CandidatePolygon* candidate,
-                                std::optional<ShadeClass> background,
-                                const ComparisonOptions& options) {
+                                const ClaimedTerms& terms, const ComparisonOptions& options) {
   PolygonComparison result;
   result.polygon = answer.scene().polygons[entry.polygon].id;
   result.side = entry.side;
@@ -487,39 +596,34 @@ PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
       fragments[group_for(answer, entry, charts, fragment)].push_back(&fragment);
     }
   }
-  ShareSum sums[11];
+  using Shares = GroupComparison::Shares;
+  constexpr std::pair<AreaShare Shares::*, AreaShare PolygonComparison::*> kShares[] = {
+      {&Shares::lit, &PolygonComparison::lit},
+      {&Shares::shadow, &PolygonComparison::shadow},
+      {&Shares::penumbra, &PolygonComparison::penumbra},
+      {&Shares::umbra, &PolygonComparison::umbra},
+      {&Shares::missing_umbra, &PolygonComparison::missing_umbra},
+      {&Shares::misclassified, &PolygonComparison::misclassified},
+      {&Shares::uncovered, &PolygonComparison::uncovered},
+      {&Shares::overlapping, &PolygonComparison::overlapping},
+      {&Shares::outside, &PolygonComparison::outside},
+      {&Shares::ill_conditioned, &PolygonComparison::ill_conditioned},
+      {&Shares::judged_misclassified, &PolygonComparison::judged_misclassified},
+      {&Shares::judged_uncovered, &PolygonComparison::judged_uncovered},
+      {&Shares::judged_overlapping, &PolygonComparison::judged_overlapping},
+      {&Shares::judged_outside, &PolygonComparison::judged_outside}};
+  std::array<ShareSum, std::size(kShares)> sums;
   for (std::size_t g = 0; g < entry.groups.size(); ++g) {
     const ReceiverGroup& group = entry.groups[g];
     if (group.optional && fragments[g].empty()) continue;
-    GroupComparison comparison(answer, light, entry, group, background, options, result);
+    GroupComparison comparison(answer, light, entry, group, terms, options, result);
     for (const CandidateFragment* fragment : fragments[g]) comparison.add(*fragment);
     comparison.compare();
-    const GroupComparison::Shares& own = comparison.shares();
-    const AreaShare* shares[] = {&own.lit,
-                                 &own.shadow,
-                                 &own.misclassified,
-                                 &own.uncovered,
-                                 &own.overlapping,
-                                 &own.outside,
-                                 &own.ill_conditioned,
-                                 &own.judged_misclassified,
-                                 &own.judged_uncovered,
-                                 &own.judged_overlapping,
-                                 &own.judged_outside};
-    for (int i = 0; i < 11; ++i) sums[i].add(*shares[i], comparison.whole_area());
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      sums[i].add(comparison.shares().*kShares[i].first, comparison.whole_area());
+    }
   }
-  AreaShare* totals[] = {&result.lit,
-                         &result.shadow,
-                         &result.misclassified,
-                         &result.uncovered,
-                         &result.overlapping,
-                         &result.outside,
-                         &result.ill_conditioned,
-                         &result.judged_misclassified,
-                         &result.judged_uncovered,
-                         &result.judged_overlapping,
-                         &result.judged_outside};
-  for (int i = 0; i < 11; ++i) *totals[i] = sums[i].result();
+  for (std::size_t i = 0; i < sums.size(); ++i) result.*kShares[i].second = sums[i].result();
   return result;
 }
 

@@ -57,6 +57,17 @@ GroupOverlay::GroupOverlay(const ExactAnswer& answer, std::uint32_t light,
       std::reverse(loop.begin(), loop.end());
     }
     overlay_.add_loop(loop, kReceiver);
+    if (answer.is_area(light)) {
+      if (!group.faces) {
+        overlay_.add_loop(loop, kTrueUmbra);
+        continue;
+      }
+      const AreaShade& shade = answer.area_shade(light, part, group.side);
+      overlay_.add_loop(shade.behind, kTrueUmbra);
+      for (const ShadowPiece& piece : shade.penumbra) overlay_.add_loop(piece.loop, kTruth);
+      for (const ShadowPiece& piece : shade.umbra) overlay_.add_loop(piece.loop, kTrueUmbra);
+      continue;
+    }
     if (!group.faces) {
       overlay_.add_loop(loop, kTruth);
       continue;

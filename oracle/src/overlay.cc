@@ -84,7 +84,7 @@ void Overlay::add_edge(const ChartPoint& a, const ChartPoint& b, Layer layer, in
   if (inserted) segments_.push_back(Segment{from, to, {}, false});
   Segment& segment = segments_[place->second];
   segment.delta[layer] += weight;
-  segment.candidate = segment.candidate || layer == kLit || layer == kShadow;
+  segment.candidate = segment.candidate || (layer >= kLit && layer <= kUmbra);
 }
 
 void Overlay::add_loop(const std::vector<ChartPoint>& loop, Layer layer, int weight) {

@@ -22,7 +22,19 @@
 
 namespace gnomon::oracle {
 
-enum Layer : int { kReceiver = 0, kTruth = 1, kLit = 2, kShadow = 3, kLayers = 4 };
+/// kTruth: true shadow, or true penumbra volumes. kTrueUmbra: true umbra volumes and what is behind
+/// the light. kDeep: certified deep umbra. The rest is what a candidate claims.
+enum Layer : int {
+  kReceiver = 0,
+  kTruth = 1,
+  kLit = 2,
+  kShadow = 3,
+  kPenumbra = 4,
+  kUmbra = 5,
+  kTrueUmbra = 6,
+  kDeep = 7,
+  kLayers = 8
+};
 using Winding = std::array<std::int32_t, kLayers>;
 
 class Overlay {
@@ -51,7 +63,7 @@ class Overlay {
   std::size_t vertex_count() const { return points_.size(); }
   /// Calls for every halfedge of a face's boundary.
   void for_each_halfedge(std::uint32_t face, const std::function<void(std::uint32_t)>& visit) const;
-  /// Vertices of the layers kLit and kShadow that lie inside an edge of these layers.
+  /// Vertices of a candidate's layers that lie inside an edge of these layers.
   std::uint64_t t_vertices() const { return t_vertices_; }
 
   /// floor(numerator / denominator, in units of 2^-bits box units): exact to one unit.

@@ -2,6 +2,7 @@
 #include "point_check.h"
 
 #include <algorithm>
+#include <array>
 
 #include "group_overlay.h"
 
@@ -53,9 +54,48 @@ ChartPoint inside_of(const std::vector<ChartPoint>& loop, std::uint64_t& state) 
 
 }  // namespace
 
+namespace {
+
+/// What is true at one point, and why.
+struct PointTruth {
+  ShadeClass shade = ShadeClass::kShadow;
+  bool on_boundary = false, deep = false;
+  std::optional<std::uint32_t> caster;
+};
+
+PointTruth truth_at(const ExactAnswer& answer, std::uint32_t light, const ReceiverGroup& group,
+                    std::uint32_t part, const ExactPoint& place, bool ask_deep,
+                    const VisibilityTest* visibility) {
+  PointTruth truth;
+  if (visibility) {
+    if (!group.faces) return truth;
+    const PointVisibility seen = visibility->at(part, place);
+    truth.shade = seen.visibility == Visibility::kLit ? ShadeClass::kLit : ShadeClass::kShadow;
+    truth.on_boundary = seen.visibility == Visibility::kBoundary;
+    truth.caster = seen.caster;
+    return truth;
+  }
+  truth.shade = ShadeClass::kUmbra;
+  truth.deep = true;
+  if (!group.faces) return truth;
+  const Side side = group.side == PolygonSide::kFront ? Side::kFront : Side::kBack;
+  const AreaPointVisibility seen = answer.area_visibility(light).at(part, side, place, ask_deep);
+  truth.shade = seen.shade;
+  truth.on_boundary = seen.on_boundary;
+  truth.deep = ask_deep && seen.deep();
+  truth.caster = seen.caster;
+  return truth;
+}
+
+}  // namespace
+
 PointCheck check_points(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
-                        const CandidatePolygon* candidate, std::optional<ShadeClass> background,
-                        const VisibilityTest& visibility, std::uint32_t count, std::uint64_t seed) {
+                        const CandidatePolygon* candidate, const ClaimedTerms& terms,
+                        const VisibilityTest* visibility, std::uint32_t count, std::uint64_t seed) {
+  const bool area = answer.is_area(light);
+  const auto class_of = [&](ShadeClass shade) {
+    return area || shade == ShadeClass::kLit ? shade : ShadeClass::kShadow;
+  };
   PointCheck result;
   const PreparedScene& prepared = answer.prepared();
   std::uint64_t state = seed ^ (std::uint64_t{entry.polygon} << 32) ^ light;
@@ -87,50 +127,71 @@ PointCheck check_points(const ExactAnswer& answer, std::uint32_t light, const An
     }
     for (const ChartPoint& point : points) {
       bool inside = false;
+      std::uint32_t around = group.parts.front();
       for (std::uint32_t part : group.parts) {
         std::vector<ChartPoint> loop;
         for (const Integers3& vertex : grid_loop(prepared, part)) loop.push_back(chart.at(vertex));
-        inside = inside || winds_around(loop, point).value_or(false);
+        if (winds_around(loop, point).value_or(false)) {
+          inside = true;
+          around = part;
+        }
       }
       if (!inside) continue;  // a fragment beyond the polygon; its share inside is asked elsewhere
-      bool lit = false, shadow = false, on_border = false;
+      std::array<bool, 4> claimed{};
+      bool on_border = false;
       for (std::size_t f = 0; f < fragments.size(); ++f) {
         const std::optional<bool> within = winds_around(fragments[f], point);
         on_border = on_border || !within;
-        if (within.value_or(false)) (shades[f] == ShadeClass::kLit ? lit : shadow) = true;
+        if (within.value_or(false)) claimed[static_cast<std::size_t>(class_of(shades[f]))] = true;
       }
       if (on_border) {
         ++result.on_boundary;
         continue;
       }
-      if (!lit && !shadow && background) {
-        (*background == ShadeClass::kLit ? lit : shadow) = true;
+      auto classes = std::count(claimed.begin(), claimed.end(), true);
+      if (classes == 0 && terms.background) {
+        claimed[static_cast<std::size_t>(class_of(*terms.background))] = true;
+        classes = 1;
       }
       const ExactPoint place = chart.lift_to_scene(prepared.geometry, point);
-      PointVisibility truth{Visibility::kShadow, std::nullopt};
-      if (group.faces) truth = visibility.at(group.parts.front(), place);
-      if (truth.visibility == Visibility::kBoundary) {
+      const auto claims = [&](ShadeClass shade) {
+        return claimed[static_cast<std::size_t>(shade)];
+      };
+      const bool ask_deep = !terms.per_caster_umbra && claims(ShadeClass::kUmbra);
+      const PointTruth truth = truth_at(answer, light, group, around, place, ask_deep, visibility);
+      if (truth.on_boundary) {
         ++result.on_boundary;
         continue;
       }
       ++result.checked;
-      const bool is_lit = truth.visibility == Visibility::kLit;
-      if (is_lit == lit && is_lit == !shadow) continue;
+      const auto accepts = [&](ShadeClass shade) {
+        if (shade == truth.shade) return true;
+        if (!area || terms.per_caster_umbra) return false;
+        return (truth.shade == ShadeClass::kUmbra && shade == ShadeClass::kPenumbra) ||
+               (truth.shade == ShadeClass::kPenumbra && shade == ShadeClass::kUmbra && truth.deep);
+      };
+      // Of several classes one that is wrong.
+      std::optional<ShadeClass> found;
+      bool wrong = classes != 1, named = false;
+      for (const ShadeClass shade :
+           {ShadeClass::kLit, ShadeClass::kShadow, ShadeClass::kPenumbra, ShadeClass::kUmbra}) {
+        if (!claims(shade) || named) continue;
+        found = shade;
+        named = !accepts(shade);
+        wrong = wrong || named;
+      }
+      if (!wrong) continue;
       ++result.wrong;
       if (result.worst) continue;
       Witness witness;
       witness.light = answer.scene().lights[prepared.lights[light].light].id;
       witness.polygon = answer.scene().polygons[entry.polygon].id;
       witness.side = entry.side;
-      witness.kind = lit || shadow ? ErrorKind::kMisclassified : ErrorKind::kUncovered;
+      witness.kind = classes > 0 ? ErrorKind::kMisclassified : ErrorKind::kUncovered;
       witness.point = place;
       for (int k = 0; k < 3; ++k) witness.nearest[k] = enclose(place[k]).middle();
-      witness.truth = is_lit ? ShadeClass::kLit : ShadeClass::kShadow;
-      if (lit || shadow) {
-        witness.found = is_lit == lit && shadow ? ShadeClass::kShadow
-                        : lit                   ? ShadeClass::kLit
-                                                : ShadeClass::kShadow;
-      }
+      witness.truth = truth.shade;
+      witness.found = found;
       if (truth.caster) {
         witness.caster = answer.scene().polygons[prepared.parts[*truth.caster].polygon].id;
       }

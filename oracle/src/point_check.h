@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Exact points instead of exact regions: for scenes above the pair limit. Points inside a
-// candidate's fragments and points at random places of the polygon, each decided by visibility.h.
+// candidate's fragments and points at random places of the polygon, each decided by visibility.h or
+// area_visibility.h.
 #ifndef GNOMON_ORACLE_SRC_POINT_CHECK_H
 #define GNOMON_ORACLE_SRC_POINT_CHECK_H
 
@@ -18,9 +19,10 @@ struct PointCheck {
   std::optional<Witness> worst;  // the first that is wrong
 };
 
+/// `visibility`: of a point or directional light; null for an area light, whose own is used.
 PointCheck check_points(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
-                        const CandidatePolygon* candidate, std::optional<ShadeClass> background,
-                        const VisibilityTest& visibility, std::uint32_t count, std::uint64_t seed);
+                        const CandidatePolygon* candidate, const ClaimedTerms& terms,
+                        const VisibilityTest* visibility, std::uint32_t count, std::uint64_t seed);
 
 }  // namespace gnomon::oracle
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "chart.h"
+#include "convex_loop.h"
 
 namespace gnomon::oracle {
 
@@ -22,61 +23,6 @@ Vector cross(const Vector& a, const Vector& b) {
 // cross product by less than 16, its dot product with a third ray by less than 3 * 16 + 3 * 8 + 4
 // of them.
 constexpr double kRayBound = 0x1p-45;
-
-/// A convex polygon of the chart: edge i lies on line i and starts in vertex i.
-struct ConvexLoop {
-  std::vector<ChartPoint> vertices;
-  std::vector<ChartLine> lines;
-};
-
-ConvexLoop loop_in_chart(const Chart& chart, std::span<const Integers3> points) {
-  ConvexLoop result;
-  for (const Integers3& point : points) result.vertices.push_back(chart.at(point));
-  const std::size_t size = points.size();
-  // Strictly convex without collinear vertices: any three consecutive ones tell the orientation.
-  if (size >= 3 && orientation(result.vertices[0], result.vertices[1], result.vertices[2]) < 0) {
-    std::reverse(result.vertices.begin(), result.vertices.end());
-  }
-  for (std::size_t i = 0; i < size; ++i) {
-    result.lines.push_back(line_through(result.vertices[i], result.vertices[(i + 1) % size]));
-  }
-  return result;
-}
-
-/// Cuts away what is not strictly inside `line`; false if no area is left.
-bool clip(ConvexLoop& loop, const ChartLine& line, ConvexLoop& scratch) {
-  const std::size_t size = loop.vertices.size();
-  std::vector<int> signs(size);
-  bool inside = false, outside = false;
-  for (std::size_t i = 0; i < size; ++i) {
-    signs[i] = sign_at(line, loop.vertices[i]);
-    inside = inside || signs[i] > 0;
-    outside = outside || signs[i] < 0;
-  }
-  if (!inside) return false;
-  if (!outside) return true;
-  scratch.vertices.clear();
-  scratch.lines.clear();
-  for (std::size_t i = 0; i < size; ++i) {
-    const int here = signs[i], next = signs[(i + 1) % size];
-    if (here > 0) {
-      scratch.vertices.push_back(loop.vertices[i]);
-      scratch.lines.push_back(loop.lines[i]);
-      if (next < 0) {
-        scratch.vertices.push_back(meet(loop.lines[i], line));
-        scratch.lines.push_back(line);
-      }
-    } else if (here == 0) {
-      scratch.vertices.push_back(loop.vertices[i]);
-      scratch.lines.push_back(next > 0 ? loop.lines[i] : line);
-    } else if (next > 0) {
-      scratch.vertices.push_back(meet(loop.lines[i], line));
-      scratch.lines.push_back(loop.lines[i]);
-    }
-  }
-  std::swap(loop, scratch);
-  return true;
-}
 
 }  // namespace
 

@@ -23,11 +23,11 @@ struct Task {
   std::uint32_t light = 0;
   AnswerEntry entry;
   const CandidatePolygon* candidate = nullptr;
-  std::optional<ShadeClass> background;
+  ClaimedTerms terms;
 };
 
-bool is_point_class(ShadeClass shade) {
-  return shade == ShadeClass::kLit || shade == ShadeClass::kShadow;
+bool is_class_of(ShadeClass shade, bool area) {
+  return shade == ShadeClass::kLit || (shade != ShadeClass::kShadow) == area;
 }
 
 class Certifier {
@@ -64,9 +64,10 @@ void Certifier::match_light(std::uint32_t light, const CandidateLight* found) {
   for (const CandidatePolygon& polygon : found->polygons) by_id[polygon.id].push_back(&polygon);
   std::unordered_map<std::string, std::uint32_t> known;
   for (std::uint32_t i = 0; i < scene.polygons.size(); ++i) known.emplace(scene.polygons[i].id, i);
-  if (found->background && !is_point_class(*found->background)) {
-    problem(fmt::format("light '{}': background '{}' is no class of a point or directional light",
-                        light_id, name_of(*found->background)));
+  const bool area = answer_.is_area(light);
+  if (found->background && !is_class_of(*found->background, area)) {
+    problem(fmt::format("light '{}': background '{}' is no class of {} light", light_id,
+                        name_of(*found->background), area ? "an area" : "a point or directional"));
   }
   std::unordered_map<std::string, std::size_t> sides;
   for (const AnswerEntry& entry : entries) ++sides[scene.polygons[entry.polygon].id];
@@ -98,17 +99,16 @@ void Certifier::match_light(std::uint32_t light, const CandidateLight* found) {
       }
       continue;
     }
-    tasks_.push_back({light, entry, match, found->background});
+    tasks_.push_back({light, entry, match, {found->background, found->per_caster_umbra}});
   }
   for (const CandidatePolygon& polygon : found->polygons) {
     bool known_classes = true;
     for (const CandidateFragment& fragment : polygon.fragments) {
-      if (is_point_class(fragment.shade) || !known_classes) continue;
+      if (is_class_of(fragment.shade, area) || !known_classes) continue;
       known_classes = false;
-      problem(
-          fmt::format("light '{}': polygon '{}' has a fragment of class '{}'; lit or shadow "
-                      "was expected",
-                      light_id, polygon.id, name_of(fragment.shade)));
+      problem(fmt::format("light '{}': polygon '{}' has a fragment of class '{}'; {} was expected",
+                          light_id, polygon.id, name_of(fragment.shade),
+                          area ? "lit, penumbra or umbra" : "lit or shadow"));
     }
     if (used[&polygon]) continue;
     const auto place = known.find(polygon.id);
@@ -116,7 +116,7 @@ void Certifier::match_light(std::uint32_t light, const CandidateLight* found) {
       problem(fmt::format("light '{}': no polygon '{}' in the scene", light_id, polygon.id));
       continue;
     }
-    // A side that the light does not face, or a polygon without area: shadow if anything.
+    // A side that the light does not reach, or a polygon without area: shadow or umbra if anything.
     AnswerEntry entry;
     entry.polygon = place->second;
     entry.side = polygon.side;
@@ -126,8 +126,11 @@ void Certifier::match_light(std::uint32_t light, const CandidateLight* found) {
     for (ReceiverGroup& group : entry.groups) {
       group.faces = false;
       group.optional = true;
+      group.side = polygon.side;
     }
-    if (!entry.groups.empty()) tasks_.push_back({light, entry, &polygon, std::nullopt});
+    if (!entry.groups.empty()) {
+      tasks_.push_back({light, entry, &polygon, {std::nullopt, found->per_caster_umbra}});
+    }
   }
 }
 
@@ -149,11 +152,6 @@ void Certifier::match_lights() {
   }
   for (std::uint32_t light : wanted) {
     const std::string& id = scene.lights[prepared.lights[light].light].id;
-    if (prepared.lights[light].type == LightType::kArea) {
-      report_.notes.push_back(
-          fmt::format("light '{}' is an area light: not compared by point regions", id));
-      continue;
-    }
     const auto place = by_id.find(id);
     if (place == by_id.end()) {
       if (!options_.subset) problem(fmt::format("light '{}' is missing", id));
@@ -174,6 +172,7 @@ void Certifier::compare_all() {
   std::map<std::uint32_t, VisibilityTest> visibility;
   if (report_.by_points) {
     for (const Task& task : tasks_) {
+      if (answer_.is_area(task.light)) continue;
       visibility.try_emplace(task.light, prepared, prepared.lights[task.light]);
     }
   }
@@ -198,12 +197,13 @@ void Certifier::compare_all() {
       comparisons_[i].fragments = task.candidate ? task.candidate->fragments.size() : 0;
       if ((i + options_.seed) % stride == 0) {
         point_checks_[i] =
-            check_points(answer_, task.light, task.entry, task.candidate, task.background,
-                         visibility.at(task.light), options_.points_a_polygon, options_.seed);
+            check_points(answer_, task.light, task.entry, task.candidate, task.terms,
+                         answer_.is_area(task.light) ? nullptr : &visibility.at(task.light),
+                         options_.points_a_polygon, options_.seed);
       }
     } else {
-      comparisons_[i] = compare_entry(answer_, task.light, task.entry, task.candidate,
-                                      task.background, comparison_options);
+      comparisons_[i] = compare_entry(answer_, task.light, task.entry, task.candidate, task.terms,
+                                      comparison_options);
     }
     done[i] = 1;
     const std::lock_guard lock(mutex);
@@ -244,9 +244,12 @@ void Certifier::sum_up() {
     if (!done_[i]) continue;
     const PolygonComparison& own = comparisons_[i];
     ++totals.polygons;
-    totals.area = totals.area + own.lit.area + own.shadow.area;
+    totals.area = totals.area + own.lit.area + own.shadow.area + own.penumbra.area + own.umbra.area;
     totals.lit = totals.lit + own.lit.area;
     totals.shadow = totals.shadow + own.shadow.area;
+    totals.penumbra = totals.penumbra + own.penumbra.area;
+    totals.umbra = totals.umbra + own.umbra.area;
+    totals.missing_umbra = totals.missing_umbra + own.missing_umbra.area;
     totals.misclassified = totals.misclassified + own.misclassified.area;
     totals.uncovered = totals.uncovered + own.uncovered.area;
     totals.overlapping = totals.overlapping + own.overlapping.area;

@@ -35,7 +35,7 @@ class Compare : public testing::Test {
     CandidatePolygon polygon;
     polygon.id = "floor";
     polygon.fragments = std::move(fragments);
-    return compare_entry(answer_, 0, answer_.entries(0)[0], &polygon, background, {});
+    return compare_entry(answer_, 0, answer_.entries(0)[0], &polygon, {background}, {});
   }
 
   BuiltScene built_;

@@ -53,6 +53,17 @@ SceneBuilder& SceneBuilder::sun(const std::string& id, Triple to_light) {
   return *this;
 }
 
+SceneBuilder& SceneBuilder::area(const std::string& id, const std::vector<Triple>& loop) {
+  Light light;
+  light.id = id;
+  light.type = LightType::kArea;
+  for (const Triple& vertex : loop) {
+    light.loop.push_back({Number(vertex[0]), Number(vertex[1]), Number(vertex[2])});
+  }
+  scene_.lights.push_back(std::move(light));
+  return *this;
+}
+
 BuiltScene SceneBuilder::build() const {
   Expected<PreparedScene> prepared = prepare(scene_);
   if (!prepared) throw std::runtime_error(to_string(prepared.error()));
@@ -70,25 +81,54 @@ int Random::integer(int low, int high) {
   return low + static_cast<int>(next() % static_cast<std::uint64_t>(high - low + 1));
 }
 
-BuiltScene lattice_soup(std::uint64_t seed, int polygons, int size) {
-  Random random(seed);
-  SceneBuilder builder;
-  const auto vertex = [&]() -> Triple {
-    return {double(random.integer(0, size)), double(random.integer(0, size)),
-            double(random.integer(0, size))};
-  };
+namespace {
+
+Triple lattice_point(Random& random, int size) {
+  const double x = random.integer(0, size), y = random.integer(0, size);
+  return {x, y, double(random.integer(0, size))};
+}
+
+void add_lattice_polygons(Random& random, int polygons, int size, SceneBuilder& builder) {
   for (int i = 0; i < polygons; ++i) {
-    const Triple a = vertex(), b = vertex(), c = vertex();
+    const Triple a = lattice_point(random, size), b = lattice_point(random, size);
+    const Triple c = lattice_point(random, size);
     std::vector<Triple> loop{a, b, c};
     if (random.integer(0, 1) == 1) {  // a parallelogram
       loop.push_back({a[0] + c[0] - b[0], a[1] + c[1] - b[1], a[2] + c[2] - b[2]});
     }
     builder.polygon(std::to_string(i), loop, random.integer(0, 2) == 0, random.integer(0, 5) != 0);
   }
-  builder.point("lamp", vertex());
+}
+
+}  // namespace
+
+BuiltScene lattice_soup(std::uint64_t seed, int polygons, int size) {
+  Random random(seed);
+  SceneBuilder builder;
+  add_lattice_polygons(random, polygons, size, builder);
+  builder.point("lamp", lattice_point(random, size));
   builder.sun("sun", {double(random.integer(-3, 3)), double(random.integer(-3, 3)),
                       double(random.integer(1, 4))});
   return builder.build();
+}
+
+BuiltScene lattice_area_soup(std::uint64_t seed, int polygons, int size) {
+  Random random(seed);
+  SceneBuilder builder;
+  add_lattice_polygons(random, polygons, size, builder);
+  for (;;) {
+    const Triple a = lattice_point(random, size), b = lattice_point(random, size);
+    const Triple c = lattice_point(random, size);
+    const Triple u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    if (u[0] * v[1] == u[1] * v[0] && u[1] * v[2] == u[2] * v[1] && u[0] * v[2] == u[2] * v[0]) {
+      continue;
+    }
+    std::vector<Triple> loop{a, b, c};
+    if (random.integer(0, 1) == 1)
+      loop.push_back({a[0] + v[0] - u[0], a[1] + v[1] - u[1], a[2] + v[2] - u[2]});
+    builder.area("panel", loop);
+    return builder.build();
+  }
 }
 
 ExactPoint at(double x, double y, double z) { return {mpq_class(x), mpq_class(y), mpq_class(z)}; }
@@ -120,6 +160,7 @@ Candidate exact_candidate(const ExactAnswer& answer) {
   for (std::uint32_t light = 0; light < prepared.lights.size(); ++light) {
     CandidateLight found;
     found.id = answer.scene().lights[prepared.lights[light].light].id;
+    found.per_caster_umbra = answer.is_area(light);
     for (const AnswerEntry& entry : answer.entries(light)) {
       CandidatePolygon polygon;
       polygon.id = answer.scene().polygons[entry.polygon].id;
@@ -145,30 +186,54 @@ Candidate exact_candidate(const ExactAnswer& answer) {
             }
             polygon.fragments.push_back(std::move(fragment));
           };
+          const bool area = answer.is_area(light);
           if (!group.faces) {
-            add(whole, ShadeClass::kShadow, {});
-            polygon.fragments.back().reason =
-                group.light_in_plane ? "light-in-plane" : "faces-away";
+            add(whole, area ? ShadeClass::kUmbra : ShadeClass::kShadow, {});
+            polygon.fragments.back().reason = area                   ? "behind-light"
+                                              : group.light_in_plane ? "light-in-plane"
+                                                                     : "faces-away";
             continue;
           }
-          std::vector<Loop> lit{whole};
-          for (const ShadowPiece& piece : answer.shadows(light, part)) {
-            const std::string caster =
-                answer.scene().polygons[prepared.parts[piece.caster].polygon].id;
-            std::vector<Loop> next;
-            for (Loop rest : lit) {
+          // What one loop leaves of each of `rest`; what it takes is added.
+          const auto take = [&](const Loop& piece, ShadeClass shade, const std::string& caster,
+                                std::vector<Loop>& rest) {
+            std::vector<Loop> left;
+            for (Loop loop : rest) {
               std::vector<Loop> outside;
-              for (std::size_t i = 0; i < piece.loop.size() && !rest.empty(); ++i) {
-                const ChartLine line =
-                    line_through(piece.loop[i], piece.loop[(i + 1) % piece.loop.size()]);
-                Loop beyond = half(rest, line, -1);
+              for (std::size_t i = 0; i < piece.size() && !loop.empty(); ++i) {
+                const ChartLine line = line_through(piece[i], piece[(i + 1) % piece.size()]);
+                Loop beyond = half(loop, line, -1);
                 if (!beyond.empty()) outside.push_back(std::move(beyond));
-                rest = half(rest, line, 1);
+                loop = half(loop, line, 1);
               }
-              if (!rest.empty()) add(rest, ShadeClass::kShadow, caster);
-              next.insert(next.end(), outside.begin(), outside.end());
+              if (!loop.empty()) add(loop, shade, caster);
+              left.insert(left.end(), outside.begin(), outside.end());
             }
-            lit = std::move(next);
+            rest = std::move(left);
+          };
+          const auto id_of = [&](std::uint32_t caster) {
+            return answer.scene().polygons[prepared.parts[caster].polygon].id;
+          };
+          std::vector<Loop> lit{whole};
+          if (area) {
+            const AreaShade& shade = answer.area_shade(light, part, group.side);
+            if (!shade.behind.empty()) {
+              const std::size_t before = polygon.fragments.size();
+              take(shade.behind, ShadeClass::kUmbra, {}, lit);
+              for (std::size_t f = before; f < polygon.fragments.size(); ++f) {
+                polygon.fragments[f].reason = "behind-light";
+              }
+            }
+            for (const ShadowPiece& piece : shade.umbra) {
+              take(piece.loop, ShadeClass::kUmbra, id_of(piece.caster), lit);
+            }
+            for (const ShadowPiece& piece : shade.penumbra) {
+              take(piece.loop, ShadeClass::kPenumbra, id_of(piece.caster), lit);
+            }
+          } else {
+            for (const ShadowPiece& piece : answer.shadows(light, part)) {
+              take(piece.loop, ShadeClass::kShadow, id_of(piece.caster), lit);
+            }
           }
           for (const Loop& loop : lit) add(loop, ShadeClass::kLit, {});
         }

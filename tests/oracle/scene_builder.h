@@ -31,6 +31,8 @@ class SceneBuilder {
   SceneBuilder& box(const std::string& id, Triple low, Triple high);
   SceneBuilder& point(const std::string& id, Triple position);
   SceneBuilder& sun(const std::string& id, Triple to_light);
+  /// Emits to the side from which the loop is counter-clockwise.
+  SceneBuilder& area(const std::string& id, const std::vector<Triple>& loop);
   /// Throws std::runtime_error if the scene cannot be prepared.
   BuiltScene build() const;
 
@@ -53,6 +55,11 @@ class Random {
 /// Random triangles and quads on a small lattice: full of touching, crossing and coplanar ones.
 BuiltScene lattice_soup(std::uint64_t seed, int polygons, int size);
 
+/// The same under a square or triangular area light of that lattice, which in general crosses,
+/// touches and shares features with them.
+BuiltScene lattice_area_soup(std::uint64_t seed, int polygons, int size);
+
+/// Classes of area lights are claimed per caster.
 Candidate exact_candidate(const ExactAnswer& answer);
 ExactPoint at(double x, double y, double z);
 

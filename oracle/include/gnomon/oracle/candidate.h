@@ -32,13 +32,18 @@ struct CandidatePolygon {
   std::string id;
   PolygonSide side = PolygonSide::kFront;
   bool side_given = true;  // false: a foreign file that names no side means the only one
-  std::optional<mpq_class> lit_fraction, shadow_fraction;  // as claimed, if claimed exactly
+  // As claimed, if claimed exactly; shadow for point lights, penumbra and umbra for area lights.
+  std::optional<mpq_class> lit_fraction, shadow_fraction, penumbra_fraction, umbra_fraction;
   std::vector<CandidateFragment> fragments;
 };
 
 struct CandidateLight {
   std::string id;
   std::optional<ShadeClass> background;  // everything not covered has this class
+  // Area lights: umbra is claimed where one caster alone hides all of the light, and nowhere else
+  // ("umbra": "per-caster"). Otherwise it may be claimed wherever no light arrives, and need not
+  // be.
+  bool per_caster_umbra = false;
   std::vector<CandidatePolygon> polygons;
 };
 

@@ -56,11 +56,14 @@ struct ComparisonOptions {
 struct PolygonComparison {
   std::string polygon;
   PolygonSide side = PolygonSide::kFront;
-  AreaShare lit, shadow;  // the truth
+  AreaShare lit, shadow;      // the truth
+  AreaShare penumbra, umbra;  // the truth under an area light
   AreaShare misclassified, uncovered, overlapping, outside;
   AreaShare ill_conditioned;  // share of the error that is, counted apart
-  Enclosure width;            // of the widest region of error, scene units
-  Enclosure off_plane;        // scene units
+  /// Area lights: true umbra claimed as penumbra. A cost; an error too if umbra is per caster.
+  AreaShare missing_umbra;
+  Enclosure width;      // of the widest region of error, scene units
+  Enclosure off_plane;  // scene units
   std::uint64_t fragments = 0, regions = 0, ill_conditioned_regions = 0;
   std::uint64_t invented = 0, lost = 0, t_vertices = 0, self_crossing = 0;
   std::vector<ErrorRegion> worst;  // widest first
@@ -70,11 +73,19 @@ struct PolygonComparison {
   Enclosure judged_width;
 };
 
-/// `fragments` may be null: nothing was found. Requires: `entry` is one of answer.entries(light).
+/// What is claimed of one polygon side besides its fragments.
+struct ClaimedTerms {
+  std::optional<ShadeClass> background;  // class of all that no fragment covers
+  bool per_caster_umbra = false;         // CandidateLight::per_caster_umbra
+};
+
+/// `candidate` may be null: nothing was found. Requires: `entry` is one of answer.entries(light).
+/// Under an area light `lit` must be claimed where lit is true and nowhere else. Per caster, the
+/// other two classes too; else penumbra is accepted wherever lit is not true, and umbra where it is
+/// true and where no light is certified to arrive.
 PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
                                 const AnswerEntry& entry, const CandidatePolygon* candidate,
-                                std::optional<ShadeClass> background,
-                                const ComparisonOptions& options);
+                                const ClaimedTerms& terms, const ComparisonOptions& options);
 
 const char* name_of(ShadeClass shade);
 const char* name_of(PolygonSide side);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The exact answer of a scene, computed once and compared with as many candidates as there are: for
-// every point or directional light, the sides that a result must list, and every shadow on every
+// every light, the sides that a result must list, and every shadow, penumbra and umbra on every
 // part.
 //
-// Exactness: regions are those of point_regions.h. Everything is computed when it is first asked
-// for; all member functions may be called from several threads at once.
+// Exactness: regions are those of point_regions.h and area_regions.h. Everything is computed when
+// it is first asked for; all member functions may be called from several threads at once.
 #ifndef GNOMON_ORACLE_EXACT_ANSWER_H
 #define GNOMON_ORACLE_EXACT_ANSWER_H
 
@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "gnomon/kernel/sign.h"
+#include "gnomon/oracle/area_regions.h"
+#include "gnomon/oracle/area_visibility.h"
 #include "gnomon/oracle/candidate.h"
 #include "gnomon/oracle/enclosure.h"
 #include "gnomon/oracle/point_regions.h"
@@ -27,9 +29,10 @@ namespace gnomon::oracle {
 /// Coplanar parts of one polygon: one plane, one chart, one comparison.
 struct ReceiverGroup {
   std::vector<std::uint32_t> parts;
-  bool faces = false;  // some light can arrive; otherwise all of it is in shadow
+  bool faces = false;  // some light can arrive; otherwise all of it is in shadow, or umbra
   bool light_in_plane = false;
   bool optional = false;  // of another side than the entry's: may be listed here, as shadow
+  PolygonSide side = PolygonSide::kFront;  // area lights: the entry's
 };
 
 /// One polygon side that a result lists.
@@ -49,7 +52,8 @@ struct AreaShare {
 };
 
 struct TrueFractions {
-  AreaShare lit, shadow;
+  AreaShare lit, shadow;      // shadow: none for an area light
+  AreaShare penumbra, umbra;  // area lights
 };
 
 class ExactAnswer {
@@ -60,15 +64,24 @@ class ExactAnswer {
 
   const Scene& scene() const;
   const PreparedScene& prepared() const;
-  /// Index into PreparedScene::lights; area lights have no entries here.
+  /// Index into PreparedScene::lights.
   const std::vector<AnswerEntry>& entries(std::uint32_t light) const;
+  bool is_area(std::uint32_t light) const;
+  /// Requires: a point or directional light.
   const PointRegions& regions(std::uint32_t light) const;
+  /// Requires: an area light.
+  const AreaRegions& area_regions(std::uint32_t light) const;
   /// All shadows on a part; empty if it faces nothing.
   const std::vector<ShadowPiece>& shadows(std::uint32_t light, std::uint32_t part) const;
+  /// Requires: an area light.
+  const AreaVisibility& area_visibility(std::uint32_t light) const;
+  /// All that is not lit on one side of a part under an area light; umbra `behind` if it sees
+  /// nothing of it.
+  const AreaShade& area_shade(std::uint32_t light, std::uint32_t part, PolygonSide side) const;
   /// Drops what was kept of one light, for scenes with many.
   void forget(std::uint32_t light) const;
 
-  /// Lit and shadow fractions of an entry, from the true regions alone; `exact` is set for an entry
+  /// Fractions of an entry's classes, from the true regions alone; `exact` is set for an entry
   /// whose parts are coplanar.
   TrueFractions fractions(std::uint32_t light, const AnswerEntry& entry, bool exact = true) const;
   /// The same of one group.

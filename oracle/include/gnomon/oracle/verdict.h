@@ -8,6 +8,8 @@
 //                     vertex off its plane at most `width`;
 //   failed            otherwise, or if something is missing, unknown or listed twice.
 //
+// Umbra of an area light that a candidate calls penumbra is a cost, told and not judged.
+//
 // Above `most_pairs` pairs of parts (a stated limit: the exact regions grow with the square of the
 // scene) exact points are checked instead, and the verdict says how many.
 #ifndef GNOMON_ORACLE_VERDICT_H
@@ -56,8 +58,9 @@ struct LightComparison {
 
 /// Sums and maxima over all polygon sides; areas in scene units squared.
 struct ComparisonTotals {
-  Enclosure area, lit, shadow;
+  Enclosure area, lit, shadow, penumbra, umbra;
   Enclosure misclassified, uncovered, overlapping, outside, ill_conditioned;
+  Enclosure missing_umbra;
   double worst_misclassified = 0;  // greatest upper bound of a polygon's fraction
   double worst_uncovered = 0, worst_overlapping = 0, worst_outside = 0;
   Enclosure width, off_plane;  // greatest
