@@ -64,18 +64,16 @@ Vector3<mpz_class> grid_position(const Geometry& geometry, VertexId v) {
   return ExactGeometry<mpz_class>(geometry).position(v);
 }
 
-/// Nearest double of an integer of at most 127 bits.
+/// Off by at most u of itself, 2u beyond 128 bits. Requires: at most 1000 bits.
 double to_double(std::int64_t value) { return static_cast<double>(value); }
 double to_double(Int128 value) { return static_cast<double>(value); }
-
-/// n of the plane through three positions. Requires: differences fit into 64 bits.
+template <std::size_t Limbs>
+double to_double(const WideInteger<Limbs>& value) {
+  return to_double_scaled(value, 0);
+}
 template <class Int>
-Vector3<Int> narrow_normal(const GridPositions& grid, const std::array<VertexId, 3>& v) {
-  const std::int64_t* a = grid.narrow_point(v[0]);
-  const std::int64_t* b = grid.narrow_point(v[1]);
-  const std::int64_t* c = grid.narrow_point(v[2]);
-  return gnomon::cross<Int>(Vector3<std::int64_t>{b[0] - a[0], b[1] - a[1], b[2] - a[2]},
-                            Vector3<std::int64_t>{c[0] - a[0], c[1] - a[1], c[2] - a[2]});
+double largest_double(const Vector3<Int>& n) {
+  return largest(std::array<double, 3>{to_double(n[0]), to_double(n[1]), to_double(n[2])});
 }
 
 }  // namespace
@@ -90,7 +88,16 @@ PlaneVolumeSpace<Stats>::PlaneVolumeSpace(const SceneSpace& scene, const KernelO
   shared.edge_count = static_cast<std::uint32_t>(geometry.edges.size());
   shared.b = geometry.grid.bits();
   shared.narrow = geometry.grid.is_narrow();
-  if (shared.narrow) shared.grid_scale = std::ldexp(1.0, -static_cast<int>(shared.b));
+  shared.fixed = shared.b <= kNarrowBits;
+  if (shared.fixed) shared.grid_scale = std::ldexp(1.0, -static_cast<int>(shared.b));
+  if (shared.fixed && !shared.narrow) {
+    shared.positions.reserve(geometry.positions.size());
+    for (VertexId v = 0; v < geometry.grid.size(); ++v) {
+      shared.positions.push_back({integer_from<Int128>(geometry.grid.wide(v, 0)),
+                                  integer_from<Int128>(geometry.grid.wide(v, 1)),
+                                  integer_from<Int128>(geometry.grid.wide(v, 2))});
+    }
+  }
   for (int k = 0; k < 3; ++k) shared.origin[k] = double_double(geometry.origin[k]);
   shared.step = double_double(geometry.step);
   shared.supports.resize(geometry.planes.size());
@@ -108,18 +115,42 @@ PlaneVolumeSpace<Stats> PlaneVolumeSpace<Stats>::fork() const {
   return result;
 }
 
+template <class Stats>
+template <class Position>
+Vector3<Position> PlaneVolumeSpace<Stats>::position_of(const Shared& shared, VertexId v) {
+  if constexpr (std::is_same_v<Position, std::int64_t>) {
+    const std::int64_t* at = shared.geometry->grid.narrow_point(v);
+    return {at[0], at[1], at[2]};
+  } else if constexpr (std::is_same_v<Position, Int128>) {
+    return shared.positions[v];
+  } else {
+    return grid_position(*shared.geometry, v);
+  }
+}
+
+template <class Stats>
+template <class Int, class F>
+auto PlaneVolumeSpace<Stats>::with_position(const Shared& shared, const F& f) {
+  if constexpr (std::is_same_v<Int, mpz_class>) {
+    return f.template operator()<mpz_class>();
+  } else if constexpr (std::is_same_v<Int, std::int64_t>) {
+    return f.template operator()<std::int64_t>();
+  } else {
+    return shared.narrow ? f.template operator()<std::int64_t>() : f.template operator()<Int128>();
+  }
+}
+
 /// Each off by at most u of itself (2u on wide grids: GMP truncates).
 template <class Stats>
 std::array<double, 3> PlaneVolumeSpace<Stats>::input_point(const Shared& shared, VertexId v) {
-  const GridPositions& grid = shared.geometry->grid;
-  if (shared.narrow) {
-    const std::int64_t* at = grid.narrow_point(v);
-    return {static_cast<double>(at[0]) * shared.grid_scale,
-            static_cast<double>(at[1]) * shared.grid_scale,
-            static_cast<double>(at[2]) * shared.grid_scale};
-  }
+  const auto scaled = [&](const auto& at) -> std::array<double, 3> {
+    return {to_double(at[0]) * shared.grid_scale, to_double(at[1]) * shared.grid_scale,
+            to_double(at[2]) * shared.grid_scale};
+  };
+  if (shared.narrow) return scaled(shared.geometry->grid.narrow_point(v));
+  if (shared.fixed) return scaled(shared.positions[v]);
   std::array<double, 3> x;
-  for (int k = 0; k < 3; ++k) x[k] = to_double_scaled(grid.wide(v, k), shared.b);
+  for (int k = 0; k < 3; ++k) x[k] = to_double_scaled(shared.geometry->grid.wide(v, k), shared.b);
   return x;
 }
 
@@ -137,16 +168,20 @@ typename PlaneVolumeSpace<Stats>::Vertex PlaneVolumeSpace<Stats>::input_vertex(V
 template <class Stats>
 bool PlaneVolumeSpace<Stats>::plane_through(const Shared& shared,
                                             const std::array<VertexId, 3>& vertices, Plane& plane) {
-  const GridPositions& grid = shared.geometry->grid;
   plane.source = vertices;
-  const auto finish = [&]<class Int>() {
-    const Vector3<Int> n = narrow_normal<Int>(grid, vertices);
+  const auto set_normal = [&]<class Int, class Position>() {
+    const Vector3<Position> a = position_of<Position>(shared, vertices[0]);
+    const Vector3<Int> n =
+        gnomon::cross<Int>(difference(position_of<Position>(shared, vertices[1]), a),
+                           difference(position_of<Position>(shared, vertices[2]), a));
     plane.n = {to_double(n[0]), to_double(n[1]), to_double(n[2])};
   };
   if (shared.b <= 31) {
-    finish.template operator()<std::int64_t>();
+    set_normal.template operator()<std::int64_t, std::int64_t>();
   } else if (shared.narrow) {
-    finish.template operator()<Int128>();
+    set_normal.template operator()<Int128, std::int64_t>();
+  } else if (shared.fixed) {
+    set_normal.template operator()<WideInteger<4>, Int128>();
   } else {
     const Vector3<mpz_class> a = grid_position(*shared.geometry, vertices[0]),
                              b = grid_position(*shared.geometry, vertices[1]),
@@ -312,8 +347,7 @@ PlaneRef PlaneVolumeSpace<Stats>::add_axis_plane(int axis, double value) {
   const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
   exponent += static_cast<int>(shared_->b) - 53;
   const auto k = static_cast<std::size_t>(axis);
-  if (shared_->narrow && exponent > -static_cast<int>(kNarrowBits)) {
-    // The grid has at most 63 bits.
+  if (shared_->fixed && exponent > -static_cast<int>(kNarrowBits)) {
     ExactPlane<Int128> plane{};
     plane.n[k] = Int128{1} << std::max(0, -exponent);
     plane.d = Int128{mantissa} << std::max(0, exponent);
@@ -349,7 +383,7 @@ PlaneRef PlaneVolumeSpace<Stats>::add_explicit(ExactPlane<mpz_class> exact) {
     mpz_divexact(exact.d.get_mpz_t(), exact.d.get_mpz_t(), divisor.get_mpz_t());
   }
   const unsigned bits = bits_of(exact.n);
-  if (shared_->narrow && std::max(bits, bits_of(exact.d)) <= kNarrowBits) {
+  if (shared_->fixed && std::max(bits, bits_of(exact.d)) <= kNarrowBits) {
     ExactPlane<Int128> plane;
     for (int k = 0; k < 3; ++k) plane.n[k] = integer_from<Int128>(exact.n[k]);
     plane.d = integer_from<Int128>(exact.d);
@@ -422,27 +456,28 @@ Vector3<Factor> PlaneVolumeSpace<Stats>::exact_normal(const Plane& plane) const 
     const Explicit& exact = explicit_[plane.source[0]];
     return exact.is_wide() ? convert(wide_[exact.wide].n) : convert(exact.plane.n);
   }
-  using Position = std::conditional_t<std::is_same_v<Factor, mpz_class>, mpz_class, std::int64_t>;
-  const ExactGeometry<Position> exact(*shared_->geometry);
-  const Vector3<Position> a = exact.position(plane.source[0]);
-  return gnomon::cross<Factor>(difference(exact.position(plane.source[1]), a),
-                               difference(exact.position(plane.source[2]), a));
+  return with_position<Factor>(*shared_, [&]<class Position>() {
+    const Vector3<Position> a = position_of<Position>(*shared_, plane.source[0]);
+    return gnomon::cross<Factor>(difference(position_of<Position>(*shared_, plane.source[1]), a),
+                                 difference(position_of<Position>(*shared_, plane.source[2]), a));
+  });
 }
 
 template <class Stats>
 template <class Value, class Factor>
 Value PlaneVolumeSpace<Stats>::exact_value(const Plane& plane, const Vector3<Factor>& normal,
                                            VertexId v) const {
-  using Position = std::conditional_t<std::is_same_v<Factor, mpz_class>, mpz_class, std::int64_t>;
-  const ExactGeometry<Position> exact(*shared_->geometry);
-  const Vector3<Position> x = exact.position(v);
-  if (plane.is_explicit()) {
+  return with_position<Factor>(*shared_, [&]<class Position>() -> Value {
+    const Vector3<Position> x = position_of<Position>(*shared_, v);
+    if (!plane.is_explicit()) {
+      return gnomon::dot<Value>(normal,
+                                difference(x, position_of<Position>(*shared_, plane.source[0])));
+    }
     const Explicit& given = explicit_[plane.source[0]];
     const Value d = given.is_wide() ? integer_from<Value>(wide_[given.wide].d)
                                     : integer_from<Value>(given.plane.d);
     return Value(gnomon::dot<Value>(normal, x) - d);
-  }
-  return gnomon::dot<Value>(normal, difference(x, exact.position(plane.source[0])));
+  });
 }
 
 template <class Stats>
@@ -450,7 +485,7 @@ template <class Predicate>
 Sign PlaneVolumeSpace<Stats>::decide(unsigned factor_bits, unsigned width_bits,
                                      const Predicate& predicate) {
   const IntegerWidth width =
-      shared_->narrow ? narrowest_width(width_bits) : IntegerWidth::kUnbounded;
+      shared_->fixed ? narrowest_width(width_bits) : IntegerWidth::kUnbounded;
   stats_.count(exact_stage(width));
   const Sign sign = with_widths(width, std::max(factor_bits, shared_->b), predicate);
   if (sign == Sign::kZero) stats_.count_zero();
@@ -608,7 +643,7 @@ void PlaneVolumeSpace<Stats>::with_exact_point(const Corner<Vertex>& corner, boo
                                                VertexId pivot, const F& f) const {
   const auto call = [&](unsigned factor_bits, unsigned width_bits, const auto& make) {
     const IntegerWidth width =
-        shared_->narrow && !unbounded ? narrowest_width(width_bits) : IntegerWidth::kUnbounded;
+        shared_->fixed && !unbounded ? narrowest_width(width_bits) : IntegerWidth::kUnbounded;
     with_widths(width, std::max(factor_bits, shared_->b),
                 [&]<class Factor, class Int>() { f(make.template operator()<Factor, Int>()); });
   };
@@ -618,15 +653,16 @@ void PlaneVolumeSpace<Stats>::with_exact_point(const Corner<Vertex>& corner, boo
     const EdgeEnds ends = ends_of(before_is_edge ? corner.before : corner.after);
     const Plane& cut = plane_at((before_is_edge ? corner.after : corner.before).index());
     call(normal_bits(cut), value_bits(cut) + shared_->b + 1, [&]<class Factor, class Int>() {
-      using Position = std::conditional_t<std::is_same_v<Int, mpz_class>, mpz_class, std::int64_t>;
-      const ExactGeometry<Position> exact(*shared_->geometry);
       const Vector3<Factor> p = exact_normal<Factor>(cut);
       const Int at_u = exact_value<Int>(cut, p, ends.a), at_v = exact_value<Int>(cut, p, ends.b);
-      const Vector3<Position> step = difference(exact.position(ends.b), exact.position(ends.a));
       ExactPoint<Int> point;
       point.origin = ends.a;
       point.w = at_u - at_v;
-      for (int k = 0; k < 3; ++k) point.x[k] = multiply<Int>(at_u, step[k]);
+      with_position<Factor>(*shared_, [&]<class Position>() {
+        const Vector3<Position> step = difference(position_of<Position>(*shared_, ends.b),
+                                                  position_of<Position>(*shared_, ends.a));
+        for (int k = 0; k < 3; ++k) point.x[k] = multiply<Int>(at_u, step[k]);
+      });
       return point;
     });
     return;
@@ -775,18 +811,20 @@ double PlaneVolumeSpace<Stats>::accurate_value(const Plane& plane, VertexId v) c
     const Vector3<Factor> n = exact_normal<Factor>(plane);
     const Int value = exact_value<Int>(plane, n, v);
     // By the same power of two as the normal's doubles, which may be rounded up to the next one.
-    if constexpr (kLimbsOf<Factor> == 1 || kLimbsOf<Factor> == 2) {
-      if (shared_->narrow && !(plane.is_explicit() && explicit_[plane.source[0]].is_wide())) {
-        const double magnitude =
-            largest(std::array<double, 3>{to_double(n[0]), to_double(n[1]), to_double(n[2])});
-        result = to_double_scaled(value, 0) * normalizer(magnitude) * shared_->grid_scale;
-        return;
-      }
+    if (plane.is_explicit() && explicit_[plane.source[0]].is_wide()) {
+      result = to_double_scaled(value, long{explicit_[plane.source[0]].bits} + shared_->b);
+      return;
     }
-    const Vector3<mpz_class> m = exact_normal<mpz_class>(plane);
-    result = to_double_scaled(value, long{bits_of(m)} + shared_->b);
+    if constexpr (std::is_same_v<Int, mpz_class>) {
+      result = to_double_scaled(value, long{bits_of(n)} + shared_->b);
+    } else {
+      const double magnitude = plane.is_explicit()
+                                   ? largest_double(explicit_[plane.source[0]].plane.n)
+                                   : largest_double(n);
+      result = to_double_scaled(value, 0) * normalizer(magnitude) * shared_->grid_scale;
+    }
   };
-  with_widths(shared_->narrow ? narrowest_width(value_bits(plane) + 1) : IntegerWidth::kUnbounded,
+  with_widths(shared_->fixed ? narrowest_width(value_bits(plane) + 1) : IntegerWidth::kUnbounded,
               std::max(normal_bits(plane), shared_->b), compute);
   return result;
 }
@@ -810,15 +848,29 @@ std::array<Ball, 3> PlaneVolumeSpace<Stats>::exact_offset(VertexId origin,
 
 template <class Stats>
 std::array<Ball, 3> PlaneVolumeSpace<Stats>::input_offset(VertexId from, VertexId to) const {
-  const GridPositions& grid = shared_->geometry->grid;
   std::array<Ball, 3> result;
   if (from == to) return result;
-  for (int k = 0; k < 3; ++k) {
-    const double step =
-        shared_->narrow
-            ? static_cast<double>(grid.narrow(to, k) - grid.narrow(from, k)) * shared_->grid_scale
-            : to_double_scaled(mpz_class(grid.wide(to, k) - grid.wide(from, k)), shared_->b);
-    result[k] = Ball(step, 2 * kUnit * std::fabs(step) + (shared_->narrow ? 0 : Ball::kTiny));
+  const auto set = [&](const auto& step, double least) {
+    for (int k = 0; k < 3; ++k) {
+      double x;
+      if constexpr (std::is_same_v<std::decay_t<decltype(step[k])>, mpz_class>) {
+        x = to_double_scaled(step[k], shared_->b);
+      } else {
+        x = to_double(step[k]) * shared_->grid_scale;
+      }
+      result[k] = Ball(x, 2 * kUnit * std::fabs(x) + least);
+    }
+  };
+  const auto by = [&]<class Position>(double least) {
+    set(difference(position_of<Position>(*shared_, to), position_of<Position>(*shared_, from)),
+        least);
+  };
+  if (shared_->narrow) {
+    by.template operator()<std::int64_t>(0);
+  } else if (shared_->fixed) {
+    by.template operator()<Int128>(0);
+  } else {
+    by.template operator()<mpz_class>(Ball::kTiny);
   }
   return result;
 }
@@ -901,11 +953,15 @@ std::array<double, 3> PlaneVolumeSpace<Stats>::nearest_position(
   if (corner.vertex.source != kMadeVertex) return geometry.positions[corner.vertex.source];
   std::array<double, 3> result;
   std::array<bool, 3> known{};
-  if (shared.narrow) {
+  if (shared.fixed) {
     const auto same = [&](VertexId a, VertexId b, VertexId c) {
       for (int k = 0; k < 3; ++k) {
-        const std::int64_t x = geometry.grid.narrow(a, k);
-        if (x != geometry.grid.narrow(b, k) || x != geometry.grid.narrow(c, k)) continue;
+        const bool agree = shared.narrow
+                               ? geometry.grid.narrow(a, k) == geometry.grid.narrow(b, k) &&
+                                     geometry.grid.narrow(a, k) == geometry.grid.narrow(c, k)
+                               : shared.positions[a][k] == shared.positions[b][k] &&
+                                     shared.positions[a][k] == shared.positions[c][k];
+        if (!agree) continue;
         result[k] = geometry.positions[a][k];
         known[k] = true;
       }

@@ -68,7 +68,7 @@ decltype(auto) with_width(IntegerWidth width, F&& f) {
 
 /// Calls f.template operator()<Factor, Int>(): Int as with_width() has it, and Factor the narrowest
 /// type, at most Int, in which vectors with components below 2^factor_bits may be kept for
-/// determinant<Int>(): std::int64_t, Int128, 192 bits or Int.
+/// determinant<Int>(): std::int64_t, Int128, 192 bits, 256 bits or Int.
 template <class F>
 decltype(auto) with_widths(IntegerWidth width, unsigned factor_bits, F&& f) {
   return with_width(width, [&]<class Int>() {
@@ -79,8 +79,11 @@ decltype(auto) with_widths(IntegerWidth width, unsigned factor_bits, F&& f) {
     if constexpr (kLimbs >= 4) {
       if (factor_bits <= 126) return f.template operator()<Int128, Int>();
     }
-    if constexpr (kLimbs == 8) {
+    if constexpr (kLimbs >= 8) {
       if (factor_bits <= 190) return f.template operator()<WideInteger<3>, Int>();
+    }
+    if constexpr (kLimbs == 16) {
+      if (factor_bits <= 254) return f.template operator()<WideInteger<4>, Int>();
     }
     return f.template operator()<Int, Int>();
   });

@@ -142,9 +142,11 @@ class PlaneVolumeSpace {
   struct Shared {
     const Geometry* geometry = nullptr;
     std::uint32_t plane_count = 0, edge_count = 0;
-    unsigned b = 0;         // bits of the grid
-    bool narrow = false;    // positions fit into 64 bits
-    double grid_scale = 0;  // 2^-b, if narrow
+    unsigned b = 0;                          // bits of the grid
+    bool narrow = false;                     // positions fit into 64 bits
+    bool fixed = false;                      // or into 128
+    double grid_scale = 0;                   // 2^-b, if fixed
+    std::vector<Vector3<Int128>> positions;  // if fixed and not narrow
     std::vector<Plane> supports;
     std::array<DoubleDouble, 3> origin;  // of the grid, scene units
     DoubleDouble step;                   // scene units per grid unit
@@ -216,7 +218,7 @@ class PlaneVolumeSpace {
   }
   /// Makes it primitive; not valid() if n is zero.
   PlaneRef add_explicit(ExactPlane<mpz_class> plane);
-  /// As it is. Requires: below 2^kNarrowBits, and the grid is narrow.
+  /// As it is. Requires: below 2^kNarrowBits, and the grid is fixed.
   PlaneRef add_narrow(const ExactPlane<Int128>& plane);
   /// Through two input vertices and a made corner, if 128 bits hold it.
   std::optional<PlaneRef> add_through_made(VertexId p, VertexId q, const Corner<Vertex>& made);
@@ -241,6 +243,13 @@ class PlaneVolumeSpace {
     return plane.is_explicit() ? volume_value_bits(explicit_[plane.source[0]].bits, shared_->b)
                                : support_value_bits(shared_->b);
   }
+  /// Requires: the grid is narrow for std::int64_t, and fixed and not narrow for Int128.
+  template <class Position>
+  static Vector3<Position> position_of(const Shared& shared, VertexId v);
+  /// Calls f.template operator()<Position>() with the type in which positions are kept, for use
+  /// with integers `Int`.
+  template <class Int, class F>
+  static auto with_position(const Shared& shared, const F& f);
   template <class Factor>
   Vector3<Factor> exact_normal(const Plane& plane) const;
   /// n . v - d, for the normal as exact_normal() gives it.
