@@ -9,6 +9,7 @@
 #include "gnomon/report/number_text.h"
 #include "gnomon/report/result_json.h"
 #include "gnomon/scene/digest.h"
+#include "illuminate.h"
 #include "interrupt.h"
 #include "jobs.h"
 #include "kernel_choice.h"
@@ -33,6 +34,7 @@ struct ShadowsOptions {
   bool combined = false;
   bool no_merge = false, no_prefix = false;
   bool stats = false;
+  IlluminateOptions illuminate;
   std::string output;
 };
 
@@ -70,6 +72,11 @@ int run_shadows(const ShadowsOptions& options) {
   shadow_options.prefix = !options.no_prefix;
   shadow_options.progress = progress.callback();
   shadow_options.interrupted = &interrupted();
+  if (auto done =
+          ask_for_illumination(options.illuminate, *loaded, options.algorithm, shadow_options);
+      !done) {
+    return report_error(done.error());
+  }
   PhaseTimes times;
   Stopwatch stopwatch;
   const auto result = compute_shadows(loaded->prepared, shadow_options);
@@ -96,7 +103,8 @@ int run_shadows(const ShadowsOptions& options) {
     const std::string text = statistics_text(*loaded, *result, times);
     std::fwrite(text.data(), 1, text.size(), stderr);
   }
-  return kDone;
+  const auto illuminated = illuminate(options.illuminate, *loaded, *result);
+  return illuminated ? kDone : report_error(illuminated.error());
 }
 
 }  // namespace
@@ -138,11 +146,15 @@ void add_shadows_command(CLI::App& app, Action& action) {
                    "Leave sibling fragments as the tree cut them (svbsp)");
   command.add_flag("--no-prefix", options->no_prefix,
                    "Without the balanced prefix: the tree of the 1989 paper (svbsp)");
+  add_illuminate_options(command, options->illuminate);
   command.add_flag("--stats", options->stats,
                    "Print counts, times, memory and, for plane, who decided, to standard error");
   command.add_option("-o,--output", options->output, "Result file; standard output if absent")
       ->type_name("FILE");
-  command.callback([options, &action] { action = [options] { return run_shadows(*options); }; });
+  command.callback([options, &action] {
+    options->illuminate.stats = options->stats;
+    action = [options] { return run_shadows(*options); };
+  });
 }
 
 }  // namespace gnomon::cli
