@@ -126,8 +126,24 @@ class AreaLight {
     return UmbraReach(corners, receiver);
   }
   void sort_by_shadow(std::uint32_t receiver, std::vector<std::uint32_t>& casters) const;
-  Shaft shaft_to(const Box& receiver) const {
-    if (light_->type != LightType::kDirectional) return Shaft(receiver, box_);
+  /// The box of a cut light, as wide as its corners are known; that of all of it if they are not.
+  Box box_of(const Space& space, const Loop& light) const {
+    Box box;
+    for (std::uint32_t i = 0; i < light.size(); ++i) {
+      const std::array<Ball, 3> position = space.position(light.corner(i));
+      std::array<double, 3> low{}, high{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!position[k].is_finite()) return box_;
+        low[k] = position[k].lower();
+        high[k] = position[k].upper();
+      }
+      box.add(low);
+      box.add(high);
+    }
+    return box;
+  }
+  Shaft shaft_to(const Box& receiver, const Box& light) const {
+    if (light_->type != LightType::kDirectional) return Shaft(receiver, light);
     std::array<double, 3> direction{};
     for (std::size_t k = 0; k < 3; ++k) direction[k] = light_->point.grid[k].get_d();
     return Shaft(receiver, direction);
@@ -229,8 +245,20 @@ void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side)
   Space& space = scratch.space;
   const Part& receiver = scene_.parts[index];
   const PlaneRef receiving = plane_of_side(receiver, side);
+  scratch.own.clear();
+  scratch.volumes.clear();
+  LightShape<Vertex> light = shape();
+  const bool cut =
+      is_area() && scratch.record.decide(space, receiving, light.loop) == Placement::kSpanning;
+  if (cut) {
+    scratch.light.clear();
+    const SplitChildren children = make_children(space, receiving, light.loop, scratch.record,
+                                                 scratch.crossings, scratch.light);
+    if (children.front.count < 3) return;
+    light.loop = scratch.light.view(children.front, plane_id_);
+  }
   scratch.parts.clear();
-  tree_->find(shaft_to(tree_->box(index)), scratch.parts);
+  tree_->find(shaft_to(tree_->box(index), cut ? box_of(space, light.loop) : box_), scratch.parts);
   // Only what is partly in front of the receiver can be in its light.
   std::erase_if(scratch.parts, [&](std::uint32_t other) {
     const Part& part = scene_.parts[other];
@@ -242,13 +270,8 @@ void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side)
     return true;
   });
   sort_by_shadow(index, scratch.parts);
-  scratch.own.clear();
-  scratch.volumes.clear();
-  LightShape<Vertex> light = shape();
-  const bool cut =
-      is_area() && scratch.record.decide(space, receiving, light.loop) == Placement::kSpanning;
+  const UmbraReach reach = umbra_reach(space, light.loop, tree_->box(index));
   if (!cut) {
-    const UmbraReach reach = umbra_reach(space, light.loop, tree_->box(index));
     for (const std::uint32_t part : scratch.parts) {
       const auto [begin, end] = volumes_of(part);
       const bool umbra = reach.may_reach(tree_->box(part));
@@ -256,12 +279,6 @@ void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side)
     }
     return;
   }
-  scratch.light.clear();
-  const SplitChildren children =
-      make_children(space, receiving, light.loop, scratch.record, scratch.crossings, scratch.light);
-  if (children.front.count < 3) return;
-  light.loop = scratch.light.view(children.front, plane_id_);
-  const UmbraReach reach = umbra_reach(space, light.loop, tree_->box(index));
   const Loop loop = part_loop(space, scene_, index, scratch.front);
   // What hides nothing of the whole light hides nothing of a part of it.
   const auto is_missed = [&](const ShadowVolume& volume) {

@@ -11,8 +11,8 @@
 // is the same on any number of threads.
 //
 // Guarantee on exact kernels: the fragments tile the loop; each has the class of the definition
-// (docs: semantics) and a witness. A piece that only touches a volume is outside of it: a receiver
-// in a plane of a volume is cut by nothing, as the limit from just in front of it asks. Explicit
+// (docs: semantics) and a witness. Penumbra volumes are open and umbra volumes closed: a receiver
+// in a plane of a penumbra is outside of it, one in a plane of an umbra may be inside. Explicit
 // stack; memory: the loops of the cells on it.
 #ifndef GNOMON_ALGORITHMS_SRC_RECEIVER_CUTTER_H
 #define GNOMON_ALGORITHMS_SRC_RECEIVER_CUTTER_H
@@ -58,12 +58,16 @@ class ReceiverCutter {
   std::uint64_t cells() const { return cells_; }
   std::uint64_t vanished() const { return vanished_; }
 
-  /// Is nothing of the loop in front of the plane?
-  bool is_outside(const Loop& loop, PlaneRef plane);
+  /// Whether what lies in a plane of a volume is in the volume: not in a penumbra, where light is
+  /// hidden from nothing on its border, but in an umbra, on whose border all of it is.
+  enum class Border : std::uint8_t { kOpen, kClosed };
+
+  /// Is nothing of the loop in front of the plane, nor, if that counts, the loop in it?
+  bool is_outside(const Loop& loop, PlaneRef plane, Border border = Border::kOpen);
   /// Is all of it in front of all planes?
   bool is_inside(const Loop& loop, std::span<const PlaneRef> planes) {
     std::uint8_t hint = 0;
-    return relation(loop, planes, hint) == Relation::kInside;
+    return relation(loop, planes, Border::kOpen, hint) == Relation::kInside;
   }
 
   /// Cuts `loop` by volumes of `store` and calls emit(PieceClass, Loop) for each
@@ -105,9 +109,10 @@ class ReceiverCutter {
   enum class Relation : std::uint8_t { kOutside, kInside, kCrossing };
 
   Loop view(const LoopRange& range) const { return store_.view(range, support_); }
-  Relation relation(const Loop& loop, std::span<const PlaneRef> planes, std::uint8_t& hint);
-  bool clip(const LoopRange& loop, std::span<const PlaneRef> planes, std::uint8_t& hint,
-            LoopRange& inside);
+  Relation relation(const Loop& loop, std::span<const PlaneRef> planes, Border border,
+                    std::uint8_t& hint);
+  bool clip(const LoopRange& loop, std::span<const PlaneRef> planes, Border border,
+            std::uint8_t& hint, LoopRange& inside);
   bool decide(Frame& frame);
   bool halve(Frame& frame);
   void cut_out(const Frame& frame);
@@ -128,30 +133,30 @@ class ReceiverCutter {
 };
 
 template <VolumeSpaceModel Space>
-bool ReceiverCutter<Space>::is_outside(const Loop& loop, PlaneRef plane) {
+bool ReceiverCutter<Space>::is_outside(const Loop& loop, PlaneRef plane, Border border) {
+  bool in_plane = true;
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
-    if (space_->side_of_plane(plane, loop.corner(i)) == Side::kFront) return false;
+    const Side side = space_->side_of_plane(plane, loop.corner(i));
+    if (side == Side::kFront) return false;
+    in_plane = in_plane && side == Side::kOn;
   }
-  return true;
+  return !in_plane || border == Border::kOpen;
 }
 
 /// The planes that the loop spans are left in spanning_.
 template <VolumeSpaceModel Space>
 typename ReceiverCutter<Space>::Relation ReceiverCutter<Space>::relation(
-    const Loop& loop, std::span<const PlaneRef> planes, std::uint8_t& hint) {
-  if (is_outside(loop, planes[hint])) return Relation::kOutside;
+    const Loop& loop, std::span<const PlaneRef> planes, Border border, std::uint8_t& hint) {
+  if (is_outside(loop, planes[hint], border)) return Relation::kOutside;
   spanning_.clear();
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    switch (record_.decide(*space_, planes[i], loop)) {
-      case Placement::kBack:
-      case Placement::kOn:
-        hint = static_cast<std::uint8_t>(i);
-        return Relation::kOutside;
-      case Placement::kSpanning:
-        spanning_.push_back(planes[i]);
-        break;
-      case Placement::kFront:
-        break;
+    const Placement placement = record_.decide(*space_, planes[i], loop);
+    if (placement == Placement::kSpanning) {
+      spanning_.push_back(planes[i]);
+    } else if (placement == Placement::kBack ||
+               (placement == Placement::kOn && border == Border::kOpen)) {
+      hint = static_cast<std::uint8_t>(i);
+      return Relation::kOutside;
     }
   }
   return spanning_.empty() ? Relation::kInside : Relation::kCrossing;
@@ -161,9 +166,9 @@ typename ReceiverCutter<Space>::Relation ReceiverCutter<Space>::relation(
 /// `inside`. False if nothing is left; the loop is then not cut at all.
 template <VolumeSpaceModel Space>
 bool ReceiverCutter<Space>::clip(const LoopRange& loop, std::span<const PlaneRef> planes,
-                                 std::uint8_t& hint, LoopRange& inside) {
+                                 Border border, std::uint8_t& hint, LoopRange& inside) {
   outside_.clear();
-  if (relation(view(loop), planes, hint) == Relation::kOutside) return false;
+  if (relation(view(loop), planes, border, hint) == Relation::kOutside) return false;
   const std::uint32_t mark = store_.size();
   inside = loop;
   for (std::size_t i = 0; i < spanning_.size(); ++i) {
@@ -205,7 +210,8 @@ bool ReceiverCutter<Space>::decide(Frame& frame) {
     if (frame.state.state != LightState::kLit || volume.penumbra_count == 0) {
       entry.penumbra = false;
     } else if (entry.penumbra) {
-      const Relation penumbra = relation(loop, volumes_->penumbra(volume), entry.penumbra_hint);
+      const Relation penumbra =
+          relation(loop, volumes_->penumbra(volume), Border::kOpen, entry.penumbra_hint);
       if (penumbra == Relation::kOutside) continue;
       if (penumbra == Relation::kInside) {
         frame.state = {LightState::kPenumbra, volume.caster, ShadowReason::kNone};
@@ -213,9 +219,9 @@ bool ReceiverCutter<Space>::decide(Frame& frame) {
       }
     }
     if (entry.umbra) {
-      const Relation umbra = volume.umbra_count == 0
-                                 ? Relation::kOutside
-                                 : relation(loop, volumes_->umbra(volume), entry.umbra_hint);
+      const Relation umbra = volume.umbra_count == 0 ? Relation::kOutside
+                                                     : relation(loop, volumes_->umbra(volume),
+                                                                Border::kClosed, entry.umbra_hint);
       if (umbra == Relation::kInside) {
         frame.state = {in_shadow_, volume.caster, ShadowReason::kNone};
         return true;
@@ -286,7 +292,8 @@ void ReceiverCutter<Space>::cut_out(const Frame& frame) {
       bool is_inside = true;
       if (piece.state.state == LightState::kLit && volume.penumbra_count != 0) {
         if (entry.penumbra) {
-          is_inside = clip(piece.loop, volumes_->penumbra(volume), entry.penumbra_hint, inside);
+          is_inside = clip(piece.loop, volumes_->penumbra(volume), Border::kOpen,
+                           entry.penumbra_hint, inside);
           if (!is_inside) continue;
           for (const LoopRange& range : outside_) {
             pending_.push_back({range, piece.state, piece.next});
@@ -296,7 +303,8 @@ void ReceiverCutter<Space>::cut_out(const Frame& frame) {
       }
       piece.loop = inside;
       piece.state = rest;
-      if (!entry.umbra || !clip(piece.loop, volumes_->umbra(volume), entry.umbra_hint, inside))
+      if (!entry.umbra ||
+          !clip(piece.loop, volumes_->umbra(volume), Border::kClosed, entry.umbra_hint, inside))
         continue;
       for (const LoopRange& range : outside_) pending_.push_back({range, rest, piece.next});
       piece.loop = inside;

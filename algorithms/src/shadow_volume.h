@@ -254,24 +254,30 @@ class VolumeBuilder {
     for (std::uint32_t i = 0; i < light.size(); ++i) {
       // The light is in front of the planes through a, b and points in front of the light.
       const CornerOf a = light.corner(light.next(i)), b = light.corner(i);
-      const std::uint32_t mark = space_->plane_mark();
-      PlaneRef found;
       if (in_front) {
+        const std::uint32_t mark = space_->plane_mark();
         const PlaneRef plane =
             extreme(a, b, caster, Side::kFront, [](std::uint32_t) { return true; });
-        if (plane.valid() && corners_on(caster, plane) == 1) found = -plane;
-      } else {
-        for (std::uint32_t k = 0; k < caster.size() && !found.valid(); ++k) {
+        if (plane.valid() && corners_on(caster, plane) == 1) {
+          penumbra_.push_back(-plane);
+        } else {
           space_->release_planes(mark);
-          const PlaneRef plane = space_->add_plane(a, b, caster.corner(k));
-          if (!plane.valid() || corners_on(caster, plane) != 1) continue;
+        }
+        continue;
+      }
+      // A caster on both sides of the light's plane may be touched twice.
+      for (std::uint32_t k = 0; k < caster.size(); ++k) {
+        const std::uint32_t mark = space_->plane_mark();
+        const PlaneRef plane = space_->add_plane(a, b, caster.corner(k));
+        PlaneRef found;
+        if (plane.valid() && corners_on(caster, plane) == 1) {
           found = separating(caster, light, plane);
         }
-      }
-      if (found.valid()) {
-        penumbra_.push_back(found);
-      } else {
-        space_->release_planes(mark);
+        if (found.valid()) {
+          penumbra_.push_back(found);
+        } else {
+          space_->release_planes(mark);
+        }
       }
     }
   }

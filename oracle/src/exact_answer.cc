@@ -125,21 +125,27 @@ const std::vector<AnswerEntry>& ExactAnswer::entries(std::uint32_t light) const 
           plane.sees[1] = plane.sees[1] || own.area_regions->sees(part, Side::kBack);
         }
       }
+      // A polygon is listed once for each side that some plane of it sees the light from, or with
+      // its front; a plane that sees nothing belongs to the first side listed.
+      std::array<bool, 2> listed{};
+      for (const PlaneGroup& plane : groups) {
+        for (const int side : {0, 1}) listed[side] = listed[side] || plane.sees[side];
+      }
+      if (!listed[1]) listed[0] = true;
+      const int first = listed[0] ? 0 : 1;
       for (const int side : {0, 1}) {
+        if (!listed[side]) continue;
         AnswerEntry entry;
         entry.polygon = polygon;
         entry.side = side == 1 ? PolygonSide::kBack : PolygonSide::kFront;
-        bool asked = false;
         for (const PlaneGroup& plane : groups) {
-          // A plane that sees nothing is listed with its front.
-          const bool on_side = plane.sees[side] || (side == 0 && !plane.sees[1]);
+          const bool dark = !plane.sees[0] && !plane.sees[1];
           entry.groups.push_back(plane.group);
           entry.groups.back().faces = plane.sees[side];
-          entry.groups.back().optional = !on_side;
+          entry.groups.back().optional = !plane.sees[side] && !(dark && side == first);
           entry.groups.back().side = entry.side;
-          asked = asked || on_side;
         }
-        if (asked) own.entries.push_back(std::move(entry));
+        own.entries.push_back(std::move(entry));
       }
     }
   });

@@ -91,5 +91,13 @@ ScenePen& ScenePen::lamp(const Triple& at) { return light(LightType::kPoint, pos
 ScenePen& ScenePen::lamp_at(Position at) { return light(LightType::kPoint, std::move(at)); }
 ScenePen& ScenePen::sun(const Triple& to) { return light(LightType::kDirectional, position(to)); }
 ScenePen& ScenePen::sun_at(Position to) { return light(LightType::kDirectional, std::move(to)); }
+ScenePen& ScenePen::panel(const std::vector<Triple>& loop) {
+  Light light;
+  light.id = "panel" + std::to_string(scene_.lights.size());
+  light.type = LightType::kArea;
+  for (const Triple& corner : loop) light.loop.push_back(position(corner));
+  scene_.lights.push_back(std::move(light));
+  return *this;
+}
 
 }  // namespace gnomon::test

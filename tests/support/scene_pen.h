@@ -47,6 +47,8 @@ class ScenePen {
   ScenePen& lamp_at(Position position);
   ScenePen& sun(const Triple& to_light);
   ScenePen& sun_at(Position to_light);
+  /// An area light; it emits to the side from which the loop is counter-clockwise.
+  ScenePen& panel(const std::vector<Triple>& loop);
 
   Number number(std::int64_t value) const;
   Position position(const Triple& value) const;

@@ -35,6 +35,20 @@ const char* name_of(ShadowReason reason) {
   return "";
 }
 
+oracle::ShadeClass shade_of(LightState state) {
+  switch (state) {
+    case LightState::kLit:
+      return oracle::ShadeClass::kLit;
+    case LightState::kShadow:
+      return oracle::ShadeClass::kShadow;
+    case LightState::kPenumbra:
+      return oracle::ShadeClass::kPenumbra;
+    case LightState::kUmbra:
+      return oracle::ShadeClass::kUmbra;
+  }
+  return oracle::ShadeClass::kLit;
+}
+
 }  // namespace
 
 std::unique_ptr<Case> Case::make(Scene scene, std::string* why) {
@@ -64,13 +78,20 @@ oracle::Candidate candidate_of(const Case& scene, const ShadowResult& result) {
   for (const LightResult& light : result.lights) {
     oracle::CandidateLight found;
     found.id = scene.scene().lights[prepared.lights[light.light].light].id;
+    const bool area = scene.is_area(light.light);
+    found.per_caster_umbra = area;
+    // The results of each part: one, or one for each side that sees an area light.
+    std::vector<std::vector<const PartResult*>> results(prepared.parts.size());
+    for (const PartResult& part : light.parts) results[part.part].push_back(&part);
     for (std::uint32_t polygon = 0; polygon < scene.scene().polygons.size(); ++polygon) {
       const std::uint32_t begin = prepared.first_part[polygon];
       const std::uint32_t end = prepared.first_part[polygon + 1];
       if (begin == end) continue;
-      std::set<Side> sides;
+      std::set<Side, std::greater<>> sides;  // front first
       for (std::uint32_t part = begin; part < end; ++part) {
-        if (light.parts[part].reason == ShadowReason::kNone) sides.insert(light.parts[part].side);
+        for (const PartResult* own : results[part]) {
+          if (own->reason == ShadowReason::kNone) sides.insert(own->side);
+        }
       }
       if (sides.empty()) sides.insert(Side::kFront);
       for (const Side side : sides) {
@@ -78,22 +99,26 @@ oracle::Candidate candidate_of(const Case& scene, const ShadowResult& result) {
         entry.id = scene.scene().polygons[polygon].id;
         entry.side = side == Side::kBack ? oracle::PolygonSide::kBack : oracle::PolygonSide::kFront;
         for (std::uint32_t part = begin; part < end; ++part) {
-          const PartResult& own = light.parts[part];
-          if (own.reason != ShadowReason::kNone || own.side != side) {
+          const PartResult* own = nullptr;
+          for (const PartResult* one : results[part]) {
+            if (one->reason == ShadowReason::kNone && one->side == side) own = one;
+          }
+          if (own == nullptr) {
+            const ShadowReason reason = results[part].front()->reason;
             oracle::CandidateFragment whole;
-            whole.shade = oracle::ShadeClass::kShadow;
-            whole.reason = own.reason == ShadowReason::kNone ? "faces-away" : name_of(own.reason);
+            whole.shade = area ? oracle::ShadeClass::kUmbra : oracle::ShadeClass::kShadow;
+            whole.reason = reason == ShadowReason::kNone ? "faces-away" : name_of(reason);
             for (const VertexId vertex : prepared.loop(prepared.parts[part])) {
               whole.loop.push_back(scene_point(prepared.geometry, vertex));
             }
             entry.fragments.push_back(std::move(whole));
             continue;
           }
-          for (std::uint32_t i = 0; i < own.fragment_count; ++i) {
-            const Fragment& fragment = light.fragments[own.first_fragment + i];
+          for (std::uint32_t i = 0; i < own->fragment_count; ++i) {
+            const Fragment& fragment = light.fragments[own->first_fragment + i];
             oracle::CandidateFragment piece;
-            piece.shade = fragment.state == LightState::kLit ? oracle::ShadeClass::kLit
-                                                             : oracle::ShadeClass::kShadow;
+            piece.shade = shade_of(fragment.state);
+            piece.reason = name_of(fragment.reason);
             if (fragment.caster != Fragment::kNoCaster) piece.caster = id_of_part(fragment.caster);
             piece.loop.assign(light.exact_points.begin() + fragment.first,
                               light.exact_points.begin() + fragment.first + fragment.count);

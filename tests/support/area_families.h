@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Families of small random scenes under area lights: those of families.h with a light put through
+// their own vertices, and lattices in which lights and polygons share vertices, edges and planes,
+// cut each other and stand behind each other.
+#ifndef GNOMON_TESTS_SUPPORT_AREA_FAMILIES_H
+#define GNOMON_TESTS_SUPPORT_AREA_FAMILIES_H
+
+#include <vector>
+
+#include "families.h"
+
+namespace gnomon::test {
+
+const std::vector<Family>& area_families();
+
+}  // namespace gnomon::test
+
+#endif  // GNOMON_TESTS_SUPPORT_AREA_FAMILIES_H
