@@ -135,11 +135,12 @@ Expected<void> ask_for_illumination(const IlluminateOptions& options, const Load
   shadows.keep_exact_points = true;
   if (loaded.lights.size() > 1) {
     // Fragments that have one class by each light come of the pipeline alone.
-    const auto pipeline =
-        parse_algorithm_choice(algorithm, {{"--illuminate with several lights", true}});
-    if (!pipeline) return tl::unexpected(pipeline.error());
+    if (algorithm == "sectors") {
+      return fail(ErrorCode::kUsage, "--illuminate with several lights needs svbsp, not sectors",
+                  "--algorithm svbsp, or auto");
+    }
+    if (algorithm == kAutomaticName) shadows.algorithm = Algorithm::kAutomatic;
     shadows.combined = true;
-    shadows.algorithm = *pipeline;
   }
   return {};
 }
