@@ -193,6 +193,14 @@ void LightPieces::split(const Piece& piece, PlaneRef line, const Classified& sid
   }
 }
 
+bool LightPieces::is_apart(const Piece& piece, std::span<const PlaneRef> region) {
+  for (const PlaneRef line : region) {
+    classify(line, piece, sides_);
+    if (!sides_.front) return true;
+  }
+  return false;
+}
+
 void LightPieces::clip(PlaneRef line) {
   std::vector<Piece> kept;
   for (Piece& piece : pieces_) {

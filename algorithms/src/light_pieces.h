@@ -49,6 +49,10 @@ class LightPieces {
   const std::vector<Piece>& pieces() const { return pieces_; }
   bool empty() const { return pieces_.empty(); }
   void clear() { pieces_.clear(); }
+  /// Requires: pieces of this arena.
+  void set_pieces(std::vector<Piece> pieces) { pieces_ = std::move(pieces); }
+  /// Whether one of the lines has all of the piece behind it or on it.
+  bool is_apart(const Piece& piece, std::span<const PlaneRef> region);
 
   const std::array<Ball, 2>& near(std::uint32_t vertex) const { return vertices_[vertex].near; }
   /// Homogeneous chart coordinates (s w, t w, w), w > 0.

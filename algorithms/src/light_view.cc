@@ -200,6 +200,18 @@ BallVector LightView::edge_normal(EdgeId edge, const Apex& apex) const {
                difference_of(apex.near, pairs_[ends.a], apex.reach));
 }
 
+Sign LightView::side_of_edge_plane(EdgeId edge, const Apex& apex, const Apex& point,
+                                   SignCounts& counts) const {
+  ++counts.all;
+  const PairPoint& a = pairs_[scene_.geometry.edges[edge].a];
+  const Sign sign =
+      certain_sign(dot(edge_normal(edge, apex), difference_of(point.near, a, point.reach)));
+  if (sign != Sign::kZero) return sign;
+  ++counts.exact;
+  const ExactPlane exact = exact_edge_plane(edge, apex);
+  return sign_of(mpz_class(dot(exact.normal, point.point) - exact.offset * point.weight));
+}
+
 LightView::ExactPlane LightView::exact_edge_plane(EdgeId edge, const Apex& apex) const {
   // Times the weight W of p = P / W: normal W (a x b) + (b - a) x P, offset (a x b) . P.
   const EdgeEnds& ends = scene_.geometry.edges[edge];
@@ -245,9 +257,16 @@ LightShaft LightView::shaft_of(const Apex& apex, PlaneId receiver, bool back) co
                                         minus(rounded(light_pairs_[(i + 1) % n]), p));
       shaft.planes.push_back(shaft_plane(negated(normal), p, apex.reach));
     }
+  }
+  add_planes(shaft, receiver, back);
+  return shaft;
+}
+
+void LightView::add_planes(LightShaft& shaft, PlaneId receiver, bool back) const {
+  if (light().type == LightType::kArea) {
     const auto first = rounded(light_pairs_[0]);
     shaft.planes.push_back(shaft_plane(cross_product(minus(rounded(light_pairs_[1]), first),
-                                                     minus(rounded(light_pairs_[n - 1]), first)),
+                                                     minus(rounded(light_pairs_.back()), first)),
                                        first, 1));
   }
   if (receiver != kNoPlane) {
@@ -257,12 +276,21 @@ LightShaft LightView::shaft_of(const Apex& apex, PlaneId receiver, bool back) co
         cross_product(minus(rounded(pairs_[triple.b]), a), minus(rounded(pairs_[triple.c]), a));
     shaft.planes.push_back(shaft_plane(back ? negated(normal) : normal, a, 1));
   }
-  return shaft;
 }
 
 void LightView::find_casters(const Apex& apex, PlaneId receiver, bool back,
                              std::vector<std::uint32_t>& found) const {
   tree_.find(shaft_of(apex, receiver, back), found);
+}
+
+void LightView::find_casters(std::span<const Apex> apexes, PlaneId receiver, bool back,
+                             std::vector<std::uint32_t>& found) const {
+  LightShaft shaft;
+  shaft.box = empty_box();
+  for (const Apex& apex : apexes) enclose_point(shaft.box, apex.near);
+  for (const PairPoint& point : light_pairs_) enclose_point(shaft.box, point);
+  add_planes(shaft, receiver, back);
+  tree_.find(shaft, found);
 }
 
 }  // namespace gnomon

@@ -10,6 +10,7 @@
 #define GNOMON_ALGORITHMS_SRC_LIGHT_VIEW_H
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "apex.h"
@@ -52,6 +53,9 @@ class LightView {
   // --- The plane through an edge (from its a to its b) and an apex: normal (b - a) x (p - a) ---
   BallVector edge_normal(EdgeId edge, const Apex& apex) const;
   ExactPlane exact_edge_plane(EdgeId edge, const Apex& apex) const;
+  /// On which side of that plane is a point?
+  Sign side_of_edge_plane(EdgeId edge, const Apex& apex, const Apex& point,
+                          SignCounts& counts) const;
   const PairPoint& pairs(VertexId vertex) const { return pairs_[vertex]; }
   ExactVector grid_point(VertexId vertex) const;
 
@@ -83,11 +87,15 @@ class LightView {
   static constexpr PlaneId kNoPlane = 0xffffffffu;
   void find_casters(const Apex& apex, PlaneId receiver, bool back,
                     std::vector<std::uint32_t>& found) const;
+  /// From any point of the convex hull of some apexes on the receiver.
+  void find_casters(std::span<const Apex> apexes, PlaneId receiver, bool back,
+                    std::vector<std::uint32_t>& found) const;
 
  private:
   void make_chart();
   void find_sides();
   LightShaft shaft_of(const Apex& apex, PlaneId receiver, bool back) const;
+  void add_planes(LightShaft& shaft, PlaneId receiver, bool back) const;
 
   const PreparedScene& scene_;
   std::uint32_t light_;
