@@ -151,7 +151,8 @@ Expected<std::vector<DeepUmbraBounds>> deep_umbra_bounds(const PreparedScene& sc
     fits &= part.reason != ShadowReason::kNone || part.fragment_count > 0;
   }
   for (const Fragment& fragment : classified.fragments) {
-    fits &= fragment.first + std::size_t{fragment.count} <= classified.exact_points.size();
+    fits &= fragment.count >= 3 &&
+            fragment.first + std::size_t{fragment.count} <= classified.exact_points.size();
   }
   if (!fits) {
     return fail(ErrorCode::kUsage, "the deep umbra needs the classes of an area light",
