@@ -1,65 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "gnomon/kernel/epeck_space.h"
 
-#include <cmath>
+#include "epeck_numbers.h"
 
 namespace gnomon {
-namespace {
 
-using Number = Epeck::FT;
-
-/// Any integer, exactly: 52 bits at a time, evaluated at once so that it is a leaf of later
-/// expressions.
-Number number_from(const mpz_class& value) {
-  if (mpz_sizeinbase(value.get_mpz_t(), 2) <= 53) return Number(value.get_d());
-  Number result(0);
-  const Number radix(0x1p52);
-  mpz_class rest = abs(value);
-  std::vector<double> digits;
-  while (rest != 0) {
-    const mpz_class digit = rest & ((mpz_class(1) << 52) - 1);
-    digits.push_back(digit.get_d());
-    rest >>= 52;
-  }
-  for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit) {
-    result = result * radix + Number(*digit);
-  }
-  if (sgn(value) < 0) result = -result;
-  result.exact();
-  return result;
-}
-
-/// Whatever rational type CGAL was built with.
-template <class Rational>
-mpq_class to_mpq(const Rational& value) {
-  if constexpr (requires { mpq_class(value.mpq()); }) {
-    return mpq_class(value.mpq());
-  } else if constexpr (requires { mpq_class(value.backend().data()); }) {
-    return mpq_class(value.backend().data());
-  } else {
-    return mpq_class(value);
-  }
-}
-
-Ball enclose(const Number& value) {
-  const std::pair<double, double> bounds = CGAL::to_interval(value);
-  const double middle = bounds.first + (bounds.second - bounds.first) / 2;
-  const double radius = std::fmax(bounds.second - middle, middle - bounds.first);
-  return {middle, std::nextafter(radius, INFINITY)};
-}
-
-EpeckVertex meeting_point(const Epeck::Plane_3& plane, const Epeck::Point_3& from,
-                          const Epeck::Point_3& to) {
-  const auto result = CGAL::intersection(plane, Epeck::Line_3(from, to));
-  // The two points lie strictly on different sides, decided exactly: they meet in one point.
-  return {boost::get<Epeck::Point_3>(*result), kMadeVertex};
-}
-
-Side side_of(const Epeck::Plane_3& plane, const Epeck::Point_3& point) {
-  return static_cast<Side>(static_cast<int>(plane.oriented_side(point)));
-}
-
-}  // namespace
+using namespace epeck_detail;
 
 EpeckSceneSpace::EpeckSceneSpace(const Geometry& geometry, const KernelOptions&)
     : geometry_(&geometry), step_(geometry.step.get_d()) {
@@ -159,16 +105,11 @@ EpeckVertex EpeckLightSpace::meet(const Epeck::Plane_3& plane, const Vertex& fro
 
 std::array<Ball, 3> EpeckLightSpace::position(const Corner<Vertex>& corner) const {
   const Epeck::Point_3& p = corner.vertex.point;
-  return {enclose(p.x()), enclose(p.y()), enclose(p.z())};
+  return {epeck_detail::enclose(p.x()), epeck_detail::enclose(p.y()), epeck_detail::enclose(p.z())};
 }
 
 std::array<mpq_class, 3> EpeckLightSpace::exact_position(const Corner<Vertex>& corner) const {
-  const Geometry& geometry = scene().geometry();
-  std::array<mpq_class, 3> point;
-  for (int k = 0; k < 3; ++k) {
-    point[k] = geometry.origin[k] + geometry.step * to_mpq(corner.vertex.point[k].exact());
-  }
-  return point;
+  return exact_point(scene().geometry(), corner.vertex.point);
 }
 
 ChartPoint EpeckLightSpace::chart_point(const LightChart& chart,

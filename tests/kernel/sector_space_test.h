@@ -22,49 +22,6 @@
 
 namespace gnomon::test {
 
-inline Rationals rationals(const Integers& x) { return {x[0], x[1], x[2]}; }
-
-inline LightPoint light_at(const Geometry& geometry, const Integers& grid, bool directional) {
-  LightPoint light;
-  light.directional = directional;
-  light.grid = grid;
-  for (std::size_t k = 0; k < 3; ++k) {
-    light.nearest[k] = directional
-                           ? grid[k].get_d()
-                           : mpq_class(geometry.origin[k] + geometry.step * grid[k]).get_d();
-  }
-  return light;
-}
-
-/// Not zero if directional; within the grid otherwise.
-inline LightPoint small_light(Random& random, const Geometry& geometry, unsigned bits,
-                              bool directional) {
-  Integers grid;
-  do {
-    for (mpz_class& x : grid) {
-      x = random_coordinate(random, SoupKind::kFull, bits);
-      if (directional && random.chance(1, 2)) x = -x;
-      if (random.chance(1, 6)) x = 0;
-    }
-  } while (directional && grid == Integers{0, 0, 0});
-  if (directional) {
-    const mpz_class common = gcd(gcd(grid[0], grid[1]), grid[2]);
-    for (mpz_class& x : grid) x /= common;
-  }
-  return light_at(geometry, grid, directional);
-}
-
-/// The same soup elsewhere: origin moved, positions with it.
-inline Geometry moved(Geometry geometry, const Rationals& origin) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    geometry.origin[k] += origin[k];
-    for (auto& position : geometry.positions) {
-      position[k] = mpq_class(mpq_class(position[k]) + origin[k]).get_d();
-    }
-  }
-  return geometry;
-}
-
 /// A triangle in light space, counter-clockwise seen from the light.
 template <class Space>
 struct Loop {
@@ -354,11 +311,6 @@ inline ExactChartPoint exact_chart_point(const Geometry& geometry, const LightPo
   point.v = (x[ay] - x[az] * light.grid[ay] / light.grid[az]) / extent;
   point.z = x[az] * sgn(light.grid[az]);
   return point;
-}
-
-/// In rationals, so that nothing is rounded.
-inline bool encloses(double middle, double error, const mpq_class& exact) {
-  return abs(mpq_class(middle) - exact) <= mpq_class(error);
 }
 
 /// The unit of depths is a kernel's own, a power of two times the grid's, and so is the zero for a

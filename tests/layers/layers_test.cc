@@ -43,7 +43,8 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
 /// Headers that are CGAL's types under a kernel's name; no other header may include them or CGAL,
 /// so that only sources which ask for these types need CGAL and its -frounding-math.
 const std::set<std::string>& cgal_headers() {
-  static const std::set<std::string> kHeaders = {"gnomon/kernel/epeck_space.h"};
+  static const std::set<std::string> kHeaders = {"gnomon/kernel/epeck_space.h",
+                                                 "gnomon/kernel/epeck_volume_space.h"};
   return kHeaders;
 }
 

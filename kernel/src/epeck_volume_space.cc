@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gnomon/kernel/epeck_volume_space.h"
+
+#include <cmath>
+
+#include "epeck_numbers.h"
+#include "gnomon/kernel/kernel_concept.h"
+#include "gnomon/kernel/nearest_double.h"
+
+namespace gnomon {
+
+using namespace epeck_detail;
+
+static_assert(VolumeSpaceModel<EpeckVolumeSpace>);
+
+EpeckVolumeSpace::EpeckVolumeSpace(const SceneSpace& scene, const KernelOptions&)
+    : Base(scene, true) {}
+
+std::optional<Epeck::Plane_3> EpeckVolumeSpace::plane_of(const Vertex& a, const Vertex& b,
+                                                         const Vertex& c) const {
+  if (CGAL::collinear(a.point, b.point, c.point)) return std::nullopt;
+  return Epeck::Plane_3(a.point, b.point, c.point);
+}
+
+std::optional<Epeck::Plane_3> EpeckVolumeSpace::plane_of(const Vertex& a, const Vertex& b,
+                                                         const LightPoint& direction) const {
+  const Epeck::Vector_3 to_light(number_from(direction.grid[0]), number_from(direction.grid[1]),
+                                 number_from(direction.grid[2]));
+  return plane_of(a, b, Vertex{a.point + to_light, kMadeVertex});
+}
+
+Epeck::Plane_3 EpeckVolumeSpace::axis_plane(int axis, double value) const {
+  // Not default-constructed: CGAL's default zero has an interval that is not initialized.
+  const Number zero(0), one(1);
+  std::array<Number, 3> normal{zero, zero, zero}, point = normal;
+  normal[axis] = one;
+  point[axis] = Number(value) * number_from(mpz_class(1) << geometry().grid.bits());
+  return {Epeck::Point_3(point[0], point[1], point[2]),
+          Epeck::Vector_3(normal[0], normal[1], normal[2])};
+}
+
+Side EpeckVolumeSpace::side(const Epeck::Plane_3& plane, const Vertex& vertex) const {
+  return epeck_detail::side_of(plane, vertex.point);
+}
+
+EpeckVertex EpeckVolumeSpace::meet(const Epeck::Plane_3& plane, const Vertex& from,
+                                   const Vertex& to) const {
+  return meeting_point(plane, from.point, to.point);
+}
+
+std::array<Ball, 3> EpeckVolumeSpace::position(const Corner<Vertex>& corner) const {
+  // An interval wider than this, a fraction of the extent, is a lazy number's that nothing has
+  // evaluated yet. Not a tolerance: the answer is an enclosure in any case.
+  constexpr double kWide = 0x1p-44;
+  const unsigned bits = geometry().grid.bits();
+  std::array<Ball, 3> point;
+  for (int k = 0; k < 3; ++k) {
+    const Number& x = corner.vertex.point[k];
+    if (bits <= 1000) {
+      const Ball grid = epeck_detail::enclose(x);
+      // Scaling by a power of two rounds only where it underflows.
+      const int exponent = -static_cast<int>(bits);
+      point[k] = {std::ldexp(grid.middle, exponent),
+                  std::ldexp(grid.radius, exponent) + Ball::kTiny};
+      if (point[k].radius < kWide) continue;
+    }
+    mpq_class fraction = to_mpq(x.exact());
+    fraction /= mpz_class(1) << bits;
+    point[k] = gnomon::enclose(fraction);
+  }
+  return point;
+}
+
+std::array<mpq_class, 3> EpeckVolumeSpace::exact_position(const Corner<Vertex>& corner) const {
+  return exact_point(geometry(), corner.vertex.point);
+}
+
+std::array<double, 3> EpeckVolumeSpace::nearest_position(const Corner<Vertex>& corner) const {
+  if (corner.vertex.source != kMadeVertex) return geometry().positions[corner.vertex.source];
+  const std::array<mpq_class, 3> exact = exact_position(corner);
+  return {nearest_double(exact[0]), nearest_double(exact[1]), nearest_double(exact[2])};
+}
+
+}  // namespace gnomon
