@@ -28,16 +28,27 @@ class Fnv1a {
   std::uint64_t hash_ = 0xcbf29ce484222325u;
 };
 
+bool overlap(const Interval& a, const Interval& b) {
+  return a.lower <= b.upper && b.lower <= a.upper;
+}
+
 }  // namespace
 
 ExactAnswers exact_answers(const ShadowResult& result) {
   ExactAnswers answers;
   Fnv1a hash;
   for (const LightResult& light : result.lights) {
-    for (const PartResult& part : light.parts) {
+    for (std::size_t i = 0; i < light.parts.size(); ++i) {
+      const PartResult& part = light.parts[i];
       hash.add(fmt::format("{} {} {}\n", light.light, part.part, part.exact_lit.get_str()));
       answers.lit.push_back(part.exact_lit.get_d());
-      if (part.exact_lit + part.exact_shadow != 1) answers.sums_to_one = false;
+      mpq_class sum = part.exact_lit + part.exact_shadow;
+      if (!light.area_fractions.empty()) {
+        const AreaFractions& area = light.area_fractions[i];
+        hash.add(area.exact_penumbra.get_str() + "\n");
+        sum += area.exact_penumbra + area.exact_umbra;
+      }
+      if (sum != 1) answers.sums_to_one = false;
     }
   }
   answers.checksum = fmt::format("{:016x}", hash.value());
@@ -69,8 +80,14 @@ std::uint64_t total_fragments(const ShadowResult& result) {
 bool enclosures_overlap(const ShadowResult& a, const ShadowResult& b) {
   for (std::size_t i = 0; i < a.lights.size(); ++i) {
     for (std::size_t k = 0; k < a.lights[i].parts.size(); ++k) {
-      const Interval &left = a.lights[i].parts[k].lit, &right = b.lights[i].parts[k].lit;
-      if (!(left.lower <= right.upper && right.lower <= left.upper)) return false;
+      if (!overlap(a.lights[i].parts[k].lit, b.lights[i].parts[k].lit)) return false;
+    }
+    for (std::size_t k = 0; k < a.lights[i].area_fractions.size(); ++k) {
+      const AreaFractions &left = a.lights[i].area_fractions[k],
+                          &right = b.lights[i].area_fractions[k];
+      if (!overlap(left.penumbra, right.penumbra) || !overlap(left.umbra, right.umbra)) {
+        return false;
+      }
     }
   }
   return true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a result says, in a form that can be compared: a checksum over the exact lit fractions of
-// all parts (not over fragments, which may be cut differently), and how far a rounded result is
+// What a result says, in a form that can be compared: a checksum over the exact fractions of all
+// parts (not over fragments, which may be cut differently), and how far a rounded result is
 // off.
 #ifndef GNOMON_BENCH_ANSWERS_H
 #define GNOMON_BENCH_ANSWERS_H
@@ -18,9 +18,9 @@ namespace gnomon::bench {
 inline constexpr double kWrongBeyond = 1e-9;
 
 struct ExactAnswers {
-  std::string checksum;     // FNV-1a, 64 bits, of "light part p/q" of every part
+  std::string checksum;     // FNV-1a, 64 bits, of "light part p/q", and of penumbras, of every part
   std::vector<double> lit;  // nearest doubles, light by light
-  bool sums_to_one = true;  // lit + shadow == 1 exactly for every part
+  bool sums_to_one = true;  // all classes together are exactly 1 for every part
 };
 /// Requires: the result was computed with exact_fractions on an exact kernel.
 ExactAnswers exact_answers(const ShadowResult& result);

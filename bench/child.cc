@@ -68,12 +68,14 @@ std::optional<std::string> output_of(std::vector<std::string> words) {
 
 }  // namespace
 
-ChildReport run_in_child(const SceneRecipe& recipe, Algorithm algorithm, unsigned jobs) {
+ChildReport run_in_child(const SceneRecipe& recipe, Algorithm algorithm, unsigned jobs,
+                         AreaAlgorithm area_algorithm) {
   std::vector<std::string> words = {"gnomon_bench",
                                     "child",
                                     recipe.generator,
                                     std::to_string(static_cast<int>(recipe.coordinates)),
                                     std::to_string(static_cast<int>(algorithm)),
+                                    std::to_string(static_cast<int>(area_algorithm)),
                                     std::to_string(jobs)};
   for (const auto& [name, value] : recipe.parameters) {
     words.push_back(name);
@@ -83,9 +85,10 @@ ChildReport run_in_child(const SceneRecipe& recipe, Algorithm algorithm, unsigne
   if (!text) stop("failed on " + recipe.generator);
   ChildReport report;
   std::istringstream in(*text);
-  in >> report.polygons >> report.facing >> report.fragments >> report.prepare_wall >>
-      report.prepare_cpu >> report.shadow_wall >> report.shadow_cpu >> report.scene_bsp_cpu >>
-      report.lit_lower >> report.lit_upper >> report.peak_bytes >> report.shadow_bytes;
+  in >> report.polygons >> report.facing >> report.fragments >> report.nodes >>
+      report.prepare_wall >> report.prepare_cpu >> report.shadow_wall >> report.shadow_cpu >>
+      report.scene_bsp_cpu >> report.lit_lower >> report.lit_upper >> report.peak_bytes >>
+      report.shadow_bytes;
   if (!in) stop("cannot read its report: " + *text);
   return report;
 }
@@ -95,12 +98,13 @@ int child_main(int argc, char** argv) {
   const auto since = [](Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
   };
-  if (argc < 4 || argc % 2 != 0) return 2;
+  if (argc < 5 || argc % 2 != 1) return 2;
   SceneRecipe recipe{argv[0], {}, static_cast<Coordinates>(std::atoi(argv[1]))};
   ShadowOptions options;
   options.algorithm = static_cast<Algorithm>(std::atoi(argv[2]));
-  options.jobs = static_cast<unsigned>(std::atoi(argv[3]));
-  for (int i = 4; i < argc; i += 2) recipe.parameters[argv[i]] = std::atoll(argv[i + 1]);
+  options.area_algorithm = static_cast<AreaAlgorithm>(std::atoi(argv[3]));
+  options.jobs = static_cast<unsigned>(std::atoi(argv[4]));
+  for (int i = 5; i < argc; i += 2) recipe.parameters[argv[i]] = std::atoll(argv[i + 1]);
 
   const Scene scene = generated(recipe);
   ChildReport report;
@@ -122,15 +126,16 @@ int child_main(int argc, char** argv) {
   report.fragments = total_fragments(result);
   for (const LightResult& light : result.lights) {
     report.facing += light.facing_parts;
+    report.nodes += light.tree_nodes;
     for (const PartResult& part : light.parts) {
       report.lit_lower += part.lit.lower;
       report.lit_upper += part.lit.upper;
     }
   }
-  fmt::print("{} {} {} {} {} {} {} {} {} {} {} {}\n", report.polygons, report.facing,
-             report.fragments, report.prepare_wall, report.prepare_cpu, report.shadow_wall,
-             report.shadow_cpu, report.scene_bsp_cpu, report.lit_lower, report.lit_upper,
-             report.peak_bytes, report.shadow_bytes);
+  fmt::print("{} {} {} {} {} {} {} {} {} {} {} {} {}\n", report.polygons, report.facing,
+             report.fragments, report.nodes, report.prepare_wall, report.prepare_cpu,
+             report.shadow_wall, report.shadow_cpu, report.scene_bsp_cpu, report.lit_lower,
+             report.lit_upper, report.peak_bytes, report.shadow_bytes);
   return 0;
 }
 

@@ -13,7 +13,7 @@
 namespace gnomon::bench {
 
 struct ChildReport {
-  std::uint64_t polygons = 0, facing = 0, fragments = 0;
+  std::uint64_t polygons = 0, facing = 0, fragments = 0, nodes = 0;
   double prepare_wall = 0, prepare_cpu = 0;                   // seconds
   double shadow_wall = 0, shadow_cpu = 0, scene_bsp_cpu = 0;  // seconds
   double lit_lower = 0, lit_upper = 0;                        // sum of the certified bounds
@@ -26,7 +26,8 @@ struct ChildReport {
 
 /// Generates (not timed), prepares and classifies, kernel plane, on `jobs` threads (0: all). Ends
 /// the program with a message if the child fails.
-ChildReport run_in_child(const SceneRecipe& recipe, Algorithm algorithm, unsigned jobs);
+ChildReport run_in_child(const SceneRecipe& recipe, Algorithm algorithm, unsigned jobs,
+                         AreaAlgorithm area_algorithm = AreaAlgorithm::kReceiver);
 
 /// What the child does. Arguments: those after the word `child`. Returns the exit status.
 int child_main(int argc, char** argv);

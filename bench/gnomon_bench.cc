@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gnomon_bench [--short | --long] [PART...] [--benchmark_...]
 //
-// Parts: targets kernels papers scene-bsp pitfalls thickness; all but the last two by default. Exit
-// status: 0; 1 if exact kernels, algorithms or peers gave different answers, or fractions that do
-// not add up to 1; 2 bad usage. (`child` and its arguments are for the program itself: child.h.)
+// Parts: targets kernels area papers scene-bsp pitfalls thickness; all but the last two by default.
+// Exit status: 0; 1 if exact kernels, algorithms or peers gave different answers, or fractions that
+// do not add up to 1; 2 bad usage. (`child` and its arguments are for the program itself: child.h.)
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -24,6 +24,7 @@ constexpr const char* kUsage =
     "  targets    what the core was to reach beside what it does: doubles, other exact numbers,\n"
     "             peers (where built), growth, a million polygons, threads\n"
     "  kernels    every kernel on generic, degenerate and nearly degenerate scenes\n"
+    "  area       area lights: both algorithms, growth, Figure 8 of Chin & Feiner 1992\n"
     "  papers     the tables of Chin & Feiner 1989 and Slater 1992\n"
     "  scene-bsp  splits, depth, memory and time of the scene BSP\n"
     "  pitfalls   scenes that are known to hurt\n"
@@ -38,8 +39,9 @@ struct NamedPart {
   bool (*run)(gnomon::bench::Extent);
   bool usual;  // runs where no part is named
 };
-constexpr std::array<NamedPart, 6> kParts{{{"targets", gnomon::bench::run_targets, true},
+constexpr std::array<NamedPart, 7> kParts{{{"targets", gnomon::bench::run_targets, true},
                                            {"kernels", gnomon::bench::run_kernels, true},
+                                           {"area", gnomon::bench::run_area, true},
                                            {"papers", gnomon::bench::run_papers, true},
                                            {"scene-bsp", gnomon::bench::run_scene_bsp, true},
                                            {"pitfalls", gnomon::bench::run_pitfalls, false},

@@ -27,6 +27,8 @@ bool run_scene_bsp(Extent extent);
 /// The table of targets, and what it is made of. False if answers differ, of exact kernels, of the
 /// algorithms, or of a peer beyond its tolerance; a missed target is none of these.
 bool run_targets(Extent extent);
+/// Area lights: ratios, growth, and Figure 8 of Chin & Feiner 1992. False if answers differ.
+bool run_area(Extent extent);
 /// Scenes that are known to hurt, n = 250 to 4,000: pieces, time, growth.
 bool run_pitfalls(Extent extent);
 /// Pieces of the scene BSP of all polygons.

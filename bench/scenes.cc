@@ -70,6 +70,9 @@ Scene generated(const SceneRecipe& recipe, std::uint64_t seed) {
   }
   for (Light& light : scene->lights) {
     for (Number& number : light.position) number = scaled(number, scene->numbers);
+    for (Position& corner : light.loop) {
+      for (Number& number : corner) number = scaled(number, scene->numbers);
+    }
   }
   return std::move(*scene);
 }
