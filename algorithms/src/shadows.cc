@@ -30,9 +30,9 @@ KernelFunctions functions_of(KernelId kernel) {
     case KernelId::kLongDouble:
       return {shadows_long_double, area_long_double};
     case KernelId::kEpick:
-      return {shadows_epick, nullptr};
+      return {shadows_epick, area_epick};
     case KernelId::kEpeck:
-      return {shadows_epeck, nullptr};
+      return {shadows_epeck, area_epeck};
     case KernelId::kRational:
       return {shadows_rational, area_rational};
     case KernelId::kPlane:
@@ -122,9 +122,6 @@ Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowO
   if (functions.shadows == nullptr) return fail(ErrorCode::kUsage, "unknown kernel");
   const LightsByWay ways = split_by_way(scene, options, lights);
   if (ways.by_receiver.empty()) return functions.shadows(scene, options, lights);
-  if (functions.area == nullptr) {
-    return fail(ErrorCode::kUsage, "this kernel has no area lights yet", "double or rational");
-  }
   if (options.combined && lights.size() > 64) {
     return fail(ErrorCode::kLimit, std::to_string(lights.size()) + " lights together",
                 "at most 64");

@@ -187,7 +187,6 @@ std::string check_combined(const Case& scene, ShadowOptions options) {
 std::vector<ShadowOptions> variants() {
   std::vector<ShadowOptions> all;
   for (const KernelId kernel : kExactKernels) {
-    if (kernel == KernelId::kEpeck) continue;  // TODO
     ShadowOptions options = options_for(kernel);
     options.jobs = kernel == KernelId::kPlane ? 2 : 1;
     options.algorithm = kernel == KernelId::kRational ? Algorithm::kReceiver : Algorithm::kSectors;
