@@ -49,6 +49,9 @@ struct Illuminator::Data {
     signs.fetch_add(counts.all, std::memory_order_relaxed);
     exact_signs.fetch_add(counts.exact, std::memory_order_relaxed);
   }
+  bool suffices(const Ball& value) const {
+    return value.is_finite() && value.radius <= relative_error / 2 * (value.middle - value.radius);
+  }
   Illumination area(const Part& part, Side side, Apex apex, bool unobstructed, const Apex* inwards);
   Illumination point(const Part& part, Side side, const Apex& apex, bool unobstructed,
                      const Apex* inwards);
@@ -71,8 +74,13 @@ Illumination Illuminator::Data::area(const Part& part, Side side, Apex apex, boo
   }
   Illumination result;
   if (visible) {
-    const Ball quick = contour_integral(pieces, view, part, side, eye);
-    if (quick.is_finite() && quick.radius <= relative_error / 2 * (quick.middle - quick.radius)) {
+    // Enclosures of vertices are wide after many cuts: exact coordinates may do, rounded once.
+    Ball quick = contour_integral(pieces, view, part, side, eye);
+    if (!suffices(quick)) {
+      pieces.refine();
+      quick = contour_integral(pieces, view, part, side, eye);
+    }
+    if (suffices(quick)) {
       in_doubles.fetch_add(1, std::memory_order_relaxed);
       result = times(quick, intensity);
     } else {

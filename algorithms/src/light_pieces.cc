@@ -137,14 +137,24 @@ std::uint32_t LightPieces::crossing(PlaneRef edge, PlaneRef line, std::uint32_t 
   for (std::size_t k = 0; k < 2; ++k) vertex.near[k] = a[k] + t * (b[k] - a[k]);
   vertices_.push_back(std::move(vertex));
   const auto index = static_cast<std::uint32_t>(vertices_.size() - 1);
-  Vertex& made = vertices_.back();
+  const Vertex& made = vertices_.back();
   if (!(made.near[0].radius < kCoarse) || !(made.near[1].radius < kCoarse)) {
-    const ExactVector& point = exact(index);
-    for (std::size_t k = 0; k < 2; ++k) {
-      made.near[k] = rounded_ball(pair_of(point[k], point[2], 0).high);
-    }
+    enclose_exactly(index);
   }
   return index;
+}
+
+void LightPieces::enclose_exactly(std::uint32_t index) {
+  const ExactVector& point = exact(index);
+  for (std::size_t k = 0; k < 2; ++k) {
+    vertices_[index].near[k] = rounded_ball(pair_of(point[k], point[2], 0).high);
+  }
+}
+
+void LightPieces::refine() {
+  for (const Piece& piece : pieces_) {
+    for (const std::uint32_t vertex : piece.vertices) enclose_exactly(vertex);
+  }
 }
 
 void LightPieces::classify(PlaneRef line, const Piece& piece, Classified& result) {

@@ -57,6 +57,8 @@ class LightPieces {
   const std::array<Ball, 2>& near(std::uint32_t vertex) const { return vertices_[vertex].near; }
   /// Homogeneous chart coordinates (s w, t w, w), w > 0.
   const ExactVector& exact(std::uint32_t vertex);
+  /// Makes the enclosures of all vertices of pieces from their exact coordinates.
+  void refine();
   /// Twice the area of a piece in the chart.
   mpq_class twice_area(const Piece& piece);
 
@@ -83,6 +85,7 @@ class LightPieces {
   /// Enclosures of coordinates wider than this (the light is about 1) are made from exact ones.
   static constexpr double kCoarse = 0x1p-30;
 
+  void enclose_exactly(std::uint32_t vertex);
   const ExactVector& exact_line(std::uint32_t line);
   /// The sign of the line's value; `value` encloses it.
   Sign sign(PlaneRef line, std::uint32_t vertex, Ball& value);
