@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace gnomon {
 namespace {
@@ -281,6 +282,22 @@ void LightView::add_planes(LightShaft& shaft, PlaneId receiver, bool back) const
 void LightView::find_casters(const Apex& apex, PlaneId receiver, bool back,
                              std::vector<std::uint32_t>& found) const {
   tree_.find(shaft_of(apex, receiver, back), found);
+  // Only the work depends on this order: the more a caster hides, the less is left to be cut.
+  std::vector<std::pair<double, std::uint32_t>> keys;
+  keys.reserve(found.size());
+  for (const std::uint32_t caster : found) {
+    const ShaftBox& box = tree_.box(caster);
+    double size = 0, distance = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double extent = box.high[k] - box.low[k];
+      const double away = (box.high[k] + box.low[k]) / 2 - apex.near[k].high;
+      size += extent * extent;
+      distance += away * away;
+    }
+    keys.emplace_back(-size / distance, caster);
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t i = 0; i < found.size(); ++i) found[i] = keys[i].second;
 }
 
 void LightView::find_casters(std::span<const Apex> apexes, PlaneId receiver, bool back,

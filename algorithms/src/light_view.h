@@ -82,7 +82,8 @@ class LightView {
   };
   Sides sides_of(PlaneId plane) const;
 
-  /// Appends indices into casters() of all that may hide something from the apex. `receiver`, if
+  /// Appends indices into casters() of all that may hide something from the apex, those first that
+  /// look large from there. `receiver`, if
   /// not kNoPlane: the plane of the receiver, which looks to its front (or back, if `back`).
   static constexpr PlaneId kNoPlane = 0xffffffffu;
   void find_casters(const Apex& apex, PlaneId receiver, bool back,

@@ -50,6 +50,7 @@ class ShaftTree {
   explicit ShaftTree(std::vector<ShaftBox> boxes);
 
   /// Appends the casters whose boxes may reach into the shaft, in no particular order.
+  const ShaftBox& box(std::uint32_t caster) const { return boxes_[caster]; }
   void find(const LightShaft& shaft, std::vector<std::uint32_t>& found) const;
 
  private:

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "contour_integral.h"
+#include "gnomon/algorithms/shadows.h"
 #include "gnomon/algorithms/visible_light.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/random.h"
@@ -445,6 +446,77 @@ TEST(Illumination, OfPointAndDirectionalLights) {
   EXPECT_GT(at(sun, {2, 1, 0}), 0);
 }
 
+/// A point inside that hardly lies on a plane of the scene.
+ExactPoint3 odd_point(const ExactPoint3* loop, std::uint32_t count) {
+  ExactPoint3 sum;
+  long total = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const long weight = 1009 + 89 * static_cast<long>(i) + 7 * static_cast<long>(i * i);
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += weight * loop[i][k];
+    total += weight;
+  }
+  for (mpq_class& c : sum) c /= total;
+  return sum;
+}
+
+/// What the classes of fragments say about their vertices, seen from inside, and about a point
+/// inside. Counts fragments of each class.
+void expect_classes(const PreparedScene& scene, const std::string& what,
+                    std::array<std::size_t, 3>& fragments) {
+  ShadowOptions options;
+  options.keep_exact_points = true;
+  options.lights = {0};
+  const auto shadows = compute_shadows(scene, options);
+  ASSERT_TRUE(shadows);
+  const LightResult& light = shadows->lights[0];
+  const LightVisibility visibility(scene, 0);
+  for (const PartResult& part : light.parts) {
+    for (std::uint32_t f = 0; f < part.fragment_count; ++f) {
+      const Fragment& fragment = light.fragments[part.first_fragment + f];
+      const ExactPoint3* loop = light.exact_points.data() + fragment.first;
+      const ExactPoint3 inside = odd_point(loop, fragment.count);
+      const VisibleLight from_inside = visibility.at(part.part, part.side, inside);
+      switch (fragment.state) {
+        case LightState::kLit:
+          EXPECT_EQ(from_inside.visible, from_inside.in_front) << what;
+          EXPECT_GT(from_inside.visible, 0) << what;
+          ++fragments[0];
+          break;
+        case LightState::kPenumbra:
+          EXPECT_LT(from_inside.visible, from_inside.in_front) << what;
+          ++fragments[1];
+          break;
+        case LightState::kUmbra:
+        case LightState::kShadow:
+          EXPECT_EQ(from_inside.visible, 0) << what;
+          ++fragments[2];
+          break;
+      }
+      if (fragment.state == LightState::kPenumbra) continue;
+      for (std::uint32_t i = 0; i < fragment.count; ++i) {
+        const VisibleLight seen = visibility.at(part.part, part.side, loop[i], &inside);
+        if (fragment.state == LightState::kLit) {
+          EXPECT_EQ(seen.visible, seen.in_front) << what << ", part " << part.part;
+        } else {
+          EXPECT_EQ(seen.visible, 0) << what << ", part " << part.part;
+        }
+      }
+    }
+  }
+}
+
+TEST(VisibleLight, AgreesWithTheClassesOfFragmentsInsideAndAtTheirVertices) {
+  std::array<std::size_t, 3> fragments{};
+  Random random(16);
+  for (int round = 0; round < 250; ++round) {
+    expect_classes(soup(random, 4 + round % 10, 2 + round % 4), std::to_string(round), fragments);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(fragments[0], 500u);
+  EXPECT_GT(fragments[1], 500u);
+  EXPECT_GT(fragments[2], 200u);
+}
+
 TEST(Illumination, TimeOfRooms) {
   for (const char* name : {"paper-room", "room", "city"}) {
     if (generator_by_name(name) == nullptr) continue;
@@ -499,6 +571,38 @@ TEST(Illumination, TimeOfRooms) {
         static_cast<double>(counts.signs) / static_cast<double>(points),
         100.0 * static_cast<double>(counts.exact_signs) / static_cast<double>(counts.signs));
     EXPECT_EQ(counts.dark + counts.in_doubles + counts.in_mpfr, points);
+
+    // At vertices of penumbra fragments many signs are exactly zero.
+    ShadowOptions options;
+    options.keep_exact_points = true;
+    const auto shadows = compute_shadows(*prepared, options);
+    ASSERT_TRUE(shadows);
+    const LightResult& result = shadows->lights[0];
+    const Illuminator at_vertices(*prepared, 0, 1.0);
+    double busy = 0;
+    points = 0;
+    for (const PartResult& part : result.parts) {
+      for (std::uint32_t f = 0; f < part.fragment_count && points < 2000; ++f) {
+        const Fragment& fragment = result.fragments[part.first_fragment + f];
+        if (fragment.state != LightState::kPenumbra) continue;
+        const ExactPoint3* loop = result.exact_points.data() + fragment.first;
+        const ExactPoint3 inside = odd_point(loop, fragment.count);
+        const auto begin = std::chrono::steady_clock::now();
+        for (std::uint32_t i = 0; i < fragment.count; ++i, ++points) {
+          at_vertices.at(part.part, part.side, loop[i], false, &inside);
+        }
+        busy += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      }
+    }
+    const IlluminationCounts at = at_vertices.counts();
+    std::printf(
+        "  vertices of penumbra fragments: %.1f us each; %llu dark, %llu in MPFR; %.1f "
+        "casters, %.1f signs, %.2f %% exact\n",
+        1e6 * busy / static_cast<double>(points), static_cast<unsigned long long>(at.dark),
+        static_cast<unsigned long long>(at.in_mpfr),
+        static_cast<double>(at.casters) / static_cast<double>(points),
+        static_cast<double>(at.signs) / static_cast<double>(points),
+        100.0 * static_cast<double>(at.exact_signs) / static_cast<double>(at.signs));
   }
 }
 
