@@ -63,16 +63,10 @@ const Light& light_of(const LoadedScene& loaded, std::uint32_t light) {
 
 }  // namespace
 
-void add_illuminate_options(CLI::App& command, IlluminateOptions& options) {
-  CLI::Option* illuminate = command.add_flag(
-      "--illuminate", options.illuminate,
-      "Compute the illumination of the fragments' vertices, for --mesh or --stats (exact kernels)");
+CLI::Option* add_illuminate_options(CLI::App& command, IlluminateOptions& options,
+                                    const std::string& description) {
+  CLI::Option* illuminate = command.add_flag("--illuminate", options.illuminate, description);
   const auto add = [&](CLI::Option* option) { option->needs(illuminate); };
-  add(command
-          .add_option("--mesh", options.mesh,
-                      "The illuminated fragments as a mesh with a colour a vertex: .ply, .gltf or "
-                      ".glb")
-          ->type_name("FILE"));
   add(command
           .add_option(
               "--grid", options.grid,
@@ -96,16 +90,21 @@ void add_illuminate_options(CLI::App& command, IlluminateOptions& options) {
           ->check(not_negative())
           ->type_name("F"));
   add(command.add_flag("--tint", options.tint,
-                       "Colour the mesh by class: lit yellow, penumbra grey, umbra blue"));
+                       "Colour by class: lit yellow, penumbra grey, umbra blue"));
+  return illuminate;
+}
+
+void add_mesh_option(CLI::App& command, IlluminateOptions& options, CLI::Option* illuminate) {
+  command
+      .add_option("--mesh", options.mesh,
+                  "The illuminated fragments as a mesh with a colour a vertex: .ply, .gltf or .glb")
+      ->needs(illuminate)
+      ->type_name("FILE");
 }
 
 Expected<void> ask_for_illumination(const IlluminateOptions& options, const LoadedScene& loaded,
                                     const std::string& algorithm, ShadowOptions& shadows) {
   if (!options.illuminate) return {};
-  if (options.mesh.empty() && !options.stats) {
-    return fail(ErrorCode::kUsage, "--illuminate writes nothing by itself",
-                "--mesh FILE, or --stats");
-  }
   if (auto shading = shading_options(options, loaded); !shading) {
     return tl::unexpected(std::move(shading.error()));
   }
@@ -143,6 +142,21 @@ Expected<void> ask_for_illumination(const IlluminateOptions& options, const Load
     shadows.combined = true;
   }
   return {};
+}
+
+Expected<ShadingMesh> classified_and_shaded(const IlluminateOptions& options,
+                                            const LoadedScene& loaded, const std::string& algorithm,
+                                            unsigned jobs) {
+  ShadowOptions shadows;
+  shadows.lights = loaded.lights;
+  shadows.jobs = jobs;
+  shadows.interrupted = &interrupted();
+  if (auto done = ask_for_illumination(options, loaded, algorithm, shadows); !done) {
+    return tl::unexpected(std::move(done.error()));
+  }
+  const auto result = compute_shadows(loaded.prepared, shadows);
+  if (!result) return tl::unexpected(result.error());
+  return shaded(options, loaded, *result);
 }
 
 Expected<ShadingMesh> shaded(const IlluminateOptions& options, const LoadedScene& loaded,

@@ -25,13 +25,23 @@ struct IlluminateOptions {
   bool stats = false;  // --stats, which is another's option
 };
 
-void add_illuminate_options(CLI::App& command, IlluminateOptions& options);
+/// --illuminate with that description, and the options of how; returns --illuminate.
+CLI::Option* add_illuminate_options(CLI::App& command, IlluminateOptions& options,
+                                    const std::string& description);
+/// --mesh, which needs --illuminate.
+void add_mesh_option(CLI::App& command, IlluminateOptions& options, CLI::Option* illuminate);
 
 /// Errors: kUsage, for options that do not go together or that the scene's lights do not allow;
 /// before anything is computed. `algorithm`: as it was typed. Makes the classification keep what
 /// illumination needs.
 Expected<void> ask_for_illumination(const IlluminateOptions& options, const LoadedScene& loaded,
                                     const std::string& algorithm, ShadowOptions& shadows);
+
+/// Classifies by all lights chosen, and illuminates. Errors: as ask_for_illumination() and
+/// shaded().
+Expected<ShadingMesh> classified_and_shaded(const IlluminateOptions& options,
+                                            const LoadedScene& loaded, const std::string& algorithm,
+                                            unsigned jobs);
 
 /// Illuminates a result of those options. Errors: kUsage, kLimit, kInterrupted.
 Expected<ShadingMesh> shaded(const IlluminateOptions& options, const LoadedScene& loaded,

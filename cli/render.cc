@@ -13,6 +13,8 @@
 #include "gnomon/oracle/read_candidate.h"
 #include "gnomon/report/number_text.h"
 #include "gnomon/report/picture.h"
+#include "gnomon/report/shaded_picture.h"
+#include "illuminate.h"
 #include "jobs.h"
 #include "messages.h"
 #include "output.h"
@@ -31,6 +33,7 @@ struct RenderOptions {
   double field_of_view = 0;
   unsigned width = 960, height = 720;
   bool fragments = false, backs = false, no_legend = false;
+  IlluminateOptions illuminate;
   std::string output;
 };
 
@@ -108,6 +111,34 @@ Expected<std::vector<Algorithm>> chosen_algorithms(const RenderOptions& options)
   return std::vector{*algorithm};
 }
 
+/// The scene by all lights asked for, as their illumination has it.
+Expected<void> render_illuminated(const RenderOptions& options, const LoadedScene& loaded,
+                                  const report::Camera& camera) {
+  if (!options.result.empty() || !options.candidate.empty() || options.algorithm == kBothName) {
+    return fail(ErrorCode::kUsage, "--illuminate shows the exact answer",
+                "no RESULT, no --candidate, one algorithm");
+  }
+  const auto mesh =
+      classified_and_shaded(options.illuminate, loaded, options.algorithm, options.scene.jobs);
+  if (!mesh) return tl::unexpected(mesh.error());
+  report::ShadedPictureOptions picture;
+  picture.picture.camera = camera;
+  picture.picture.width = options.width;
+  picture.picture.height = options.height;
+  picture.picture.backs = options.backs;
+  picture.picture.fragments = options.fragments;
+  picture.picture.legend = !options.no_legend;
+  picture.picture.title = loaded.scene.name + ", illuminated";
+  picture.shade.exposure = options.illuminate.exposure;
+  picture.shade.tint = options.illuminate.tint;
+  auto output = Output::open(options.output);
+  if (!output) return tl::unexpected(output.error());
+  report::paint_shaded_scene(loaded.scene, loaded.prepared,
+                             back_to_front(loaded.prepared, camera.eye), *mesh, picture)
+      .write(*output);
+  return output->finish();
+}
+
 Expected<void> render(const RenderOptions& options) {
   const auto algorithms = chosen_algorithms(options);
   if (!algorithms) return tl::unexpected(algorithms.error());
@@ -116,6 +147,7 @@ Expected<void> render(const RenderOptions& options) {
   if (!loaded) return tl::unexpected(loaded.error());
   const auto camera = camera_of(options, loaded->prepared);
   if (!camera) return tl::unexpected(camera.error());
+  if (options.illuminate.illuminate) return render_illuminated(options, *loaded, *camera);
   const std::uint32_t light = loaded->lights.front();
   const std::string& id = loaded->scene.lights[light].id;
   loaded->lights = {light};
@@ -211,6 +243,8 @@ void add_render_command(CLI::App& app, Action& action) {
       ->type_name("FILE");
   command.add_flag("--fragments", options->fragments, "Draw the borders of fragments");
   command.add_flag("--backs", options->backs, "Paint the backs of one-sided polygons too");
+  add_illuminate_options(command, options->illuminate,
+                         "Paint what the surfaces receive from all lights chosen");
   command.add_flag("--no-legend", options->no_legend, "Leave out the legend");
   command.add_option("-o,--output", options->output, "SVG file; standard output if absent")
       ->type_name("FILE");

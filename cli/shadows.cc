@@ -77,6 +77,9 @@ int run_shadows(const ShadowsOptions& options) {
       !done) {
     return report_error(done.error());
   }
+  if (options.illuminate.illuminate && options.illuminate.mesh.empty() && !options.stats) {
+    return report_usage("--illuminate writes nothing by itself", "--mesh FILE, or --stats");
+  }
   PhaseTimes times;
   Stopwatch stopwatch;
   const auto result = compute_shadows(loaded->prepared, shadow_options);
@@ -146,7 +149,10 @@ void add_shadows_command(CLI::App& app, Action& action) {
                    "Leave sibling fragments as the tree cut them (svbsp)");
   command.add_flag("--no-prefix", options->no_prefix,
                    "Without the balanced prefix: the tree of the 1989 paper (svbsp)");
-  add_illuminate_options(command, options->illuminate);
+  add_mesh_option(command, options->illuminate,
+                  add_illuminate_options(command, options->illuminate,
+                                         "Compute the illumination of the fragments' vertices, for "
+                                         "--mesh or --stats (exact\nkernels)"));
   command.add_flag("--stats", options->stats,
                    "Print counts, times, memory and, for plane, who decided, to standard error");
   command.add_option("-o,--output", options->output, "Result file; standard output if absent")

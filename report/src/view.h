@@ -72,6 +72,10 @@ class View {
     }
     return pixel(seen);
   }
+  /// Back from the camera's axes to the scene.
+  Vector scene_point(const Vector& seen) const {
+    return eye_ + seen[0] * right_ + seen[1] * up_ + seen[2] * forward_;
+  }
   const Vector& eye() const { return eye_; }
 
  private:

@@ -121,6 +121,18 @@ TEST_F(Illuminate, RefusesWhatDoesNotGoTogether) {
   EXPECT_FALSE(std::filesystem::exists(mesh));
 }
 
+TEST_F(Illuminate, RenderPaintsIt) {
+  const std::string plain = run_gnomon({"render", scene_}).out;
+  const RunResult done = run_gnomon({"render", scene_, "--illuminate", "--grid", "1"});
+  EXPECT_EQ(done.status, 0) << done.err;
+  EXPECT_THAT(done.out, AllOf(HasSubstr("<svg"), HasSubstr("linearGradient"),
+                              HasSubstr("lights: bulb, sun;")));
+  EXPECT_THAT(plain, testing::Not(HasSubstr("linearGradient")));
+  const RunResult both = run_gnomon({"render", scene_, "--illuminate", "--algorithm", "both"});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("--illuminate shows the exact answer"));
+}
+
 TEST_F(Illuminate, AGridThatIsTooFineIsALimit) {
   const std::string mesh = directory_.file("mesh.ply");
   const RunResult done = run({"--illuminate", "--mesh", mesh, "--grid", "0.0001"});
