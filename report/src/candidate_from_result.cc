@@ -25,9 +25,9 @@ oracle::ShadeClass shade_of(LightState state) {
 }
 
 oracle::CandidateFragment whole_part(const PreparedScene& prepared, std::uint32_t part,
-                                     ShadowReason reason) {
+                                     bool area_light, ShadowReason reason) {
   oracle::CandidateFragment fragment;
-  fragment.shade = oracle::ShadeClass::kShadow;
+  fragment.shade = area_light ? oracle::ShadeClass::kUmbra : oracle::ShadeClass::kShadow;
   fragment.reason = reason_name(reason);
   const Geometry& geometry = prepared.geometry;
   for (VertexId vertex : prepared.loop(prepared.parts[part])) {
@@ -67,6 +67,7 @@ oracle::Candidate candidate_from_result(const Scene& scene, const PreparedScene&
   for (const LightResult& light : result.lights) {
     oracle::CandidateLight& judged = candidate.lights.emplace_back();
     judged.id = scene.lights[prepared.lights[light.light].light].id;
+    judged.per_caster_umbra = prepared.lights[light.light].type == LightType::kArea;
     for (std::uint32_t polygon = 0; polygon + 1 < prepared.first_part.size(); ++polygon) {
       for (const ClassifiedSide& side : polygon_sides(prepared, light, polygon, claim_fractions)) {
         oracle::CandidatePolygon& entry = judged.polygons.emplace_back();
@@ -75,11 +76,14 @@ oracle::Candidate candidate_from_result(const Scene& scene, const PreparedScene&
             side.side == Side::kBack ? oracle::PolygonSide::kBack : oracle::PolygonSide::kFront;
         entry.lit_fraction = side.exact_lit;
         entry.shadow_fraction = side.exact_shadow;
+        entry.penumbra_fraction = side.exact_penumbra;
+        entry.umbra_fraction = side.exact_umbra;
         const std::uint32_t first = prepared.first_part[polygon];
         for (std::uint32_t i = 0; i < side.parts.size(); ++i) {
           const PartSide& part = side.parts[i];
           if (part.reason != ShadowReason::kNone) {
-            entry.fragments.push_back(whole_part(prepared, first + i, part.reason));
+            entry.fragments.push_back(
+                whole_part(prepared, first + i, side.area_light, part.reason));
             continue;
           }
           for (std::uint32_t f = 0; f < part.result->fragment_count; ++f) {
@@ -90,6 +94,7 @@ oracle::Candidate candidate_from_result(const Scene& scene, const PreparedScene&
             if (fragment.caster != Fragment::kNoCaster) {
               judged_fragment.caster = scene.polygons[prepared.parts[fragment.caster].polygon].id;
             }
+            judged_fragment.reason = reason_name(fragment.reason);
             entry.fragments.push_back(std::move(judged_fragment));
           }
         }

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "gnomon/kernel/nearest_double.h"
 #include "gnomon/oracle/enclosure.h"
@@ -58,21 +59,68 @@ mpq_class precise_part_area(const PreparedScene& scene, const Part& part) {
   return area * scene.geometry.step * scene.geometry.step;
 }
 
-PartSide part_side(const PartResult& result, Side side) {
-  PartSide part;
-  part.result = &result;
-  if (result.reason != ShadowReason::kNone) {
-    part.reason = result.reason;
-  } else if (result.side != side) {
-    part.reason = ShadowReason::kFacesAway;
+/// The entries of one part: one for each side that sees an area light, else one.
+std::span<const PartResult> results_of(const LightResult& light, std::uint32_t part) {
+  const auto [first, last] =
+      std::ranges::equal_range(light.parts, part, std::ranges::less{}, &PartResult::part);
+  return {first, last};
+}
+
+PartSide part_side(const LightResult& light, bool area_light, std::uint32_t part, Side side) {
+  PartSide one;
+  one.area_light = area_light;
+  const std::span<const PartResult> results = results_of(light, part);
+  one.result = &results.front();
+  for (const PartResult& result : results) {
+    if (result.reason == ShadowReason::kNone && result.side == side) one.result = &result;
   }
-  if (part.reason == ShadowReason::kNone) {
-    part.lit = result.lit;
-    part.shadow = result.shadow;
-  } else {
-    part.shadow = {1, 1};
+  if (one.result->reason != ShadowReason::kNone) {
+    one.reason = one.result->reason;
+  } else if (one.result->side != side) {
+    one.reason = area_light ? ShadowReason::kBehindLight : ShadowReason::kFacesAway;
   }
-  return part;
+  if (one.reason != ShadowReason::kNone) {
+    (area_light ? one.umbra : one.shadow) = {1, 1};
+    return one;
+  }
+  one.lit = one.result->lit;
+  if (!area_light) {
+    one.shadow = one.result->shadow;
+    return one;
+  }
+  one.area_fractions =
+      &light.area_fractions[static_cast<std::size_t>(one.result - light.parts.data())];
+  one.penumbra = one.area_fractions->penumbra;
+  one.umbra = one.area_fractions->umbra;
+  return one;
+}
+
+Interval Shares::*share_member(LightState state) {
+  switch (state) {
+    case LightState::kLit:
+      return &Shares::lit;
+    case LightState::kShadow:
+      return &Shares::shadow;
+    case LightState::kPenumbra:
+      return &Shares::penumbra;
+    case LightState::kUmbra:
+      return &Shares::umbra;
+  }
+  return &Shares::lit;
+}
+
+std::optional<mpq_class> ClassifiedSide::*exact_member(LightState state) {
+  switch (state) {
+    case LightState::kLit:
+      return &ClassifiedSide::exact_lit;
+    case LightState::kShadow:
+      return &ClassifiedSide::exact_shadow;
+    case LightState::kPenumbra:
+      return &ClassifiedSide::exact_penumbra;
+    case LightState::kUmbra:
+      return &ClassifiedSide::exact_umbra;
+  }
+  return &ClassifiedSide::exact_lit;
 }
 
 /// Sum of weight * share over sum of weights, where the weights are exact.
@@ -82,56 +130,102 @@ void sum_exactly(const PreparedScene& scene, std::uint32_t first, bool exact,
   const std::array<mpz_class, 3> normal = doubled_area_vector(scene, scene.parts[first]);
   std::size_t axis = 0;
   while (normal[axis] == 0) ++axis;
-  std::vector<mpz_class> weights;
+  std::vector<mpz_class> areas;
   mpz_class total = 0;
   for (std::size_t i = 0; i < side.parts.size(); ++i) {
-    weights.push_back(abs(doubled_area_vector(scene, scene.parts[first + i])[axis]));
-    total += weights.back();
+    areas.push_back(abs(doubled_area_vector(scene, scene.parts[first + i])[axis]));
+    total += areas.back();
   }
-  Enclosure lit{0, 0}, shadow{0, 0};
-  mpq_class exact_lit = 0, exact_shadow = 0;
-  for (std::size_t i = 0; i < side.parts.size(); ++i) {
-    mpq_class weight(weights[i], total);
-    weight.canonicalize();
-    const Enclosure bounds = oracle::enclose(weight);
-    lit = lit + bounds * to_enclosure(side.parts[i].lit);
-    shadow = shadow + bounds * to_enclosure(side.parts[i].shadow);
-    if (exact) {
-      exact_lit += weight * exact_lit_share(side.parts[i]);
-      exact_shadow += weight * exact_shadow_share(side.parts[i]);
+  std::vector<mpq_class> weights;
+  for (const mpz_class& area : areas) {
+    weights.emplace_back(area, total);
+    weights.back().canonicalize();
+  }
+  for (const LightState state : light_states(side.area_light)) {
+    Enclosure sum{0, 0};
+    mpq_class exact_sum = 0;
+    for (std::size_t i = 0; i < side.parts.size(); ++i) {
+      sum = sum + oracle::enclose(weights[i]) * to_enclosure(share_of(side.parts[i], state));
+      if (exact) exact_sum += weights[i] * exact_share(side.parts[i], state);
     }
-  }
-  side.lit = to_interval(lit);
-  side.shadow = to_interval(shadow);
-  if (exact) {
-    side.exact_lit = std::move(exact_lit);
-    side.exact_shadow = std::move(exact_shadow);
+    side.*share_member(state) = to_interval(sum);
+    if (exact) side.*exact_member(state) = std::move(exact_sum);
   }
 }
 
 void sum_by_enclosure(const PreparedScene& scene, std::uint32_t first, ClassifiedSide& side) {
-  Enclosure total{0, 0}, lit{0, 0}, shadow{0, 0};
+  std::vector<Enclosure> areas;
+  Enclosure total{0, 0};
   for (std::size_t i = 0; i < side.parts.size(); ++i) {
-    const Enclosure area = to_enclosure(part_area(scene, scene.parts[first + i]));
-    total = total + area;
-    lit = lit + area * to_enclosure(side.parts[i].lit);
-    shadow = shadow + area * to_enclosure(side.parts[i].shadow);
+    areas.push_back(to_enclosure(part_area(scene, scene.parts[first + i])));
+    total = total + areas.back();
   }
   if (total.lower <= 0) return;
-  side.lit = to_interval(lit / total);
-  side.shadow = to_interval(shadow / total);
-  side.lit.upper = std::min(side.lit.upper, 1.0);
-  side.shadow.upper = std::min(side.shadow.upper, 1.0);
+  for (const LightState state : light_states(side.area_light)) {
+    Enclosure sum{0, 0};
+    for (std::size_t i = 0; i < side.parts.size(); ++i) {
+      sum = sum + areas[i] * to_enclosure(share_of(side.parts[i], state));
+    }
+    Interval& share = side.*share_member(state);
+    share = to_interval(sum / total);
+    share.upper = std::min(share.upper, 1.0);
+  }
+}
+
+/// Sign of the plane of `loop`, as it is oriented, at a grid point.
+Sign sign_at(const std::array<mpz_class, 3>& normal, const std::array<mpz_class, 3>& origin,
+             const std::array<mpz_class, 3>& point) {
+  mpz_class value = 0;
+  for (int k = 0; k < 3; ++k) value += normal[k] * (point[k] - origin[k]);
+  return sign_of(value);
+}
+
+std::array<mpz_class, 3> grid_point(const PreparedScene& scene, VertexId vertex) {
+  const GridPositions& grid = scene.geometry.grid;
+  return {grid.at(vertex, 0), grid.at(vertex, 1), grid.at(vertex, 2)};
+}
+
+/// Of three corners that are not in one line, which the corners of a prepared light are not.
+std::array<mpz_class, 3> light_normal(const PreparedLight& light) {
+  std::array<mpz_class, 3> normal;
+  const auto& loop = light.area_loop;
+  for (int k = 0; k < 3; ++k) {
+    const int u = (k + 1) % 3, v = (k + 2) % 3;
+    normal[k] = (loop[1][u] - loop[0][u]) * (loop[2][v] - loop[0][v]) -
+                (loop[1][v] - loop[0][v]) * (loop[2][u] - loop[0][u]);
+  }
+  return normal;
 }
 
 }  // namespace
 
-mpq_class exact_lit_share(const PartSide& part) {
-  return part.reason == ShadowReason::kNone ? part.result->exact_lit : mpq_class(0);
+std::span<const LightState> light_states(bool area_light) {
+  static constexpr std::array kPoint{LightState::kLit, LightState::kShadow};
+  static constexpr std::array kArea{LightState::kLit, LightState::kPenumbra, LightState::kUmbra};
+  return area_light ? std::span<const LightState>(kArea) : std::span<const LightState>(kPoint);
 }
 
-mpq_class exact_shadow_share(const PartSide& part) {
-  return part.reason == ShadowReason::kNone ? part.result->exact_shadow : mpq_class(1);
+const Interval& share_of(const Shares& shares, LightState state) {
+  return shares.*share_member(state);
+}
+
+const std::optional<mpq_class>& exact_share_of(const ClassifiedSide& side, LightState state) {
+  return side.*exact_member(state);
+}
+
+mpq_class exact_share(const PartSide& part, LightState state) {
+  if (part.reason != ShadowReason::kNone) return share_of(part, state).lower == 1 ? 1 : 0;
+  switch (state) {
+    case LightState::kLit:
+      return part.result->exact_lit;
+    case LightState::kShadow:
+      return part.result->exact_shadow;
+    case LightState::kPenumbra:
+      return part.area_light ? part.area_fractions->exact_penumbra : mpq_class(0);
+    case LightState::kUmbra:
+      return part.area_light ? part.area_fractions->exact_umbra : mpq_class(0);
+  }
+  return 0;
 }
 
 std::array<mpz_class, 3> doubled_area_vector(const PreparedScene& scene, const Part& part) {
@@ -158,6 +252,45 @@ Sign sign_at_light(const PreparedScene& scene, const Part& part, const LightPoin
   return sign_of(value);
 }
 
+bool sees_area_light(const PreparedScene& scene, const Part& part, Side side,
+                     const PreparedLight& light) {
+  if (side == Side::kBack && !part.two_sided) return false;
+  const std::array<mpz_class, 3> plane = doubled_area_vector(scene, part),
+                                 origin = grid_point(scene, scene.loop(part)[0]),
+                                 emitting = light_normal(light);
+  const Sign wanted = side == Side::kFront ? Sign::kPositive : Sign::kNegative;
+  return std::ranges::any_of(
+             light.area_loop,
+             [&](const auto& corner) { return sign_at(plane, origin, corner) == wanted; }) &&
+         std::ranges::any_of(scene.loop(part), [&](VertexId vertex) {
+           return sign_at(emitting, light.area_loop[0], grid_point(scene, vertex)) ==
+                  Sign::kPositive;
+         });
+}
+
+bool cuts_area_light(const PreparedScene& scene, const Part& part, const PreparedLight& light) {
+  const std::array<mpz_class, 3> plane = doubled_area_vector(scene, part),
+                                 origin = grid_point(scene, scene.loop(part)[0]);
+  bool front = false, back = false;
+  for (const std::array<mpz_class, 3>& corner : light.area_loop) {
+    const Sign sign = sign_at(plane, origin, corner);
+    front = front || sign == Sign::kPositive;
+    back = back || sign == Sign::kNegative;
+  }
+  return front && back;
+}
+
+bool reaches_behind(const PreparedScene& scene, const Part& part, const PreparedLight& light) {
+  const std::array<mpz_class, 3> emitting = light_normal(light);
+  bool front = false, back = false;
+  for (const VertexId vertex : scene.loop(part)) {
+    const Sign sign = sign_at(emitting, light.area_loop[0], grid_point(scene, vertex));
+    front = front || sign == Sign::kPositive;
+    back = back || sign == Sign::kNegative;
+  }
+  return front && back;
+}
+
 Interval part_area(const PreparedScene& scene, const Part& part) {
   mpq_class squared(squared_length(doubled_area_vector(scene, part)));
   const mpq_class step_squared = scene.geometry.step * scene.geometry.step;
@@ -182,12 +315,19 @@ mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon) {
 double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights) {
   double sum = 0;
   for (const Part& part : scene.parts) {
-    std::size_t facing = 0;
-    for (std::uint32_t light : lights) {
-      const Sign sign = sign_at_light(scene, part, scene.lights[light].point);
-      if (sign == Sign::kPositive || (sign == Sign::kNegative && part.two_sided)) ++facing;
+    std::size_t sides = 0;
+    for (const std::uint32_t index : lights) {
+      const PreparedLight& light = scene.lights[index];
+      if (light.type == LightType::kArea) {
+        for (const Side side : {Side::kFront, Side::kBack}) {
+          sides += sees_area_light(scene, part, side, light) ? 1 : 0;
+        }
+        continue;
+      }
+      const Sign sign = sign_at_light(scene, part, light.point);
+      if (sign == Sign::kPositive || (sign == Sign::kNegative && part.two_sided)) ++sides;
     }
-    if (facing > 0) sum += static_cast<double>(facing) * part_area(scene, part).middle();
+    if (sides > 0) sum += static_cast<double>(sides) * part_area(scene, part).middle();
   }
   return sum;
 }
@@ -195,18 +335,20 @@ double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>&
 std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const LightResult& light,
                                           std::uint32_t polygon, bool exact) {
   const std::uint32_t first = scene.first_part[polygon], last = scene.first_part[polygon + 1];
+  const bool area_light = scene.lights[light.light].type == LightType::kArea;
   std::vector<ClassifiedSide> sides;
   if (first == last) return sides;
   for (const Side side : {Side::kFront, Side::kBack}) {
+    const auto sees = [&](const PartResult& result) {
+      return result.reason == ShadowReason::kNone && result.side == side;
+    };
     for (std::uint32_t part = first; part < last; ++part) {
-      const PartResult& result = light.parts[part];
-      if (result.reason != ShadowReason::kNone || result.side != side) continue;
-      sides.push_back({});
-      sides.back().side = side;
+      if (!std::ranges::any_of(results_of(light, part), sees)) continue;
+      sides.emplace_back().side = side;
       break;
     }
   }
-  if (sides.empty()) sides.push_back({});
+  if (sides.empty()) sides.emplace_back();
 
   bool coplanar = true;
   for (std::uint32_t part = first; part < last; ++part) {
@@ -216,26 +358,22 @@ std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const Ligh
 
   for (ClassifiedSide& side : sides) {
     side.polygon = polygon;
+    side.area_light = area_light;
     side.coplanar = coplanar;
     side.area = area;
     for (std::uint32_t part = first; part < last; ++part) {
-      side.parts.push_back(part_side(light.parts[part], side.side));
+      side.parts.push_back(part_side(light, area_light, part, side.side));
     }
     side.reason = side.parts.front().reason;
     for (const PartSide& part : side.parts) {
       if (part.reason != side.reason) side.reason = ShadowReason::kNone;
     }
-    if (side.parts.size() == 1) {
+    if (side.parts.size() == 1 || side.reason != ShadowReason::kNone) {
       const PartSide& part = side.parts.front();
-      side.lit = part.lit;
-      side.shadow = part.shadow;
-      if (exact) {
-        side.exact_lit = exact_lit_share(part);
-        side.exact_shadow = exact_shadow_share(part);
+      for (const LightState state : light_states(area_light)) {
+        side.*share_member(state) = share_of(part, state);
+        if (exact) side.*exact_member(state) = exact_share(part, state);
       }
-    } else if (side.reason != ShadowReason::kNone) {
-      side.shadow = {1, 1};
-      if (exact) side.exact_lit = 0, side.exact_shadow = 1;
     } else if (coplanar) {
       sum_exactly(scene, first, exact, side);
     } else {
@@ -282,8 +420,10 @@ FacingShare facing_share(const PreparedScene& scene, const LightResult& light) {
     if (first == last) continue;
     bool faces = false, in_plane = true;
     for (std::uint32_t part = first; part < last; ++part) {
-      faces = faces || light.parts[part].reason == ShadowReason::kNone;
-      in_plane = in_plane && light.parts[part].reason == ShadowReason::kLightInPlane;
+      for (const PartResult& result : results_of(light, part)) {
+        faces = faces || result.reason == ShadowReason::kNone;
+        in_plane = in_plane && result.reason == ShadowReason::kLightInPlane;
+      }
     }
     ++(faces ? share.facing : in_plane ? share.in_plane : share.away);
   }

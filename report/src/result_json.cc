@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnomon/report/result_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -58,9 +59,21 @@ class ResultWriter {
     json_.end_array();
   }
 
-  /// Fragments of each polygon's side with the lights that reach all of them: the pipeline of
-  /// lights.
+  /// The ids of the lights whose bits are set.
+  void write_lights(std::string_view name, std::uint64_t bits) {
+    json_.key(name);
+    json_.begin_array(JsonLayout::kInline);
+    for (std::size_t light = 0; light < result_.lights.size(); ++light) {
+      if (bits >> light & 1) json_.value(light_id(result_.lights[light]));
+    }
+    json_.end_array();
+  }
+
+  /// Fragments of each polygon's side with the lights that reach all of them, and those that they
+  /// are in the penumbra of: the pipeline of lights.
   void write_combined() {
+    const bool any_area = std::ranges::any_of(
+        result_.lights, [&](const LightResult& light) { return is_area(light); });
     json_.key("combined");
     json_.begin_array();
     for (std::size_t i = 0; i < result_.combined.size();) {
@@ -77,12 +90,8 @@ class ResultWriter {
            ++i) {
         const CombinedFragment& fragment = result_.combined[i];
         json_.begin_object(JsonLayout::kInline);
-        json_.key("lit_by");
-        json_.begin_array(JsonLayout::kInline);
-        for (std::size_t light = 0; light < result_.lights.size(); ++light) {
-          if (fragment.lit_by >> light & 1) json_.value(light_id(result_.lights[light]));
-        }
-        json_.end_array();
+        write_lights("lit_by", fragment.lit_by);
+        if (any_area) write_lights("penumbra_of", fragment.penumbra_of);
         write_loops(result_.combined_points, result_.combined_exact_points, fragment.first,
                     fragment.count);
         json_.end_object();
@@ -111,9 +120,15 @@ class ResultWriter {
     return scene_.lights[prepared_.lights[light.light].light].id;
   }
 
+  bool is_area(const LightResult& light) const {
+    return prepared_.lights[light.light].type == LightType::kArea;
+  }
+
   void write_light(const LightResult& light) {
     json_.begin_object();
     json_.member("id", light_id(light));
+    // Umbra is where one caster alone hides all of the light.
+    if (is_area(light)) json_.member("umbra", "per-caster");
     const FacingShare facing = facing_share(prepared_, light);
     json_.key("facing");
     json_.begin_object(JsonLayout::kInline);
@@ -145,8 +160,10 @@ class ResultWriter {
     const double area = nearest_double(side.area);
     if (!std::isfinite(area)) find("polygon " + id + ": its area is beyond the range of doubles");
     json_.member("area", area);
-    write_share("lit", light, side, area, side.lit, side.exact_lit);
-    write_share("shadow", light, side, area, side.shadow, side.exact_shadow);
+    for (const LightState state : light_states(side.area_light)) {
+      write_share(state_name(state), light, side, area, share_of(side, state),
+                  exact_share_of(side, state));
+    }
     if (side.reason != ShadowReason::kNone) json_.member("reason", reason_name(side.reason));
     if (has_parts) write_parts(side);
     if (options_.fragments || options_.exact_loops) write_fragments(light, side);
@@ -197,12 +214,12 @@ class ResultWriter {
       json_.begin_object(JsonLayout::kInline);
       json_.member("part", i);
       json_.member("area", nearest_area(prepared_, prepared_.parts[first + i]));
-      if (options_.exact_fractions) {
-        json_.member("lit", exact_lit_share(part).get_str());
-        json_.member("shadow", exact_shadow_share(part).get_str());
-      } else {
-        json_.member("lit", part.lit.middle());
-        json_.member("shadow", part.shadow.middle());
+      for (const LightState state : light_states(side.area_light)) {
+        if (options_.exact_fractions) {
+          json_.member(state_name(state), exact_share(part, state).get_str());
+        } else {
+          json_.member(state_name(state), share_of(part, state).middle());
+        }
       }
       if (part.reason != ShadowReason::kNone) json_.member("reason", reason_name(part.reason));
       json_.end_object();
@@ -217,8 +234,8 @@ class ResultWriter {
     for (std::uint32_t i = 0; i < side.parts.size(); ++i) {
       const PartSide& part = side.parts[i];
       if (part.reason != ShadowReason::kNone) {
-        if (is_listed(LightState::kShadow))
-          write_whole_part(prepared_.parts[first + i], part.reason);
+        const LightState dark = side.area_light ? LightState::kUmbra : LightState::kShadow;
+        if (is_listed(dark)) write_whole_part(prepared_.parts[first + i], dark, part.reason);
         continue;
       }
       for (std::uint32_t f = 0; f < part.result->fragment_count; ++f) {
@@ -267,10 +284,10 @@ class ResultWriter {
     }
   }
 
-  void write_whole_part(const Part& part, ShadowReason reason) {
+  void write_whole_part(const Part& part, LightState dark, ShadowReason reason) {
     const Geometry& geometry = prepared_.geometry;
     json_.begin_object(JsonLayout::kInline);
-    json_.member("class", "shadow");
+    json_.member("class", state_name(dark));
     if (options_.fragments) {
       write_loop("loop", prepared_.loop(part),
                  [&](VertexId vertex) { write_point(geometry.positions[vertex]); });
@@ -294,6 +311,9 @@ class ResultWriter {
     write_loops(light.points, light.exact_points, fragment.first, fragment.count);
     if (fragment.caster != Fragment::kNoCaster) {
       json_.member("caster", scene_.polygons[prepared_.parts[fragment.caster].polygon].id);
+    }
+    if (fragment.reason != ShadowReason::kNone) {
+      json_.member("reason", reason_name(fragment.reason));
     }
     json_.end_object();
   }

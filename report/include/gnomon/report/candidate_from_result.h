@@ -15,7 +15,8 @@ namespace gnomon::report {
 
 /// Uses LightResult::exact_points where they were kept, else `points`. A fragment with a vertex
 /// that is no finite number cannot be judged and is left out: its area counts as uncovered. Exact
-/// fractions are claimed if `claim_fractions` (they must have been computed).
+/// fractions are claimed if `claim_fractions` (they must have been computed). Umbra of area lights
+/// is claimed per caster.
 oracle::Candidate candidate_from_result(const Scene& scene, const PreparedScene& prepared,
                                         const ShadowResult& result, std::string name,
                                         bool claim_fractions);
