@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An algorithm as it is named on the command line: `auto`, `svbsp`, `sectors`.
+// Algorithms as they are named on the command line: `sectors` and `svbsp` for point and directional
+// lights, `receiver` and `merged` for area lights, `auto`, `both`.
 #ifndef GNOMON_CLI_ALGORITHM_CHOICE_H
 #define GNOMON_CLI_ALGORITHM_CHOICE_H
 
@@ -7,36 +8,46 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/error.h"
+#include "scene_options.h"
 
 namespace gnomon::cli {
 
 inline constexpr std::string_view kAutomaticName = "auto";
-inline constexpr std::string_view kSvbspName = "svbsp";
-inline constexpr std::string_view kSectorsName = "sectors";
-inline constexpr std::string_view kReceiverName = "receiver";
 /// For commands that take each of them.
 inline constexpr std::string_view kBothName = "both";
 
 /// --algorithm, into `name`.
 CLI::Option* add_algorithm_option(CLI::App& command, std::string& name);
 
-/// An option of the command line that only svbsp can serve, and whether it was given.
-struct SvbspOption {
+/// An option of the command line that only some algorithms can serve, and whether it was given.
+struct NeedyOption {
   std::string_view name;  // such as "--combined"
   bool given = false;
+  bool receiver_can = false;  // svbsp can anyhow
 };
 
-/// The name that parse_algorithm_choice() knows it by.
-std::string_view name_of(Algorithm algorithm);
+struct AlgorithmChoice {
+  Algorithm point = Algorithm::kSectors;  // for point and directional lights
+  AreaAlgorithm area = AreaAlgorithm::kReceiver;
 
-/// `auto` is sectors, or svbsp if one of `needs` was given. Errors: kUsage, for an unknown name
-/// (`also`: what the command takes besides), and for sectors if one of `needs` was given.
-Expected<Algorithm> parse_algorithm_choice(std::string_view name,
-                                           std::initializer_list<SvbspOption> needs = {},
-                                           std::string_view also = {});
+  /// Such as "sectors", "merged" or "sectors+receiver", by the lights that there are.
+  std::string name(const LoadedScene& loaded) const;
+  friend bool operator==(const AlgorithmChoice&, const AlgorithmChoice&) = default;
+};
+
+/// `auto` is sectors and receiver; where one of `needs` was given svbsp stands for sectors, unless
+/// `sectors` was asked for by name. Errors: kUsage, for an unknown name (`also`: what the command
+/// takes besides), and for an algorithm that cannot do what was asked.
+Expected<AlgorithmChoice> parse_algorithm_choice(std::string_view name,
+                                                 std::initializer_list<NeedyOption> needs = {},
+                                                 std::string_view also = {});
+
+/// What `both` stands for: sectors and receiver, then svbsp and merged.
+std::vector<AlgorithmChoice> both_algorithms();
 
 }  // namespace gnomon::cli
 

@@ -69,8 +69,8 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
   return kernels;
 }
 
-Expected<std::vector<Algorithm>> chosen_algorithms(const CertifyCommandOptions& options) {
-  if (options.algorithm == kBothName) return std::vector{Algorithm::kSectors, Algorithm::kSvbsp};
+Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const CertifyCommandOptions& options) {
+  if (options.algorithm == kBothName) return both_algorithms();
   const auto algorithm =
       parse_algorithm_choice(options.algorithm, {{"--explain", options.explain}}, kBothName);
   if (!algorithm) return tl::unexpected(algorithm.error());
@@ -93,7 +93,6 @@ class CertifyRun {
       certificate_.scene_findings.push_back(
           (finding.polygon.empty() ? "" : "polygon " + finding.polygon + ": ") + finding.text);
     }
-    certificate_.left_out = loaded.area_lights;
     for (std::uint32_t light : loaded.lights) {
       certificate_.lights.push_back(loaded.scene.lights[light].id);
     }
@@ -117,10 +116,11 @@ class CertifyRun {
   }
 
   /// `full_name`: the run is named after its algorithm too.
-  Expected<void> run_kernel(const KernelChoice& kernel, Algorithm algorithm, bool full_name) {
+  Expected<void> run_kernel(const KernelChoice& kernel, const AlgorithmChoice& algorithm,
+                            bool full_name) {
     report::JudgedRun run;
     run.kernel = kernel.name();
-    run.algorithm = name_of(algorithm);
+    run.algorithm = algorithm.name(loaded_);
     run.name = full_name ? run.kernel + '/' + run.algorithm : run.kernel;
     run.exact = kernel.exact();
     run.identity = kernel.identity;
@@ -149,7 +149,8 @@ class CertifyRun {
     }
     auto candidate =
         report::candidate_from_result(loaded_.scene, loaded_.prepared, *result, run.name, false);
-    const bool explained = options_.explain && !kernel.exact() && algorithm == Algorithm::kSvbsp;
+    const bool explained =
+        options_.explain && !kernel.exact() && algorithm.point == Algorithm::kSvbsp;
     return judge(std::move(run), std::move(candidate),
                  explained ? std::optional(kernel) : std::nullopt);
   }
@@ -178,9 +179,10 @@ class CertifyRun {
   }
 
  private:
-  ShadowOptions options_of(const KernelChoice& kernel, Algorithm algorithm) {
+  ShadowOptions options_of(const KernelChoice& kernel, const AlgorithmChoice& algorithm) {
     ShadowOptions shadow_options;
-    shadow_options.algorithm = algorithm;
+    shadow_options.algorithm = algorithm.point;
+    shadow_options.area_algorithm = algorithm.area;
     shadow_options.jobs = options_.scene.jobs;
     shadow_options.kernel = kernel.kernel;
     shadow_options.identity = kernel.identity;
@@ -239,7 +241,13 @@ class CertifyRun {
 
   std::string first_difference(const KernelChoice& kernel) {
     progress_.set_label("explaining " + kernel.name());
-    const auto difference = explain(loaded_.prepared, options_of(kernel, Algorithm::kSvbsp));
+    ShadowOptions shadow_options = options_of(kernel, {.point = Algorithm::kSvbsp});
+    // The lock-step knows the point and directional lights alone.
+    std::erase_if(shadow_options.lights, [&](std::uint32_t light) {
+      return loaded_.prepared.lights[light].type == LightType::kArea;
+    });
+    if (shadow_options.lights.empty()) return "only of point and directional lights";
+    const auto difference = explain(loaded_.prepared, shadow_options);
     progress_.clear();
     if (!difference) return to_string(difference.error());
     if (!*difference) return "none: every decision was right, only vertices were rounded";
@@ -274,7 +282,7 @@ int run_certify(const CertifyCommandOptions& options) {
       break;
     }
   }
-  for (const Algorithm algorithm : *algorithms) {
+  for (const AlgorithmChoice& algorithm : *algorithms) {
     for (const KernelChoice& kernel : *kernels) {
       if (interrupted()) run.set_interrupted();
       if (run.certificate().interrupted) break;
@@ -325,8 +333,9 @@ void add_certify_command(CLI::App& app, Action& action) {
       ->type_name("K");
   add_algorithm_option(command, options->algorithm)
       ->description(
-          "How kernels find shadows: sectors, svbsp, both one after the other, or auto:\n"
-          "sectors, or svbsp with --explain");
+          "How kernels find shadows: sectors or svbsp (point and directional lights), receiver\n"
+          "or merged (area lights), both one after the other, or auto: sectors, or svbsp with\n"
+          "--explain, and receiver");
   repeatable(command.add_option("--candidate", options->candidates,
                                 "A result file to judge instead (repeatable)"))
       ->type_name("RESULT");

@@ -114,9 +114,11 @@ class Pictures {
 
 }  // namespace
 
-Expected<oracle::Candidate> exact_fragments(const LoadedScene& loaded, Algorithm algorithm) {
+Expected<oracle::Candidate> exact_fragments(const LoadedScene& loaded,
+                                            const AlgorithmChoice& algorithm) {
   ShadowOptions options;
-  options.algorithm = algorithm;
+  options.algorithm = algorithm.point;
+  options.area_algorithm = algorithm.area;
   options.lights = loaded.lights;
   options.keep_points = true;
   options.interrupted = &interrupted();

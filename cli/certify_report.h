@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "gnomon/algorithms/shadows.h"
+#include "algorithm_choice.h"
 #include "gnomon/oracle/candidate.h"
 #include "gnomon/report/certificate.h"
 #include "scene_options.h"
@@ -26,7 +26,7 @@ Expected<void> write_certificate_report(const std::filesystem::path& directory,
 /// The exact answer of the chosen lights as the kernel `plane` has it, for pictures. Errors:
 /// kInterrupted, kLimit.
 Expected<oracle::Candidate> exact_fragments(const LoadedScene& loaded,
-                                            Algorithm algorithm = Algorithm::kAutomatic);
+                                            const AlgorithmChoice& algorithm = {});
 
 }  // namespace gnomon::cli
 

@@ -98,13 +98,13 @@ tl::unexpected<Error> missing_light(const std::string& file, const std::string& 
               "a result of this light; --light chooses another", where);
 }
 
-Expected<std::vector<Algorithm>> chosen_algorithms(const RenderOptions& options) {
+Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const RenderOptions& options) {
   if (options.algorithm == kBothName) {
     if (!options.result.empty() || !options.candidate.empty()) {
       return fail(ErrorCode::kUsage, "--algorithm both shows exact answers",
                   "no RESULT and no --candidate");
     }
-    return std::vector{Algorithm::kSectors, Algorithm::kSvbsp};
+    return both_algorithms();
   }
   const auto algorithm = parse_algorithm_choice(options.algorithm, {}, kBothName);
   if (!algorithm) return tl::unexpected(algorithm.error());
@@ -175,12 +175,12 @@ Expected<void> render(const RenderOptions& options) {
     panels.push_back({{}, keep(std::move(*result)), nullptr, {}});
     if (panels.back().shown == nullptr) return missing_light(options.result, id);
   } else {
-    for (const Algorithm algorithm : *algorithms) {
+    for (const AlgorithmChoice& algorithm : *algorithms) {
       auto exact = exact_fragments(*loaded, algorithm);
       if (!exact) return tl::unexpected(exact.error());
       panels.push_back({{}, keep(std::move(*exact)), nullptr, {}});
       if (algorithms->size() > 1) {
-        panels.back().caption = std::string(name_of(algorithm)) + ": " +
+        panels.back().caption = algorithm.name(*loaded) + ": " +
                                 report::grouped(fragment_count(*panels.back().shown)) +
                                 " fragments";
       }
@@ -219,8 +219,8 @@ void add_render_command(CLI::App& app, Action& action) {
       ->type_name("FILE");
   add_algorithm_option(command, options->algorithm)
       ->description(
-          "How the exact answer is found: sectors, svbsp, auto (= sectors), or both side\n"
-          "by side");
+          "How the exact answer is found: sectors or svbsp (point and directional lights),\n"
+          "receiver or merged (area lights), auto (sectors, receiver), or both side by side");
   command.add_option("--eye", options->eye, "Where the eye is [above a corner of the scene]")
       ->type_name("x,y,z");
   command.add_option("--look-at", options->look_at, "What it looks at [the middle of the scene]")

@@ -20,7 +20,7 @@ void print_warnings(const std::string& file, const std::vector<std::string>& war
 
 std::string listed_ids(const Scene& scene) {
   constexpr std::size_t kMost = 8;
-  if (scene.lights.empty()) return "a light in the scene, --point or --sun: there is none";
+  if (scene.lights.empty()) return "a light in the scene, --point, --sun or --area: there is none";
   std::string text = "one of: ";
   for (std::size_t i = 0; i < scene.lights.size() && i < kMost; ++i) {
     if (i > 0) text += ", ";
@@ -118,30 +118,15 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) 
     if (light == lights.end()) {
       return fail(ErrorCode::kUsage, "--light " + id + ": no such light", listed_ids(loaded.scene));
     }
-    if (light->type == LightType::kArea) {
-      return fail(ErrorCode::kUsage, "--light " + id + ": this is an area light",
-                  "a point or directional light: this version classifies no others");
-    }
   }
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
     const bool asked = options.lights.empty() ||
                        std::ranges::find(options.lights, lights[i].id) != options.lights.end();
-    if (!asked) continue;
-    if (lights[i].type == LightType::kArea) {
-      loaded.area_lights.push_back(lights[i].id);
-    } else {
-      loaded.lights.push_back(i);
-    }
+    if (asked) loaded.lights.push_back(i);
   }
-  if (!needs_light) return loaded;
-  for (const std::string& id : loaded.area_lights) {
-    warn("light " + id +
-         " is an area light and left out; only point and directional lights are "
-         "classified by this version");
-  }
-  if (loaded.lights.empty()) {
-    return fail(ErrorCode::kUsage, loaded.scene.file + ": there is no point or directional light",
-                "one in the scene, or --point=x,y,z or --sun=x,y,z");
+  if (needs_light && loaded.lights.empty()) {
+    return fail(ErrorCode::kUsage, loaded.scene.file + ": there is no light",
+                "one in the scene, or --point=x,y,z, --sun=x,y,z or --area=x,y,z:x,y,z:...");
   }
   return loaded;
 }

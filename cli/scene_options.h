@@ -32,9 +32,7 @@ void add_numbers_option(CLI::App& command, std::string& numbers);
 struct LoadedScene {
   Scene scene;
   PreparedScene prepared;
-  std::vector<std::uint32_t> lights;     // point and directional lights asked for, in file order:
-                                         // indices into both scenes' lights
-  std::vector<std::string> area_lights;  // ids of area lights that were left out
+  std::vector<std::uint32_t> lights;  // asked for, in file order: indices into both scenes' lights
   Seconds reading, preparation;
 };
 
@@ -44,9 +42,8 @@ std::optional<NumberMeaning> numbers_asked(const std::string& numbers);
 /// Reads the scene and adds the command line's lights; prints warnings.
 Expected<Scene> read_scene_with_lights(const SceneOptions& options);
 
-/// The same, prepared and with the lights chosen; warns of area lights. Errors: those of reading
-/// and preparing; kUsage for an unknown --light or one of an area light, and for a scene that is
-/// left without any light if `needs_light`.
+/// The same, prepared and with the lights chosen. Errors: those of reading and preparing; kUsage
+/// for an unknown --light, and for a scene that is left without any light if `needs_light`.
 Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light);
 
 }  // namespace gnomon::cli

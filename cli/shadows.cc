@@ -2,6 +2,7 @@
 // gnomon shadows: classify a scene on one kernel and write the result.
 #include "gnomon/algorithms/shadows.h"
 
+#include <array>
 #include <memory>
 
 #include "algorithm_choice.h"
@@ -30,9 +31,9 @@ struct ShadowsOptions {
   bool identity = false;
   double thickness = kDefaultThickness;
   bool fragments = false, exact_fractions = false, exact_loops = false;
-  bool lit_only = false, shadow_only = false;
+  bool lit_only = false, shadow_only = false, penumbra_only = false, umbra_only = false;
   bool combined = false;
-  bool no_merge = false, no_prefix = false;
+  bool no_merge = false, no_prefix = false, pieces = false;
   bool stats = false;
   IlluminateOptions illuminate;
   std::string output;
@@ -41,11 +42,17 @@ struct ShadowsOptions {
 int run_shadows(const ShadowsOptions& options) {
   auto kernel = parse_kernel_choice(options.kernel);
   if (!kernel) return report_error(kernel.error());
-  const auto algorithm =
-      parse_algorithm_choice(options.algorithm, {{"--combined", options.combined},
+  auto algorithm =
+      parse_algorithm_choice(options.algorithm, {{"--combined", options.combined, true},
                                                  {"--no-merge", options.no_merge},
                                                  {"--no-prefix", options.no_prefix}});
   if (!algorithm) return report_error(algorithm.error());
+  if (options.pieces) {
+    if (algorithm->point == Algorithm::kReceiver) {
+      return report_usage("--pieces needs merged, not receiver", "--algorithm merged, or auto");
+    }
+    algorithm->area = AreaAlgorithm::kPieces;
+  }
   if ((options.exact_fractions || options.exact_loops) && !kernel->exact()) {
     const std::string option = options.exact_fractions ? "--exact-fractions" : "--exact-loops";
     return report_usage(option + ": kernel " + kernel->name() + " rounds",
@@ -58,7 +65,8 @@ int run_shadows(const ShadowsOptions& options) {
   ProgressBar progress("shadows");
   ShadowOptions shadow_options;
   shadow_options.kernel = kernel->kernel;
-  shadow_options.algorithm = *algorithm;
+  shadow_options.algorithm = algorithm->point;
+  shadow_options.area_algorithm = algorithm->area;
   shadow_options.jobs = options.scene.jobs;
   shadow_options.identity = options.identity || kernel->identity;
   shadow_options.thickness = kernel->thin ? 0 : options.thickness;
@@ -96,6 +104,8 @@ int run_shadows(const ShadowsOptions& options) {
   json_options.interrupted = &interrupted();
   if (options.lit_only) json_options.only = LightState::kLit;
   if (options.shadow_only) json_options.only = LightState::kShadow;
+  if (options.penumbra_only) json_options.only = LightState::kPenumbra;
+  if (options.umbra_only) json_options.only = LightState::kUmbra;
   auto output = Output::open(options.output);
   if (!output) return report_error(output.error());
   output->give_up_if(interrupted());
@@ -140,11 +150,21 @@ void add_shadows_command(CLI::App& app, Action& action) {
                    "Write fractions as exact rationals \"p/q\" (exact kernels)");
   command.add_flag("--exact-loops", options->exact_loops,
                    "Write fragments with exact rational coordinates (exact kernels)");
-  command.add_flag("--combined", options->combined,
-                   "Also write fragments with the set of lights that reach each of them (svbsp)");
-  auto* lit_only = command.add_flag("--lit-only", options->lit_only, "List lit fragments only");
-  command.add_flag("--shadow-only", options->shadow_only, "List shadow fragments only")
-      ->excludes(lit_only);
+  command.add_flag(
+      "--combined", options->combined,
+      "Also write fragments with the set of lights that reach each of them (svbsp, or\n"
+      "receiver)");
+  command.add_flag("--pieces", options->pieces,
+                   "Area lights as in 1992: cut by the planes of polygons, classes for each piece");
+  const std::array<CLI::Option*, 4> only{
+      command.add_flag("--lit-only", options->lit_only, "List lit fragments only"),
+      command.add_flag("--shadow-only", options->shadow_only,
+                       "List fragments that are not lit: shadow, penumbra and umbra"),
+      command.add_flag("--penumbra-only", options->penumbra_only, "List penumbra fragments only"),
+      command.add_flag("--umbra-only", options->umbra_only, "List umbra fragments only")};
+  for (std::size_t i = 0; i < only.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) only[i]->excludes(only[j]);
+  }
   command.add_flag("--no-merge", options->no_merge,
                    "Leave sibling fragments as the tree cut them (svbsp)");
   command.add_flag("--no-prefix", options->no_prefix,

@@ -101,9 +101,8 @@ int run_verify(const VerifyOptions& options) {
   oracle::WitnessOptions witness_options;
   witness_options.tolerance = options.tolerance;
   witness_options.width = options.width;
-  // Lights left out by --light, or not classified by this version, are not missed.
-  witness_options.subset =
-      options.subset || !options.scene.lights.empty() || !loaded->area_lights.empty();
+  // Lights left out by --light are not missed.
+  witness_options.subset = options.subset || !options.scene.lights.empty();
   witness_options.progress = progress.callback();
   witness_options.interrupted = &interrupted();
   const auto report =

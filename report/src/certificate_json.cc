@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
 #include "gnomon/report/certificate.h"
 #include "gnomon/report/json_writer.h"
 
@@ -59,7 +61,8 @@ void write_witness(JsonWriter& json, const oracle::Witness& witness) {
   json.end_object();
 }
 
-void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals) {
+/// `areas`: there are area lights.
+void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals, bool areas) {
   json.key("totals");
   json.begin_object();
   json.member("polygons", totals.polygons);
@@ -78,6 +81,11 @@ void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals) {
   write_enclosure(json, "area", totals.area);
   write_enclosure(json, "lit", totals.lit);
   write_enclosure(json, "shadow", totals.shadow);
+  if (areas) {
+    write_enclosure(json, "penumbra", totals.penumbra);
+    write_enclosure(json, "umbra", totals.umbra);
+    write_enclosure(json, "missing_umbra", totals.missing_umbra);
+  }
   write_enclosure(json, "misclassified", totals.misclassified);
   write_enclosure(json, "uncovered", totals.uncovered);
   write_enclosure(json, "overlapping", totals.overlapping);
@@ -88,13 +96,23 @@ void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals) {
   json.end_object();
 }
 
+bool has_area_light(const Scene& scene) {
+  return std::ranges::any_of(scene.lights,
+                             [](const Light& light) { return light.type == LightType::kArea; });
+}
+
 bool is_wrong(const oracle::PolygonComparison& polygon) {
   return polygon.regions > 0 || polygon.off_plane.upper > 0 || polygon.self_crossing > 0 ||
          polygon.inconsistent;
 }
 
 /// The polygon sides that are not exactly right; all others are.
-void write_wrong_polygons(JsonWriter& json, const oracle::Report& report) {
+void write_wrong_polygons(JsonWriter& json, const Scene& scene, const oracle::Report& report) {
+  const auto is_area = [&](const std::string& id) {
+    return std::ranges::any_of(scene.lights, [&](const Light& light) {
+      return light.id == id && light.type == LightType::kArea;
+    });
+  };
   json.key("wrong");
   json.begin_array();
   for (const oracle::LightComparison& light : report.lights) {
@@ -112,7 +130,13 @@ void write_wrong_polygons(JsonWriter& json, const oracle::Report& report) {
       json.member("self_crossing", polygon.self_crossing);
       if (polygon.inconsistent) json.member("inconsistent", true);
       write_share(json, "lit", polygon.lit);
-      write_share(json, "shadow", polygon.shadow);
+      if (is_area(light.id)) {
+        write_share(json, "penumbra", polygon.penumbra);
+        write_share(json, "umbra", polygon.umbra);
+        write_share(json, "missing_umbra", polygon.missing_umbra);
+      } else {
+        write_share(json, "shadow", polygon.shadow);
+      }
       write_share(json, "misclassified", polygon.misclassified);
       write_share(json, "uncovered", polygon.uncovered);
       write_share(json, "overlapping", polygon.overlapping);
@@ -130,7 +154,7 @@ void write_wrong_polygons(JsonWriter& json, const oracle::Report& report) {
   json.end_array();
 }
 
-void write_run(JsonWriter& json, const JudgedRun& run, bool times) {
+void write_run(JsonWriter& json, const Scene& scene, const JudgedRun& run, bool times) {
   json.begin_object();
   if (run.foreign) {
     json.member("candidate", run.name);
@@ -173,8 +197,8 @@ void write_run(JsonWriter& json, const JudgedRun& run, bool times) {
     }
     write_texts(json, "problems", report.problems);
     write_texts(json, "notes", report.notes);
-    write_totals(json, report.totals);
-    write_wrong_polygons(json, report);
+    write_totals(json, report.totals, has_area_light(scene));
+    write_wrong_polygons(json, scene, report);
   }
   if (!run.explanation.empty()) json.member("first_difference", run.explanation);
   json.end_object();
@@ -195,12 +219,11 @@ void write_certificate_json(TextSink& sink, const Certificate& certificate, bool
   json.member("parts", certificate.prepared->parts.size());
   write_texts(json, "lights", certificate.lights);
   json.member("facing_area", certificate.facing_area);
-  write_texts(json, "left_out", certificate.left_out);
   write_texts(json, "scene_findings", certificate.scene_findings);
   if (certificate.interrupted) json.member("interrupted", true);
   json.key("runs");
   json.begin_array();
-  for (const JudgedRun& run : certificate.runs) write_run(json, run, times);
+  for (const JudgedRun& run : certificate.runs) write_run(json, scene, run, times);
   json.end_array();
   json.end_object();
   json.finish();

@@ -130,6 +130,11 @@ void add_notes(const JudgedRun& run, TextTable& table) {
     }
     if (!counts.empty()) table.add_note(counts);
   }
+  if (report.totals.missing_umbra.upper > 0) {
+    table.add_note("umbra called penumbra (a cost, no error of shadows): " +
+                   bound(report.totals.missing_umbra.upper) + " of " +
+                   bound(report.totals.umbra.upper) + " scene units squared");
+  }
   constexpr std::size_t kMostProblems = 5;
   for (std::size_t i = 0; i < report.problems.size() && i < kMostProblems; ++i) {
     table.add_note(report.problems[i]);
@@ -196,10 +201,6 @@ std::string certificate_text(const Certificate& certificate) {
                       "; lights: " + joined(certificate.lights) +
                       (algorithms.empty() ? "" : "; by " + joined(algorithms)),
                   TextTable::kWidth, 0, 2);
-  if (!certificate.left_out.empty()) {
-    text +=
-        wrapped("left out (area lights): " + joined(certificate.left_out), TextTable::kWidth, 0, 2);
-  }
   for (const std::string& finding : certificate.scene_findings) {
     text += wrapped("the prepared scene is wrong, a bug of this program: " + finding,
                     TextTable::kWidth, 0, 2);

@@ -23,11 +23,17 @@ constexpr Colour kLitBright{255, 241, 198};
 constexpr Colour kLitDim{176, 138, 88};
 constexpr Colour kShadowBright{104, 118, 150};
 constexpr Colour kShadowDim{58, 66, 92};
-constexpr Colour kMissing{150, 150, 150};
+// As on the plates of 1992: light grey penumbra, dark grey umbra.
+constexpr Colour kPenumbraBright{201, 203, 208};
+constexpr Colour kPenumbraDim{150, 153, 162};
+constexpr Colour kUmbraBright{98, 101, 110};
+constexpr Colour kUmbraDim{56, 59, 68};
+constexpr Colour kMissing{208, 188, 240};
 constexpr Colour kSignal{226, 26, 124};
 constexpr Colour kBackground{243, 245, 248};
 constexpr Colour kInk{33, 37, 48};
 constexpr Colour kLamp{255, 196, 0};
+constexpr Colour kLampFrame{176, 120, 0};
 constexpr double kOutlineWidth = 0.9;
 constexpr double kSeamWidth = 0.6;    // hides the seams that antialiasing leaves between neighbours
 constexpr double kFragmentInk = 0.6;  // of a fragment's border, the rest is the fragment's colour
@@ -100,10 +106,24 @@ class Painter {
       : scene_(scene),
         prepared_(prepared),
         light_(prepared.lights[light].point),
+        area_light_(prepared.lights[light].type == LightType::kArea),
         options_(options),
         svg_(svg) {
     const auto [low, high] = bounding_box(prepared);
     size_ = length(high - low);
+    if (!area_light_) return;
+    for (const auto& corner : prepared.lights[light].area_loop) {
+      Vector point;
+      for (int k = 0; k < 3; ++k) {
+        const mpq_class exact = prepared.geometry.origin[k] +
+                                prepared.geometry.step * corner[static_cast<std::size_t>(k)];
+        point[k] = exact.get_d();
+      }
+      panel_.push_back(point);
+    }
+    for (const Vector& corner : panel_) {
+      panel_centre_ = panel_centre_ + (1.0 / static_cast<double>(panel_.size())) * corner;
+    }
   }
 
   void panel(const Panel& panel, const std::vector<OrderedPiece>& pieces, double left, double top) {
@@ -135,6 +155,7 @@ class Painter {
 
  private:
   Vector to_light(const Vector& from) const {
+    if (area_light_) return unit(panel_centre_ - from);
     const Vector light{light_.nearest[0], light_.nearest[1], light_.nearest[2]};
     return unit(light_.directional ? light : light - from);
   }
@@ -147,7 +168,15 @@ class Painter {
     }
     const double facing = std::abs(dot(normal, unit(view.eye() - centre)));
     const double tilt = 0.5 * std::abs(normal[2]);
-    return mix(kShadowDim, kShadowBright, 0.5 * facing + tilt);
+    const double brightness = 0.5 * facing + tilt;
+    switch (shade) {
+      case ShadeClass::kPenumbra:
+        return mix(kPenumbraDim, kPenumbraBright, brightness);
+      case ShadeClass::kUmbra:
+        return mix(kUmbraDim, kUmbraBright, brightness);
+      default:
+        return mix(kShadowDim, kShadowBright, brightness);
+    }
   }
 
   /// Bordered as a fragment, or in its own colour.
@@ -174,8 +203,9 @@ class Painter {
     }
     const std::string& id = scene_.polygons[part.polygon].id;
     const std::vector<ShadedLoop>* loops = shown.find(id, side);
-    // A side that no result lists does not face the light.
-    const ShadeClass base = shown.background().value_or(ShadeClass::kShadow);
+    // A side that no result lists does not face the light, nor sees it.
+    const ShadeClass base =
+        shown.background().value_or(area_light_ ? ShadeClass::kUmbra : ShadeClass::kShadow);
     if (loops == nullptr) {
       fill(piece.loop, colour(base, normal, centre, view), view);
     } else {
@@ -291,6 +321,15 @@ class Painter {
   }
 
   void paint_lamp(const View& view) {
+    if (area_light_) {
+      // Solid where it emits to the eye, a mere frame from behind.
+      const std::vector<PixelPoint> pixels = view.pixels(panel_);
+      if (pixels.size() < 3) return;
+      const bool emits = dot(area_vector(panel_), view.eye() - panel_centre_) > 0;
+      svg_.polygon(pixels, {colour_text(kLamp), "none", 0, emits ? 0.95 : 0.3});
+      svg_.polygon(pixels, {"none", colour_text(kLampFrame), 1.8});
+      return;
+    }
     if (light_.directional) return;
     const auto at = view.pixel_of({light_.nearest[0], light_.nearest[1], light_.nearest[2]});
     if (!at) return;
@@ -311,14 +350,17 @@ class Painter {
   const Scene& scene_;
   const PreparedScene& prepared_;
   const LightPoint& light_;
+  bool area_light_;
+  std::vector<Vector> panel_;  // of an area light
+  Vector panel_centre_{};
   const PictureOptions& options_;
   SvgPicture& svg_;
   double size_ = 1;
   int panels_ = 0;
 };
 
-void paint_legend(SvgPicture& svg, double left, double top, bool differences, bool marks,
-                  const std::string& words) {
+void paint_legend(SvgPicture& svg, double left, double top, bool area_light, bool differences,
+                  bool marks, const std::string& words) {
   double x = left + 2;
   const auto entry = [&](Colour colour, const std::string& text) {
     svg.rectangle({x, top + 14}, 22, 16, {colour_text(colour), colour_text(kInk), 0.6});
@@ -326,7 +368,12 @@ void paint_legend(SvgPicture& svg, double left, double top, bool differences, bo
     x += 54 + 7.2 * static_cast<double>(text.size());
   };
   entry(kLitBright, "lit");
-  entry(kShadowBright, "in shadow");
+  if (area_light) {
+    entry(kPenumbraBright, "penumbra");
+    entry(kUmbraBright, "umbra");
+  } else {
+    entry(kShadowBright, "in shadow");
+  }
   if (differences) {
     entry(kSignal, "differs from the exact answer");
     entry(kMissing, "not covered");
@@ -374,7 +421,8 @@ SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared, std::u
   }
   if (options.legend) {
     const std::string& id = scene.lights[prepared.lights[light].light].id;
-    paint_legend(svg, 0, top + options.height, differences, marks, "light: " + id);
+    const bool area_light = prepared.lights[light].type == LightType::kArea;
+    paint_legend(svg, 0, top + options.height, area_light, differences, marks, "light: " + id);
   }
   return svg;
 }

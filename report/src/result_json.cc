@@ -246,7 +246,11 @@ class ResultWriter {
     json_.end_array();
   }
 
-  bool is_listed(LightState state) const { return !options_.only || *options_.only == state; }
+  /// kShadow stands for all that is not lit.
+  bool is_listed(LightState state) const {
+    return !options_.only || *options_.only == state ||
+           (*options_.only == LightState::kShadow && state != LightState::kLit);
+  }
 
   void write_point(const std::array<double, 3>& point) {
     json_.begin_array(JsonLayout::kInline);

@@ -30,6 +30,26 @@ FacingShare facing_of(const PreparedScene& prepared, const LightPoint& light) {
   return share;
 }
 
+void count_area_light(const PreparedScene& prepared, const PreparedLight& light,
+                      LightFacts& facts) {
+  for (std::size_t polygon = 0; polygon + 1 < prepared.first_part.size(); ++polygon) {
+    const std::uint32_t first = prepared.first_part[polygon],
+                        last = prepared.first_part[polygon + 1];
+    if (first == last) continue;
+    bool sees = false, cuts = false, reaches = false;
+    for (std::uint32_t index = first; index < last; ++index) {
+      const Part& part = prepared.parts[index];
+      sees = sees || sees_area_light(prepared, part, Side::kFront, light) ||
+             sees_area_light(prepared, part, Side::kBack, light);
+      cuts = cuts || cuts_area_light(prepared, part, light);
+      reaches = reaches || reaches_behind(prepared, part, light);
+    }
+    ++(sees ? facts.facing.facing : facts.facing.away);
+    facts.cutting += cuts ? 1 : 0;
+    facts.reaching_behind += reaches ? 1 : 0;
+  }
+}
+
 void count_families(const PreparedScene& prepared, SceneFacts& facts) {
   std::vector<std::uint32_t> family(prepared.geometry.planes.size(), 0);
   // A plane's only polygon, or the sign that there are several.
@@ -119,7 +139,12 @@ SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared) {
     one.corners = source.loop.size();
     facts.has_point = facts.has_point || source.type == LightType::kPoint;
     facts.has_directional = facts.has_directional || source.type == LightType::kDirectional;
-    if (source.type != LightType::kArea) one.facing = facing_of(prepared, light.point);
+    facts.has_area = facts.has_area || source.type == LightType::kArea;
+    if (source.type == LightType::kArea) {
+      count_area_light(prepared, light, one);
+    } else {
+      one.facing = facing_of(prepared, light.point);
+    }
   }
   return facts;
 }

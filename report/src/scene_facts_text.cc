@@ -51,6 +51,21 @@ std::string facing_text(const FacingShare& facing) {
   return text + " (" + percent(facing.away_share()) + " get no light)";
 }
 
+std::string plural(std::size_t count, const std::string& one, const std::string& many) {
+  return grouped(count) + " " + (count == 1 ? one : many);
+}
+
+std::string area_light_text(const LightFacts& light) {
+  return std::to_string(light.corners) + " corners; " + grouped(light.facing.facing) +
+         " polygons see it, " + grouped(light.facing.away) + " do not (" +
+         percent(light.facing.away_share()) + " get no light); " +
+         (light.cutting == 0
+              ? "no polygon's plane cuts it"
+              : "cut by " + plural(light.cutting, "polygon's plane", "polygons' planes")) +
+         "; " +
+         plural(light.reaching_behind, "polygon reaches behind it", "polygons reach behind it");
+}
+
 std::string notes_text(const Scene& scene, const SceneFacts& facts, bool all_notes) {
   constexpr std::size_t kMost = 3;
   std::string text;
@@ -135,7 +150,7 @@ std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_not
   for (const LightFacts& light : facts.lights) {
     std::string line = light.id + ": " + std::string(light_type_name(light.type));
     if (light.type == LightType::kArea) {
-      line += ", " + std::to_string(light.corners) + " corners";
+      line += ", " + area_light_text(light);
     } else {
       line += " " + position_text(light.position) + "; " + facing_text(light.facing);
     }
@@ -197,11 +212,14 @@ void write_facts_json(TextSink& sink, const Scene& scene, const SceneFacts& fact
     json.begin_object(JsonLayout::kInline);
     json.member("id", light.id);
     json.member("type", light_type_name(light.type));
-    if (light.type != LightType::kArea) {
-      json.member("facing", light.facing.facing);
-      json.member("away", light.facing.away);
-      json.member("light_in_plane", light.facing.in_plane);
-      json.member("away_share", light.facing.away_share());
+    json.member("facing", light.facing.facing);
+    json.member("away", light.facing.away);
+    json.member("light_in_plane", light.facing.in_plane);
+    json.member("away_share", light.facing.away_share());
+    if (light.type == LightType::kArea) {
+      json.member("corners", light.corners);
+      json.member("cut_by_planes_of", light.cutting);
+      json.member("reaching_behind", light.reaching_behind);
     }
     json.end_object();
   }

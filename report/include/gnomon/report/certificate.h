@@ -43,7 +43,6 @@ struct Certificate {
   std::string geometry_digest;
   std::vector<std::string> lights;          // judged
   double facing_area = 0;                   // scene units squared, of all lights together
-  std::vector<std::string> left_out;        // area lights
   std::vector<std::string> scene_findings;  // what is wrong with the prepared scene: bugs of ours
   std::vector<JudgedRun> runs;
   bool interrupted = false;  // runs that were not reached are missing

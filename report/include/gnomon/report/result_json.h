@@ -23,7 +23,7 @@ struct ResultJsonOptions {
   bool exact_fractions = false;    // "p/q" instead of numbers; needs PartResult::exact_lit
   bool exact_loops = false;        // needs LightResult::exact_points
   bool combined = false;           // all lights together; needs ShadowResult::combined
-  std::optional<LightState> only;  // list fragments of this class alone
+  std::optional<LightState> only;  // list fragments of this class alone; kShadow: all not lit
   /// Once true, polygons are left off: what has been written is then no result.
   const std::atomic<bool>* interrupted = nullptr;
 };

@@ -21,9 +21,11 @@ namespace gnomon::report {
 struct LightFacts {
   std::string id;
   LightType type = LightType::kPoint;
-  Position position;        // or to_light
-  std::size_t corners = 0;  // of an area light
-  FacingShare facing;       // point and directional lights
+  Position position;                // or to_light
+  std::size_t corners = 0;          // of an area light
+  FacingShare facing;               // polygons that face it, or see an area light
+  std::size_t cutting = 0;          // polygons whose plane cuts the area light
+  std::size_t reaching_behind = 0;  // polygons that the area light's plane cuts
 };
 
 struct SceneFacts {
@@ -45,7 +47,7 @@ struct SceneFacts {
   double diagonal = 0;
   mpq_class step;
   unsigned position_bits = 0, direction_bits = 0;
-  bool has_directional = false, has_point = false;
+  bool has_directional = false, has_point = false, has_area = false;
   std::vector<LightFacts> lights;
 };
 
