@@ -132,13 +132,11 @@ TEST_F(CommandLine, ShadowsGivesTheExactFractions) {
   EXPECT_TRUE(named);
 }
 
-TEST_F(CommandLine, AreaLightsAreLeftOutWithAWarning) {
+TEST_F(CommandLine, AreaLightsFromTheCommandLine) {
   const RunResult result = run_gnomon({"shadows", table_, "--area=1,1,3:1,2,3:2,2,3"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_THAT(result.err, AllOf(HasSubstr("warning"), HasSubstr("area0")));
-  expect_one_line_error(
-      run_gnomon({"shadows", table_, "--area=1,1,3:1,2,3:2,2,3", "--light", "area0"}), 2,
-      "point or directional");
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, AllOf(HasSubstr("\"area0\""), HasSubstr("\"penumbra\"")));
 }
 
 TEST_F(CommandLine, CertifyPassesAndFails) {
