@@ -199,7 +199,7 @@ Illumination Illuminator::Data::point(const Part& part, Side side, const Apex& a
   mpq_class unit(mpz_class(1) << static_cast<mp_bitcnt_t>(bits), apex.weight);
   unit.canonicalize();
   const Ball size = enclose(mpq_class(unit * view.scene().geometry.step));
-  return times(cosine / (square * size * size), intensity);
+  return times(cosine / square / size / size, intensity);
 }
 
 Illuminator::Illuminator(const PreparedScene& scene, std::uint32_t light, double intensity,
