@@ -79,13 +79,15 @@ class ConstructedVolumeSpace {
     Side side;
     if (ref.index() < planes_) {
       const SupportTriple& triple = geometry().planes[ref.index()];
-      if (identity_ && is_made_from({input(triple.a), input(triple.b), input(triple.c)}, corner)) {
-        return Side::kOn;
-      }
+      if (identity_ && is_made_from({triple.a, triple.b, triple.c}, corner)) return Side::kOn;
       side = scene_->side_of_support(ref.index(), corner.vertex);
     } else {
       const OwnPlane& own = own_[ref.index() - first_own_];
-      if (identity_ && is_made_from(own.points, corner)) return Side::kOn;
+      if (identity_ && (is_made_from(own.inputs, corner) ||
+                        (own.has_made && corner.vertex.source == kMadeVertex &&
+                         contains(own.points, name_of(corner))))) {
+        return Side::kOn;
+      }
       side = self().side(own.plane, corner.vertex);
     }
     return ref.flipped() ? opposite(side) : side;
@@ -128,6 +130,8 @@ class ConstructedVolumeSpace {
   struct OwnPlane {
     Plane plane;
     std::array<PointName, 3> points;  // that it was made from
+    std::array<VertexId, 3> inputs;   // those of them that are input vertices; else kNone
+    bool has_made = false;            // whether some are made
   };
 
   static constexpr PointName input(VertexId v) { return {v, kNone, kNone}; }
@@ -142,21 +146,30 @@ class ConstructedVolumeSpace {
   static bool contains(const std::array<PointName, 3>& points, const PointName& name) {
     return points[0] == name || points[1] == name || points[2] == name;
   }
-  /// Identities (2) and (3).
-  bool is_made_from(const std::array<PointName, 3>& points, const Corner<Vertex>& corner) const {
-    return contains(points, name_of(corner)) || has_ends(points, corner.before) ||
-           has_ends(points, corner.after);
+  /// Identities (2), as far as input vertices go, and (3).
+  bool is_made_from(const std::array<VertexId, 3>& inputs, const Corner<Vertex>& corner) const {
+    const VertexId source = corner.vertex.source;
+    if (source != kMadeVertex) return contains(inputs, source);
+    return has_ends(inputs, corner.before) || has_ends(inputs, corner.after);
   }
-  bool has_ends(const std::array<PointName, 3>& points, PlaneRef edge) const {
+  static bool contains(const std::array<VertexId, 3>& inputs, VertexId v) {
+    return v == inputs[0] || v == inputs[1] || v == inputs[2];
+  }
+  bool has_ends(const std::array<VertexId, 3>& inputs, PlaneRef edge) const {
     if (edge.index() < planes_ || edge.index() >= first_own_) return false;
     const EdgeEnds ends = geometry().edges[edge.index() - planes_];
-    return contains(points, input(ends.a)) && contains(points, input(ends.b));
+    return contains(inputs, ends.a) && contains(inputs, ends.b);
   }
 
   const Derived& self() const { return static_cast<const Derived&>(*this); }
   PlaneRef push(std::optional<Plane> plane, const std::array<PointName, 3>& points) {
     if (!plane) return {};
-    own_.push_back({std::move(*plane), points});
+    OwnPlane own{std::move(*plane), points, {}, false};
+    for (std::size_t i = 0; i < 3; ++i) {
+      own.inputs[i] = points[i][1] == kNone ? points[i][0] : kNone;
+      own.has_made = own.has_made || points[i][1] != kNone;
+    }
+    own_.push_back(std::move(own));
     return PlaneRef(first_own_ + static_cast<std::uint32_t>(own_.size() - 1));
   }
 
