@@ -103,13 +103,9 @@ bool Illuminator::Data::is_lit(const Part& part, Side side, const Apex& apex, co
                                SignCounts& counts) {
   const PreparedLight& light = view.light();
   const PreparedScene& scene = view.scene();
-  const mpz_class one = 1;
   const bool directional = light.point.directional;
-  const ExactVector target{light.point.grid[0], light.point.grid[1], light.point.grid[2]};
-  PairPoint near{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    near[k] = pair_of(target[k], one, directional ? 0 : scene.geometry.grid.bits());
-  }
+  const ExactVector& target = view.origin();
+  const PairPoint& near = view.origin_pairs();
   std::vector<std::uint32_t> found;
   view.find_casters(apex, part.plane, part.flipped == (side == Side::kFront), found);
   casters.fetch_add(found.size(), std::memory_order_relaxed);

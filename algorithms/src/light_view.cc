@@ -51,9 +51,14 @@ LightView::LightView(const PreparedScene& scene, std::uint32_t light)
   const mpz_class one = 1;
   const auto add = [&](const std::array<mpz_class, 3>& point) {
     light_grid_.push_back(point);
+    std::size_t bits = scene.geometry.grid.bits();
+    if (own.point.directional) {
+      bits = 0;
+      for (const mpz_class& c : point) bits = std::max(bits, mpz_sizeinbase(c.get_mpz_t(), 2));
+    }
     PairPoint pairs;
     for (std::size_t k = 0; k < 3; ++k) {
-      pairs[k] = pair_of(point[k], one, own.point.directional ? 0 : scene.geometry.grid.bits());
+      pairs[k] = pair_of(point[k], one, static_cast<unsigned>(bits));
     }
     light_pairs_.push_back(pairs);
   };
@@ -256,6 +261,18 @@ LightShaft LightView::shaft_of(const Apex& apex, PlaneId receiver, bool back) co
       // Seen from its front the light is counter-clockwise: the rest of it is behind this plane.
       const auto normal = cross_product(minus(rounded(light_pairs_[i]), p),
                                         minus(rounded(light_pairs_[(i + 1) % n]), p));
+      shaft.planes.push_back(shaft_plane(negated(normal), p, apex.reach));
+    }
+  }
+  if (light().type != LightType::kArea) {
+    // Planes along the ray, each parallel to one axis, from both sides.
+    std::array<double, 3> ray = rounded(light_pairs_[0]);
+    if (!light().point.directional) ray = minus(ray, p);
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array<double, 3> axis{};
+      axis[k] = 1;
+      const auto normal = cross_product(axis, ray);
+      shaft.planes.push_back(shaft_plane(normal, p, apex.reach));
       shaft.planes.push_back(shaft_plane(negated(normal), p, apex.reach));
     }
   }

@@ -70,6 +70,7 @@ class LightView {
   ExactVector line_of(const ExactPlane& plane) const;
   /// From the plane's normal and a point x of it, given as a0 - x.
   std::array<Ball, 3> line_of(const BallVector& normal, const BallVector& to_origin) const;
+  /// The light's first point, or a directional one's direction times a power of two, at most 1.
   const PairPoint& origin_pairs() const { return light_pairs_[0]; }
   const ExactVector& origin() const { return light_grid_[0]; }
   const ExactVector& axis(int i) const { return axes_[static_cast<std::size_t>(i)]; }

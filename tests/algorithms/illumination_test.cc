@@ -517,6 +517,84 @@ TEST(VisibleLight, AgreesWithTheClassesOfFragmentsInsideAndAtTheirVertices) {
   EXPECT_GT(fragments[2], 200u);
 }
 
+TEST(Illumination, OfPointAndDirectionalLightsInSoups) {
+  // The closed segment test in rationals, and cos / r^2 in long doubles.
+  Random random(17);
+  std::size_t lit = 0, dark = 0;
+  for (int round = 0; round < 400; ++round) {
+    const bool directional = round % 2 == 0;
+    const int power = std::array{0, 0, 0, 200, -200}[static_cast<std::size_t>(round % 5)];
+    const PreparedScene scene = soup(random, 5 + round % 8, 2 + round % 4, std::ldexp(1.0, power),
+                                     directional ? LightType::kDirectional : LightType::kPoint);
+    const BruteView brute(scene);
+    const Illuminator illuminator(scene, 0, 3.0);
+    ExactPoint3 light;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const mpz_class& grid = scene.lights[0].point.grid[k];
+      light[k] = directional ? mpq_class(grid)
+                             : mpq_class(scene.geometry.origin[k] + scene.geometry.step * grid);
+    }
+    for (std::uint32_t part = 0; part < scene.parts.size(); ++part) {
+      const Side side =
+          scene.parts[part].two_sided && random.chance(1, 2) ? Side::kBack : Side::kFront;
+      const ExactPoint3 p = mix(brute.faces[part].loop, random, 5);
+      const ExactPoint3 to_light = directional ? light : minus(light, p);
+      const mpq_class own = dot_of(facing(brute, part, side), to_light);
+      bool is_lit = sgn(own) > 0;
+      for (const BruteView::Face& face : brute.faces) {
+        const mpq_class rise = dot_of(face.normal, to_light);
+        const mpq_class height = dot_of(face.normal, minus(p, face.loop[0]));
+        if (sgn(rise) * sgn(height) >= 0) continue;
+        const mpq_class t = -height / rise;
+        if (!directional && t >= 1) continue;
+        if (sgn(rise) < 0 && !face.two_sided) continue;
+        ExactPoint3 meet;
+        for (std::size_t k = 0; k < 3; ++k) meet[k] = p[k] + t * to_light[k];
+        if (BruteView::place(face.loop, face.normal, meet) >= 0) is_lit = false;
+      }
+      const Illumination found = illuminator.at(part, side, p, false);
+      EXPECT_EQ(found.value > 0, is_lit) << round << ", " << part;
+      if (!is_lit) {
+        ++dark;
+        continue;
+      }
+      ++lit;
+      const mpq_class square = dot_of(to_light, to_light);
+      const ExactPoint3& normal = brute.faces[part].normal;
+      // (cos / r^2)^2, exactly.
+      mpq_class truth = 9 * own * own / dot_of(normal, normal) / square;
+      if (!directional) truth /= square * square;
+      const mpq_class error = mpq_class(found.value) * mpq_class(found.value) / truth - 1;
+      EXPECT_LT(std::fabs(error.get_d()), 1e-14);
+      EXPECT_LT(found.error_bound, 1e-14 * found.value);
+    }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(lit, 400u);
+  EXPECT_GT(dark, 400u);
+}
+
+TEST(Illumination, DoesNotDependOnTheScale) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    std::vector<double> values;
+    for (const int power : {0, -60, 60, -400, 400}) {
+      Random random(seed), points(seed);
+      const PreparedScene scene = soup(random, 10, 3, std::ldexp(1.0, power));
+      const BruteView brute(scene);
+      const Illuminator illuminator(scene, 0, 1.0, 1e-12);
+      for (std::uint32_t part = 0; part < scene.parts.size(); ++part) {
+        const ExactPoint3 p = mix(brute.faces[part].loop, points, 5);
+        const double value = illuminator.at(part, Side::kFront, p, false).value;
+        if (power == 0) {
+          values.push_back(value);
+        } else {
+          EXPECT_EQ(value, values[part]) << seed << ", " << power << ", " << part;
+        }
+      }
+    }
+  }
+}
+
 TEST(Illumination, TimeOfRooms) {
   for (const char* name : {"paper-room", "room", "city"}) {
     if (generator_by_name(name) == nullptr) continue;

@@ -14,6 +14,7 @@
 
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/random.h"
+#include "gnomon/scene/scene.h"
 
 namespace gnomon::test {
 
@@ -74,7 +75,7 @@ class LightSceneBuilder {
   Scene scene_;
 };
 
-/// Of the scene's first light. Scene units.
+/// Of the scene's first light, an area light. Scene units.
 struct BruteView {
   struct Face {
     std::vector<ExactPoint3> loop;
@@ -156,28 +157,39 @@ inline ExactPoint3 mix(const std::vector<ExactPoint3>& loop, Random& random, int
 }
 
 /// Random triangles and parallelograms on a lattice with a light among them.
-inline PreparedScene soup(Random& random, int polygons, int size) {
-  for (;;) {
-    LightSceneBuilder builder;
-    const auto triple = [&] {
-      return Triple{static_cast<double>(random.between(0, size)),
-                    static_cast<double>(random.between(0, size)),
-                    static_cast<double>(random.between(0, size))};
-    };
-    const auto loop = [&]() -> std::vector<Triple> {
-      for (;;) {
-        const Triple a = triple(), b = triple(), c = triple();
-        const ExactPoint3 n =
-            cross_of(minus(exactly(b), exactly(a)), minus(exactly(c), exactly(a)));
-        if (sgn(n[0]) == 0 && sgn(n[1]) == 0 && sgn(n[2]) == 0) continue;
-        if (random.chance(1, 2)) return {a, b, c};
-        return {a, b, {b[0] + c[0] - a[0], b[1] + c[1] - a[1], b[2] + c[2] - a[2]}, c};
-      }
-    };
-    builder.area(loop());
-    for (int i = 0; i < polygons; ++i) builder.polygon(loop(), random.chance(1, 2));
-    return builder.build();
+inline PreparedScene soup(Random& random, int polygons, int size, double scale = 1,
+                          LightType type = LightType::kArea) {
+  LightSceneBuilder builder;
+  const auto triple = [&] {
+    return Triple{scale * static_cast<double>(random.between(0, size)),
+                  scale * static_cast<double>(random.between(0, size)),
+                  scale * static_cast<double>(random.between(0, size))};
+  };
+  const auto loop = [&]() -> std::vector<Triple> {
+    for (;;) {
+      const Triple a = triple(), b = triple(), c = triple();
+      const ExactPoint3 n = cross_of(minus(exactly(b), exactly(a)), minus(exactly(c), exactly(a)));
+      if (sgn(n[0]) == 0 && sgn(n[1]) == 0 && sgn(n[2]) == 0) continue;
+      if (random.chance(1, 2)) return {a, b, c};
+      return {a, b, {b[0] + c[0] - a[0], b[1] + c[1] - a[1], b[2] + c[2] - a[2]}, c};
+    }
+  };
+  switch (type) {
+    case LightType::kArea:
+      builder.area(loop());
+      break;
+    case LightType::kPoint:
+      builder.light(type, triple());
+      break;
+    case LightType::kDirectional: {
+      Triple to_light = triple();
+      to_light[random.below(3)] -= scale * (size + 1);
+      builder.light(type, to_light);
+      break;
+    }
   }
+  for (int i = 0; i < polygons; ++i) builder.polygon(loop(), random.chance(1, 2));
+  return builder.build();
 }
 
 }  // namespace gnomon::test

@@ -22,7 +22,7 @@ namespace gnomon {
 
 struct DeepUmbraOptions {
   /// A side is done when what is undecided of it is at most this fraction of its area,
-  double tolerance = 1e-3;
+  double tolerance = 1e-2;
   /// or when so many cells of it have been looked at.
   std::uint64_t max_cells = 4096;
   const std::atomic<bool>* interrupted = nullptr;  // checked between cells
