@@ -76,7 +76,7 @@ CLI::Option* add_illuminate_options(CLI::App& command, IlluminateOptions& option
   add(command
           .add_option("--adaptive", options.adaptive,
                       "Cut fragments where linear interpolation is off by more than this fraction\n"
-                      "of the largest illumination")
+                      "of what they receive")
           ->check(not_negative())
           ->type_name("TOL"));
   add(command

@@ -486,22 +486,26 @@ class MeshMaker {
     }
     if (!illuminate()) return false;
 
-    const double allowed = options_.tolerance * nodes_.largest_shade();
+    const double least = nodes_.largest_shade() * ShadingOptions::kDark;
     for (std::size_t i = 0; i < tested.size(); ++i) {
       const MeshFace& face = loops_.faces[tested[i]];
       const auto loop = loops_.loop(face);
-      double sum = 0;
-      bool good = true;
+      double sum = 0, brightest = least;
+      for (const std::uint32_t vertex : loop) {
+        const double value = nodes_.shade(node(vertex, tested[i]), face);
+        sum += value;
+        brightest = std::max(brightest, value);
+      }
+      const double allowed = options_.tolerance * brightest;
+      bool good = std::fabs(nodes_.shade(centre_nodes[i], face) -
+                            sum / static_cast<double>(loop.size())) <= allowed;
       for (std::size_t c = 0; c < loop.size() && good; ++c) {
         const std::uint32_t next = loop[(c + 1) % loop.size()];
         const double a = nodes_.shade(node(loop[c], tested[i]), face);
         const double b = nodes_.shade(node(next, tested[i]), face);
         const std::uint32_t between = node(middles[edges.find(loop[c], next)], tested[i]);
         good = std::fabs(nodes_.shade(between, face) - (a + b) / 2) <= allowed;
-        sum += a;
       }
-      good = good && std::fabs(nodes_.shade(centre_nodes[i], face) -
-                               sum / static_cast<double>(loop.size())) <= allowed;
       if (good) open[tested[i]] = 0;
     }
     return true;

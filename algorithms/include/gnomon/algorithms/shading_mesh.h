@@ -74,9 +74,11 @@ struct ShadingOptions {
   // The lines are at the doubles nearest to the multiples: where a scene of doubles has its own.
   bool round_lines = true;
   // Adaptive: a face is cut while the illumination in the middle of an edge or of the face is
-  // farther from interpolation than this fraction of the largest in the mesh; 0: not adaptive. A
-  // step is halved each time, at most max_depth times, beginning with those above or, where they
-  // are 0, with a power of two near 1/8 of the scene's diagonal.
+  // farther from interpolation than this fraction of what its brightest vertex receives, or of the
+  // mesh's brightest times kDark if that is more; 0: not adaptive. A step is halved each time, at
+  // most max_depth times, beginning with those above or, where they are 0, with a power of two near
+  // 1/8 of the scene's diagonal.
+  static constexpr double kDark = 1.0 / 32;
   double tolerance = 0;
   unsigned max_depth = 6;
   double ambient = 0;  // what every point receives besides; all that the umbra has
