@@ -18,8 +18,10 @@
 #include "contour_integral.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/algorithms/visible_light.h"
+#include "gnomon/oracle/area_visibility.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/random.h"
+#include "gnomon/scene/read.h"
 #include "light_soup.h"
 
 namespace gnomon {
@@ -503,6 +505,61 @@ void expect_classes(const PreparedScene& scene, const std::string& what,
       }
     }
   }
+}
+
+TEST(VisibleLight, HasTheFractionsOfTheOracle) {
+  Random random(18);
+  std::size_t partial = 0;
+  for (int round = 0; round < 150; ++round) {
+    const PreparedScene scene = soup(random, 5 + round % 8, 2 + round % 5);
+    const BruteView brute(scene);
+    const LightVisibility visibility(scene, 0);
+    const oracle::AreaVisibility oracle(scene, scene.lights[0]);
+    for (std::uint32_t part = 0; part < scene.parts.size(); ++part) {
+      const Side side =
+          scene.parts[part].two_sided && random.chance(1, 2) ? Side::kBack : Side::kFront;
+      const ExactPoint3 p = mix(brute.faces[part].loop, random, 5);
+      const VisibleLight found = visibility.at(part, side, p);
+      const oracle::AreaPointVisibility truth = oracle.at(part, side, p);
+      if (truth.behind_light) {
+        EXPECT_EQ(found.visible, 0);
+        continue;
+      }
+      EXPECT_EQ(found.visible, truth.visible) << round << ", " << part;
+      EXPECT_EQ(found.in_front, truth.visible + truth.hidden) << round << ", " << part;
+      partial += sgn(truth.visible) > 0 && sgn(truth.hidden) > 0;
+    }
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(partial, 150u);
+}
+
+TEST(VisibleLight, OfRealScenesHasTheFractionsOfTheOracle) {
+  std::size_t compared = 0;
+  for (const char* name : {"radiance-cornell", "radiance-desk"}) {
+    if (std::string(GNOMON_SHARED_SCENES).empty()) GTEST_SKIP() << "no shared scenes";
+    const auto read = read_scene(std::string(GNOMON_SHARED_SCENES) + "/json/" + name + ".json");
+    ASSERT_TRUE(read) << to_string(read.error());
+    const auto prepared = prepare(read->scene);
+    ASSERT_TRUE(prepared);
+    for (std::uint32_t light = 0; light < prepared->lights.size(); ++light) {
+      if (prepared->lights[light].type != LightType::kArea) continue;
+      const BruteView brute(*prepared);
+      const LightVisibility visibility(*prepared, light);
+      const oracle::AreaVisibility oracle(*prepared, prepared->lights[light]);
+      Random random(19);
+      for (int i = 0; i < 150; ++i) {
+        const auto part = static_cast<std::uint32_t>(random.below(prepared->parts.size()));
+        const ExactPoint3 p = mix(brute.faces[part].loop, random, 50);
+        const VisibleLight found = visibility.at(part, Side::kFront, p);
+        const oracle::AreaPointVisibility truth = oracle.at(part, Side::kFront, p);
+        if (truth.behind_light) continue;
+        EXPECT_EQ(found.visible, truth.visible) << name << ", " << part;
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, 100u);
 }
 
 TEST(VisibleLight, AgreesWithTheClassesOfFragmentsInsideAndAtTheirVertices) {
