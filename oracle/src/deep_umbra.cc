@@ -129,10 +129,13 @@ void DeepUmbra::certify_in_part(const std::vector<ChartPoint>& loop, std::uint32
       continue;
     }
     if (depth == kDepth) continue;
-    // A piece that sees light in its middle is looked at a little longer, for its dark rest.
-    if (depth >= kDepth / 2) {
-      const ExactPoint middle = chart_.lift_to_scene(prepared.geometry, centre_of(piece.vertices));
-      if (!visibility.at(part, side, middle).deep()) continue;
+    // After a few halvings a piece that sees light from its middle and corners is given up.
+    if (depth >= kDepth / 3) {
+      corners.push_back(chart_.lift_to_scene(prepared.geometry, centre_of(piece.vertices)));
+      const bool sees = std::all_of(corners.rbegin(), corners.rend(), [&](const ExactPoint& point) {
+        return !visibility.at(part, side, point).deep();
+      });
+      if (sees) continue;
     }
     const ChartLine across = middle_line(piece.vertices);
     ConvexLoop half = piece;

@@ -34,8 +34,8 @@ class DeepUmbra {
   const std::vector<std::vector<ChartPoint>>& certified() const { return certified_; }
 
  private:
-  static constexpr int kDepth = 10;              // halvings of a loop
-  static constexpr std::size_t kTests = 20'000;  // in all
+  static constexpr int kDepth = 12;             // halvings of a loop
+  static constexpr std::size_t kTests = 4'000;  // in all
 
   void certify_in_part(const std::vector<ChartPoint>& loop, std::uint32_t part);
 

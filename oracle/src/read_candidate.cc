@@ -97,6 +97,7 @@ class Reader {
   Expected<CandidateFragment> fragment(const Json& value, const std::string& pointer) const;
   Expected<mpq_class> coordinate(const Json& value, bool exact, const std::string& pointer) const;
   std::optional<mpq_class> fraction(const Json& polygon, const char* shade) const;
+  Expected<bool> per_caster(const Json& object, const std::string& pointer) const;
 
   std::string file_;
   const Scene& scene_;
@@ -201,6 +202,17 @@ std::optional<mpq_class> Reader::fraction(const Json& polygon, const char* shade
       std::string_view(found->value.GetString() + 1, found->value.GetStringLength() - 1));
 }
 
+Expected<bool> Reader::per_caster(const Json& object, const std::string& pointer) const {
+  const Expected<const Json*> umbra = member(object, "umbra", false, pointer);
+  if (!umbra) return tl::unexpected(umbra.error());
+  if (!*umbra) return false;
+  const Expected<std::string> text = text_of(**umbra, pointer + "/umbra");
+  if (!text) return tl::unexpected(text.error());
+  if (*text == "per-caster") return true;
+  return wrong(ErrorCode::kFormat, pointer + "/umbra", fmt::format("unknown meaning \"{}\"", *text),
+               "\"per-caster\", or no such key");
+}
+
 Expected<CandidateFragment> Reader::fragment(const Json& value, const std::string& pointer) const {
   CandidateFragment result;
   const Expected<const Json*> shade = member(value, "class", true, pointer);
@@ -265,6 +277,8 @@ Expected<CandidatePolygon> Reader::polygon(const Json& value, const std::string&
   }
   result.lit_fraction = fraction(value, "lit");
   result.shadow_fraction = fraction(value, "shadow");
+  result.penumbra_fraction = fraction(value, "penumbra");
+  result.umbra_fraction = fraction(value, "umbra");
   const Expected<const Json*> fragments = list_of(value, "fragments", false, pointer);
   if (!fragments) return tl::unexpected(fragments.error());
   if (!*fragments) {
@@ -294,6 +308,9 @@ Expected<CandidateLight> Reader::light(const Json& value, const std::string& poi
     if (!shade) return tl::unexpected(shade.error());
     result.background = *shade;
   }
+  const Expected<bool> own_umbra = per_caster(value, pointer);
+  if (!own_umbra) return tl::unexpected(own_umbra.error());
+  result.per_caster_umbra = *own_umbra;
   const Expected<const Json*> polygons = list_of(value, "polygons", true, pointer);
   if (!polygons) return tl::unexpected(polygons.error());
   for (rapidjson::SizeType i = 0; i < (*polygons)->Size(); ++i) {
@@ -334,12 +351,15 @@ Expected<Candidate> Reader::read(std::string_view text) {
     if (!shade) return tl::unexpected(shade.error());
     for_all = *shade;
   }
+  const Expected<bool> per_caster_for_all = per_caster(document, "");
+  if (!per_caster_for_all) return tl::unexpected(per_caster_for_all.error());
   const Expected<const Json*> lights = list_of(document, "lights", true, "");
   if (!lights) return tl::unexpected(lights.error());
   for (rapidjson::SizeType i = 0; i < (*lights)->Size(); ++i) {
     Expected<CandidateLight> own = light((**lights)[i], fmt::format("/lights/{}", i));
     if (!own) return tl::unexpected(own.error());
     if (!own->background) own->background = for_all;
+    own->per_caster_umbra = own->per_caster_umbra || *per_caster_for_all;
     result.lights.push_back(std::move(*own));
   }
   return result;

@@ -8,82 +8,22 @@
 #include <map>
 #include <set>
 
+#include "area_solids.h"
 #include "gnomon/oracle/compare.h"
 #include "gnomon/oracle/verdict.h"
+#include "space_loop.h"
 
 namespace gnomon::oracle {
 
 namespace {
 
-using Loop = std::vector<ExactPoint>;
-
-ExactPoint minus(const ExactPoint& a, const ExactPoint& b) {
-  return {mpq_class(a[0] - b[0]), mpq_class(a[1] - b[1]), mpq_class(a[2] - b[2])};
-}
-mpq_class dot(const ExactPoint& a, const ExactPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-ExactPoint cross(const ExactPoint& a, const ExactPoint& b) {
-  return {mpq_class(a[1] * b[2] - a[2] * b[1]), mpq_class(a[2] * b[0] - a[0] * b[2]),
-          mpq_class(a[0] * b[1] - a[1] * b[0])};
-}
-
-/// normal . (x - base) >= 0.
-struct HalfSpace {
-  ExactPoint normal, base;
-  std::array<double, 3> near_normal{}, near_base{};  // normal of length about 1
-
-  HalfSpace(ExactPoint n, const ExactPoint& b) : normal(std::move(n)), base(b) {
-    // Scaled first: a normal is a product of lengths, and may leave the range of doubles.
-    mpq_class most = 0;
-    for (const mpq_class& c : normal) {
-      if (cmp(abs(c), most) > 0) most = abs(c);
-    }
-    for (int k = 0; k < 3 && most != 0; ++k) near_normal[k] = mpq_class(normal[k] / most).get_d();
-    for (int k = 0; k < 3; ++k) near_base[k] = base[k].get_d();
-  }
-  mpq_class value(const ExactPoint& point) const { return dot(normal, minus(point, base)); }
-  double near_value(const std::array<double, 3>& p) const {
-    double sum = 0;
-    for (int k = 0; k < 3; ++k) sum += near_normal[k] * (p[k] - near_base[k]);
-    return sum;
-  }
-};
-
-/// What is left of a convex loop in a half-space; empty without area there.
-Loop cut(const Loop& loop, const HalfSpace& half) {
-  Loop result;
-  std::vector<mpq_class> values;
-  bool inside = false, outside = false;
-  for (const ExactPoint& point : loop) {
-    values.push_back(half.value(point));
-    inside = inside || values.back() > 0;
-    outside = outside || values.back() < 0;
-  }
-  if (!inside) return {};
-  if (!outside) return loop;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const std::size_t j = (i + 1) % loop.size();
-    if (values[i] >= 0) result.push_back(loop[i]);
-    if (sgn(values[i]) * sgn(values[j]) < 0) {
-      const mpq_class t = values[i] / (values[i] - values[j]);
-      ExactPoint crossing;
-      for (int k = 0; k < 3; ++k) crossing[k] = loop[i][k] + t * (loop[j][k] - loop[i][k]);
-      result.push_back(std::move(crossing));
-    }
-  }
-  return result;
-}
-
-/// Area along a normal: half of normal . area vector. Signed by the loop's orientation.
-mpq_class area_along(const ExactPoint& normal, const Loop& loop) {
-  ExactPoint sum;
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const ExactPoint term = cross(minus(loop[i], loop[0]), minus(loop[i + 1], loop[0]));
-    for (int k = 0; k < 3; ++k) sum[k] += term[k];
-  }
-  return dot(normal, sum) / 2;
-}
+using space::area_along;
+using space::cross;
+using space::cut;
+using space::dot;
+using space::HalfSpace;
+using space::Loop;
+using space::minus;
 
 struct Solid {  // a part as receiver and caster
   Loop loop;
@@ -130,12 +70,23 @@ class WitnessChecker {
     }
   }
   void read_parts(const PreparedLight& light);
+  /// Parts whose plane a result lists on this side, by family; and others it may list there.
+  std::map<PlaneId, std::vector<std::uint32_t>> families_on(std::uint32_t polygon, PolygonSide side,
+                                                            std::set<PlaneId>& optional) const;
+  std::vector<PolygonSide> listed_sides(std::uint32_t polygon) const;
   void check_polygon(const CandidatePolygon& polygon);
   void check_family(const CandidatePolygon& polygon, const std::vector<std::uint32_t>& parts,
                     std::vector<Piece>& pieces);
   void check_shade(const CandidatePolygon& polygon, const Piece& piece, const mpq_class& slack);
   void check_fractions(const CandidatePolygon& polygon, const std::vector<Piece>& pieces,
                        const std::vector<std::uint32_t>& parts);
+  void check_area_shade(const CandidatePolygon& polygon, const Piece& piece,
+                        const mpq_class& slack);
+  /// What of a piece is in a volume and in front of the light; `closed`: also if the receiver lies
+  /// in one of its planes.
+  Loop inside(const Piece& piece, const AreaSolids::Volume& volume, bool closed) const;
+  /// Without area if parts of a caster hold all of a piece that is in front of the light.
+  mpq_class not_hidden_by(const Piece& piece, std::uint32_t caster, PolygonSide side, bool all);
   mpq_class shadowed_by(const Piece& piece, std::uint32_t part) const;
 
   const Scene& scene_;
@@ -147,6 +98,8 @@ class WitnessChecker {
   std::map<std::string, std::uint32_t> polygon_index_;
   std::string light_id_;
   std::vector<Solid> solids_;
+  std::optional<AreaSolids> area_;  // of an area light
+  bool per_caster_umbra_ = false;
   WitnessReport report_;
 };
 
@@ -157,13 +110,16 @@ void WitnessChecker::read_parts(const PreparedLight& light) {
     for (int k = 0; k < 3; ++k) point[k] = geometry.origin[k] + geometry.step * grid[k];
     return point;
   };
-  const bool directional = light.point.directional;
+  const bool directional = light.point.directional, area = light.type == LightType::kArea;
   ExactPoint source;
-  if (directional) {
+  if (area) {
+    // No single point: AreaSolids knows what it is to each part.
+  } else if (directional) {
     for (int k = 0; k < 3; ++k) source[k] = light.point.grid[k];
   } else {
     source = in_scene(light.point.grid);
   }
+  area_.reset();
   solids_.clear();
   for (const Part& part : prepared_.parts) {
     Solid solid;
@@ -173,8 +129,9 @@ void WitnessChecker::read_parts(const PreparedLight& light) {
     }
     const std::size_t size = solid.loop.size();
     solid.normal = cross(minus(solid.loop[1], solid.loop[0]), minus(solid.loop[2], solid.loop[0]));
-    const mpq_class height =
-        directional ? dot(solid.normal, source) : dot(solid.normal, minus(source, solid.loop[0]));
+    const mpq_class height = area          ? mpq_class(0)
+                             : directional ? dot(solid.normal, source)
+                                           : dot(solid.normal, minus(source, solid.loop[0]));
     solid.facing = sgn(height);
     solid.receives = solid.facing > 0 || (solid.facing < 0 && part.two_sided);
     solid.casts = solid.receives && part.casts;
@@ -200,6 +157,139 @@ void WitnessChecker::read_parts(const PreparedLight& light) {
       }
     }
     solids_.push_back(std::move(solid));
+  }
+  if (!area) return;
+  std::vector<const Loop*> loops;
+  for (const Solid& solid : solids_) loops.push_back(&solid.loop);
+  area_.emplace(prepared_, light, loops);
+}
+
+Loop WitnessChecker::inside(const Piece& piece, const AreaSolids::Volume& volume,
+                            bool closed) const {
+  Loop rest = cut(piece.loop, area_->before_light());
+  for (std::size_t i = 0; i < volume.bounds.size() && !rest.empty(); ++i) {
+    const HalfSpace& half = volume.bounds[i];
+    const Loop& own = solids_[piece.part].loop;
+    const bool contained =
+        closed && i > 0 && std::all_of(own.begin(), own.end(), [&](const ExactPoint& vertex) {
+          return half.value(vertex) == 0;
+        });
+    if (!contained) rest = cut(rest, half);
+  }
+  return volume.empty ? Loop{} : rest;
+}
+
+mpq_class WitnessChecker::not_hidden_by(const Piece& piece, std::uint32_t caster, PolygonSide side,
+                                        bool all) {
+  const Loop& own = solids_[piece.part].loop;
+  std::vector<Loop> rest;
+  if (Loop front = cut(piece.loop, area_->before_light()); !front.empty()) {
+    rest.push_back(std::move(front));
+  }
+  for (std::size_t b = 0; b < area_->size(); ++b) {
+    const std::uint32_t part = area_->part_of(b);
+    if (prepared_.parts[part].polygon != caster || part == piece.part) continue;
+    const AreaSolids::Volume& volume =
+        all ? area_->umbra(b, piece.part, side) : area_->penumbra(b, piece.part, side);
+    if (volume.empty) continue;
+    std::vector<Loop> left;
+    for (Loop& loop : rest) {
+      for (std::size_t i = 0; i < volume.bounds.size() && !loop.empty(); ++i) {
+        const HalfSpace& half = volume.bounds[i];
+        const bool contained =
+            all && i > 0 && std::all_of(own.begin(), own.end(), [&](const ExactPoint& vertex) {
+              return half.value(vertex) == 0;
+            });
+        if (contained) continue;
+        const HalfSpace beyond(space::negated(half.normal), half.base);
+        Loop inner = cut(loop, half);
+        Loop outer = inner.empty() ? loop : cut(loop, beyond);
+        if (!outer.empty()) left.push_back(std::move(outer));
+        loop = std::move(inner);
+      }
+    }
+    rest = std::move(left);
+  }
+  mpq_class open;
+  for (const Loop& loop : rest) open += area_along(solids_[piece.part].normal, loop);
+  return open;
+}
+
+void WitnessChecker::check_area_shade(const CandidatePolygon& polygon, const Piece& piece,
+                                      const mpq_class& slack) {
+  const CandidateFragment& fragment = *piece.fragment;
+  const ExactPoint& normal = solids_[piece.part].normal;
+  const bool sees = area_->sees(piece.part, polygon.side);
+  const mpq_class behind = area_along(normal, cut(piece.loop, area_->behind_light()));
+  const mpq_class before = sees ? mpq_class(piece.area - behind) : mpq_class(0);
+  const std::string name = name_of(fragment.shade);
+  const auto id_of = [&](std::size_t blocker) {
+    return scene_.polygons[prepared_.parts[area_->part_of(blocker)].polygon].id;
+  };
+  const bool lit = fragment.shade == ShadeClass::kLit;
+  if (fragment.shade != ShadeClass::kUmbra) {
+    if (!sees) {
+      return violation(
+          polygon.id,
+          fmt::format("a fragment is {} on a side that sees nothing of the light", name),
+          piece.index);
+    }
+    if (behind > slack) {
+      return violation(polygon.id, fmt::format("a {} fragment reaches behind the light", name),
+                       piece.index);
+    }
+    std::vector<std::array<double, 3>> corners;
+    for (const ExactPoint& point : piece.loop) {
+      corners.push_back({point[0].get_d(), point[1].get_d(), point[2].get_d()});
+    }
+    for (std::size_t b = 0; b < area_->size() && (lit || per_caster_umbra_); ++b) {
+      if (area_->part_of(b) == piece.part) continue;
+      // Doubles put aside casters that are clearly apart.
+      const std::vector<HalfSpace>& bounds = area_->largest_penumbra(b).bounds;
+      const bool apart = std::any_of(bounds.begin(), bounds.end(), [&](const HalfSpace& half) {
+        return std::all_of(corners.begin(), corners.end(), [&](const auto& corner) {
+          return half.near_value(corner) < -1e-6 * diagonal_;
+        });
+      });
+      if (apart) continue;
+      const AreaSolids::Volume& volume = lit ? area_->penumbra(b, piece.part, polygon.side)
+                                             : area_->umbra(b, piece.part, polygon.side);
+      if (!(area_along(normal, inside(piece, volume, !lit)) > slack)) continue;
+      return violation(polygon.id,
+                       lit ? fmt::format("a lit fragment is in the penumbra of '{}'", id_of(b))
+                           : fmt::format("a penumbra fragment is in the umbra of '{}'", id_of(b)),
+                       piece.index);
+    }
+    if (lit) return;
+  }
+  ++report_.witnesses;
+  if (!fragment.reason.empty()) {
+    const bool holds = fragment.shade == ShadeClass::kUmbra && fragment.reason == "behind-light" &&
+                       before <= slack;
+    if (!holds) {
+      violation(polygon.id, fmt::format("the reason '{}' does not hold", fragment.reason),
+                piece.index);
+    }
+    return;
+  }
+  const bool all = fragment.shade == ShadeClass::kUmbra;
+  if (fragment.caster.empty()) {
+    if (before > slack) {
+      violation(polygon.id, fmt::format("{} {} fragment names no caster", all ? "an" : "a", name),
+                piece.index);
+    }
+    return;
+  }
+  const auto caster = polygon_index_.find(fragment.caster);
+  if (caster == polygon_index_.end()) {
+    return violation(polygon.id, fmt::format("no caster '{}' in the scene", fragment.caster),
+                     piece.index);
+  }
+  if (sees && not_hidden_by(piece, caster->second, polygon.side, all) > slack) {
+    violation(polygon.id,
+              fmt::format("'{}' does not hide {} of the light from all of the fragment",
+                          fragment.caster, all ? "all" : "part"),
+              piece.index);
   }
 }
 
@@ -346,20 +436,30 @@ void WitnessChecker::check_family(const CandidatePolygon& polygon,
       }
     }
   }
-  for (const Piece& piece : pieces) check_shade(polygon, piece, slack_of(piece.fragment->exact));
+  for (const Piece& piece : pieces) {
+    const mpq_class slack = slack_of(piece.fragment->exact);
+    if (area_) {
+      check_area_shade(polygon, piece, slack);
+    } else {
+      check_shade(polygon, piece, slack);
+    }
+  }
   check_fractions(polygon, pieces, parts);
 }
 
 void WitnessChecker::check_fractions(const CandidatePolygon& polygon,
                                      const std::vector<Piece>& pieces,
                                      const std::vector<std::uint32_t>& parts) {
-  if (!polygon.lit_fraction && !polygon.shadow_fraction) return;
+  if (!polygon.lit_fraction && !polygon.shadow_fraction && !polygon.penumbra_fraction &&
+      !polygon.umbra_fraction) {
+    return;
+  }
   const std::uint32_t index = prepared_.parts[parts.front()].polygon;
   if (parts.size() != prepared_.first_part[index + 1] - prepared_.first_part[index]) return;
-  mpq_class lit, shadow;
+  std::array<mpq_class, 4> areas;  // by ShadeClass
   bool exact = true;
   for (const Piece& piece : pieces) {
-    (piece.fragment->shade == ShadeClass::kLit ? lit : shadow) += piece.area;
+    areas[static_cast<std::size_t>(piece.fragment->shade)] += piece.area;
     exact = exact && piece.fragment->exact;
   }
   const mpq_class whole = [&] {
@@ -370,16 +470,52 @@ void WitnessChecker::check_fractions(const CandidatePolygon& polygon,
     return sum;
   }();
   const mpq_class slack = exact ? mpq_class(0) : tolerance_;
-  const auto claim = [&](const std::optional<mpq_class>& claimed, const mpq_class& area,
-                         const char* name) {
+  const auto claim = [&](const std::optional<mpq_class>& claimed, ShadeClass shade) {
+    const mpq_class& area = areas[static_cast<std::size_t>(shade)];
+    const char* name = name_of(shade);
     if (claimed && abs(mpq_class(*claimed - area / whole)) > slack) {
       violation(polygon.id,
                 fmt::format("the {} fraction is claimed as {}, but the fragments say {}", name,
                             claimed->get_str(), mpq_class(area / whole).get_str()));
     }
   };
-  claim(polygon.lit_fraction, lit, "lit");
-  claim(polygon.shadow_fraction, shadow, "shadow");
+  claim(polygon.lit_fraction, ShadeClass::kLit);
+  claim(polygon.shadow_fraction, ShadeClass::kShadow);
+  claim(polygon.penumbra_fraction, ShadeClass::kPenumbra);
+  claim(polygon.umbra_fraction, ShadeClass::kUmbra);
+}
+
+std::map<PlaneId, std::vector<std::uint32_t>> WitnessChecker::families_on(
+    std::uint32_t polygon, PolygonSide side, std::set<PlaneId>& optional) const {
+  std::map<PlaneId, std::vector<std::uint32_t>> families;
+  for (std::uint32_t part = prepared_.first_part[polygon]; part < prepared_.first_part[polygon + 1];
+       ++part) {
+    const Solid& solid = solids_[part];
+    const PolygonSide own =
+        solid.receives && solid.facing < 0 ? PolygonSide::kBack : PolygonSide::kFront;
+    if (area_ || own == side) families[prepared_.parts[part].plane].push_back(part);
+  }
+  if (!area_) return families;
+  for (const auto& [plane, parts] : families) {
+    const auto seen_from = [&, &family = parts](PolygonSide from) {
+      return std::any_of(family.begin(), family.end(),
+                         [&](std::uint32_t part) { return area_->sees(part, from); });
+    };
+    // What sees nothing is listed with its front.
+    const bool listed =
+        seen_from(side) || (side == PolygonSide::kFront && !seen_from(PolygonSide::kBack));
+    if (!listed) optional.insert(plane);
+  }
+  return families;
+}
+
+std::vector<PolygonSide> WitnessChecker::listed_sides(std::uint32_t polygon) const {
+  std::vector<PolygonSide> sides;
+  for (const PolygonSide side : {PolygonSide::kFront, PolygonSide::kBack}) {
+    std::set<PlaneId> optional;
+    if (families_on(polygon, side, optional).size() > optional.size()) sides.push_back(side);
+  }
+  return sides;
 }
 
 void WitnessChecker::check_polygon(const CandidatePolygon& polygon) {
@@ -389,21 +525,19 @@ void WitnessChecker::check_polygon(const CandidatePolygon& polygon) {
     return violation(polygon.id, "no such polygon in the scene");
   }
   // Parts of this side, by family of coplanar ones.
-  std::map<PlaneId, std::vector<std::uint32_t>> families;
-  for (std::uint32_t part = prepared_.first_part[known->second];
-       part < prepared_.first_part[known->second + 1]; ++part) {
-    const Solid& solid = solids_[part];
-    const PolygonSide side =
-        solid.receives && solid.facing < 0 ? PolygonSide::kBack : PolygonSide::kFront;
-    if (side == polygon.side) families[prepared_.parts[part].plane].push_back(part);
-  }
+  std::set<PlaneId> optional;
+  const std::map<PlaneId, std::vector<std::uint32_t>> families =
+      families_on(known->second, polygon.side, optional);
   std::map<PlaneId, std::vector<Piece>> pieces;
   for (std::size_t i = 0; i < polygon.fragments.size(); ++i) {
     const CandidateFragment& fragment = polygon.fragments[i];
     ++report_.fragments;
     if (fragment.exact) ++report_.exact_fragments;
-    if (fragment.shade != ShadeClass::kLit && fragment.shade != ShadeClass::kShadow) {
-      violation(polygon.id, "a class that a point light does not have", i);
+    if (fragment.shade != ShadeClass::kLit && (fragment.shade == ShadeClass::kShadow) == !!area_) {
+      violation(polygon.id,
+                area_ ? "a class that an area light does not have"
+                      : "a class that a point light does not have",
+                i);
       continue;
     }
     if (fragment.loop.size() < 3) {
@@ -479,7 +613,10 @@ void WitnessChecker::check_polygon(const CandidatePolygon& polygon) {
     }
     pieces[best_plane].push_back(std::move(piece));
   }
-  for (const auto& [plane, parts] : families) check_family(polygon, parts, pieces[plane]);
+  for (const auto& [plane, parts] : families) {
+    if (optional.contains(plane) && pieces[plane].empty()) continue;
+    check_family(polygon, parts, pieces[plane]);
+  }
 }
 
 WitnessReport WitnessChecker::run() {
@@ -497,16 +634,31 @@ WitnessReport WitnessChecker::run() {
       violation({}, "no such light in the scene");
       continue;
     }
-    if (own->type == LightType::kArea) continue;
     read_parts(*own);
+    per_caster_umbra_ = light.per_caster_umbra;
     std::set<std::string> polygons;
+    std::set<std::pair<std::string, PolygonSide>> sides;
     for (const CandidatePolygon& polygon : light.polygons) {
       if (options_.interrupted && options_.interrupted->load(std::memory_order_relaxed)) {
         report_.interrupted = true;
         return std::move(report_);
       }
       polygons.insert(polygon.id);
-      check_polygon(polygon);
+      // A foreign file that names no side means the only one.
+      std::optional<CandidatePolygon> turned;
+      const auto known = polygon_index_.find(polygon.id);
+      if (area_ && !polygon.side_given && known != polygon_index_.end()) {
+        const std::vector<PolygonSide> listed_on = listed_sides(known->second);
+        if (listed_on.size() == 1 && listed_on[0] != polygon.side) {
+          turned = polygon;
+          turned->side = listed_on[0];
+        }
+      }
+      const CandidatePolygon& judged = turned ? *turned : polygon;
+      if (area_ && !sides.emplace(judged.id, judged.side).second) {
+        violation(judged.id, fmt::format("its {} is listed twice", name_of(judged.side)));
+      }
+      check_polygon(judged);
       if (options_.progress) {
         options_.progress(static_cast<double>(++done) / static_cast<double>(all));
       }
@@ -515,12 +667,18 @@ WitnessReport WitnessChecker::run() {
       const bool has_parts = prepared_.first_part[p] != prepared_.first_part[p + 1];
       if (has_parts && !polygons.contains(scene_.polygons[p].id)) {
         violation(scene_.polygons[p].id, "the polygon is missing");
+        continue;
+      }
+      if (!has_parts || !area_) continue;
+      for (const PolygonSide side : listed_sides(p)) {
+        if (sides.contains({scene_.polygons[p].id, side})) continue;
+        violation(scene_.polygons[p].id, fmt::format("its {} is missing", name_of(side)));
       }
     }
   }
   for (const PreparedLight& light : prepared_.lights) {
     const std::string& id = scene_.lights[light.light].id;
-    if (light.type == LightType::kArea || options_.subset || listed.contains(id)) continue;
+    if (options_.subset || listed.contains(id)) continue;
     light_id_ = id;
     violation({}, "the light is missing");
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "gnomon/oracle/verdict.h"
+#include "gnomon/oracle/witness_check.h"
 #include "scene_builder.h"
 
 namespace gnomon::oracle {
@@ -132,6 +133,80 @@ TEST_F(AreaVerdict, BackgroundIsAClassOfTheLight) {
   EXPECT_EQ(certified(whole_, candidate).verdict, Verdict::kIdentical);
   candidate.lights[0].background = kIsUmbra;
   EXPECT_EQ(certified(whole_, candidate).verdict, Verdict::kFailed);
+}
+
+// Strips along y, so that only x counts: a light at z = 4 over a floor at z = 0.
+constexpr double kLong = 20;
+std::vector<Triple> strip(double x0, double x1, double z) {
+  return {{x0, -kLong, z}, {x1, -kLong, z}, {x1, kLong, z}, {x0, kLong, z}};
+}
+SceneBuilder strips() {
+  return SceneBuilder()
+      .polygon("floor", {{-8, -1, 0}, {8, -1, 0}, {8, 1, 0}, {-8, 1, 0}})
+      .area("panel", kPanel);
+}
+Candidate floor_of(const std::vector<std::pair<double, ShadeClass>>& from) {
+  Candidate candidate;
+  candidate.lights.emplace_back().id = "panel";
+  CandidatePolygon& floor = candidate.lights[0].polygons.emplace_back();
+  floor.id = "floor";
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const double end = i + 1 < from.size() ? from[i + 1].first : 8;
+    floor.fragments.push_back(rectangle(from[i].second, from[i].first, -1, end, 1));
+  }
+  return candidate;
+}
+
+TEST(AreaVerdictStrips, AUnionWhosePlanesAreNotContinuedLosesPenumbra) {
+  // Figure 6 of the 1992 paper. The lower strip's penumbra is x in [-1/3, 1]; the upper one's,
+  // [-5, 2], comes out of it on the other side. Entered only where its strip itself lies, in front
+  // of the first volume's first plane, it ends there: ]1, 2] is lost.
+  const BuiltScene built =
+      strips().polygon("lower", strip(0, 0.5, 1)).polygon("upper", strip(-0.5, -0.25, 3)).build();
+  EXPECT_EQ(certified(built, floor_of({{-8, kIsLit}, {-5, kIsPenumbra}, {2, kIsLit}})).verdict,
+            Verdict::kIdentical);
+  const Candidate wrong = floor_of({{-8, kIsLit}, {-5, kIsPenumbra}, {1, kIsLit}});
+  const Report report = certified(built, wrong);
+  EXPECT_EQ(report.verdict, Verdict::kFailed);
+  const PolygonComparison& floor = report.lights[0].polygons[0];
+  EXPECT_EQ(floor.misclassified.exact, mpq_class(1, 16));
+  EXPECT_TRUE(floor.missing_umbra.zero);
+  EXPECT_EQ(report.worst->text, "found lit, truly penumbra of 'upper'");
+  WitnessOptions options;
+  options.subset = true;
+  const WitnessReport found = check_witnesses(built.scene, built.prepared, wrong, options);
+  EXPECT_TRUE(std::any_of(found.findings.begin(), found.findings.end(), [](const auto& finding) {
+    return finding.text == "a lit fragment is in the penumbra of 'upper'";
+  }));
+}
+
+TEST(AreaVerdictStrips, DeepUmbraMayBeClaimed) {
+  // Figure 4(f): alone the strips hide all from x in [-3, -1/2] and [1/3, 7/3]; both together from
+  // [-1/4, 7/3] too. Penumbra is [-5, 3].
+  const BuiltScene built =
+      strips().polygon("upper", strip(-2, 0.25, 2)).polygon("lower", strip(0, 2, 1)).build();
+  Candidate candidate = floor_of({{-8, kIsLit},
+                                  {-5, kIsPenumbra},
+                                  {-3, kIsUmbra},
+                                  {-0.5, kIsPenumbra},
+                                  {-0.125, kIsUmbra},
+                                  {2.25, kIsPenumbra},
+                                  {3, kIsLit}});
+  Report report = certified(built, candidate);
+  EXPECT_EQ(report.verdict, Verdict::kIdentical) << report.reason;
+  // [2.25, 7/3] was called penumbra.
+  EXPECT_EQ(report.lights[0].polygons[0].missing_umbra.exact, mpq_class(1, 192));
+  candidate.lights[0].per_caster_umbra = true;
+  EXPECT_EQ(certified(built, candidate).verdict, Verdict::kFailed);
+  // Up to -3/8 some of the light is seen from a part of it.
+  candidate.lights[0].per_caster_umbra = false;
+  candidate.lights[0].polygons[0].fragments[3] = rectangle(kIsPenumbra, -0.5, -1, -0.375, 1);
+  candidate.lights[0].polygons[0].fragments[4] = rectangle(kIsUmbra, -0.375, -1, 2.25, 1);
+  report = certified(built, candidate);
+  EXPECT_EQ(report.verdict, Verdict::kFailed);
+  EXPECT_GE(report.lights[0].polygons[0].misclassified.fraction.upper, 0.125 / 16);
+  EXPECT_LE(report.lights[0].polygons[0].misclassified.fraction.upper, 0.2 / 16);
+  EXPECT_EQ(report.worst->found, kIsUmbra);
 }
 
 TEST(AreaVerdictSoups, ExactCandidatesAreIdentical) {

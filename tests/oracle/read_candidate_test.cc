@@ -55,6 +55,30 @@ TEST(ReadCandidate, ForeignResultsAndDecimals) {
   EXPECT_EQ(found->lights[0].polygons[0].fragments[0].loop[0][0], mpq_class(1, 10));
 }
 
+TEST(ReadCandidate, AreaLights) {
+  const Expected<Candidate> found = parse(R"({"lights": [
+      {"id": "a", "umbra": "per-caster", "polygons": [{"id": "p", "side": "front",
+        "lit": {"fraction": "1/4"}, "penumbra": {"fraction": "1/2"}, "umbra": {"fraction": "1/4"},
+        "fragments": [{"class": "penumbra", "loop": [[0,0,0],[1,0,0],[0,1,0]], "caster": "q"},
+                      {"class": "umbra", "loop": [[0,0,0],[1,0,0],[0,1,0]],
+                       "reason": "behind-light"}]},
+        {"id": "p", "side": "back", "fragments": []}]},
+      {"id": "b", "polygons": []}]})");
+  ASSERT_TRUE(found.has_value()) << to_string(found.error());
+  EXPECT_TRUE(found->lights[0].per_caster_umbra);
+  EXPECT_FALSE(found->lights[1].per_caster_umbra);
+  const CandidatePolygon& front = found->lights[0].polygons.at(0);
+  EXPECT_EQ(front.penumbra_fraction, mpq_class(1, 2));
+  EXPECT_EQ(front.umbra_fraction, mpq_class(1, 4));
+  EXPECT_EQ(front.fragments[0].shade, ShadeClass::kPenumbra);
+  EXPECT_EQ(front.fragments[1].reason, "behind-light");
+  EXPECT_EQ(found->lights[0].polygons[1].side, PolygonSide::kBack);
+  EXPECT_TRUE(parse(R"({"umbra": "per-caster", "lights": [{"id": "b", "polygons": []}]})")
+                  ->lights[0]
+                  .per_caster_umbra);
+  EXPECT_NE(message(R"({"umbra": "deep", "lights": []})").find("/umbra"), std::string::npos);
+}
+
 TEST(ReadCandidate, EveryErrorHasAPlace) {
   EXPECT_EQ(message(""), "r.json:1:1: the file is empty; expected a result in JSON, UTF-8");
   EXPECT_NE(message("{\n \"lights\": [1,\n").find("r.json:3:1"), std::string::npos);

@@ -2,8 +2,9 @@
 // Reads a result file (docs: formats, "Result"), ours or a foreign program's, as a candidate.
 //
 // Needs lights[].id, polygons[].id, `side` where both sides count, and fragments[].{class, loop};
-// `background` lets a light list one class only; unknown keys are ignored. `exact_loop` with
-// coordinates as "p/q" is preferred to `loop`. Coordinates mean what the scene's numbers mean.
+// `background` lets a light list one class only, `"umbra": "per-caster"` says what umbra means
+// (both also for all lights at the top); unknown keys are ignored. `exact_loop` with coordinates as
+// "p/q" is preferred to `loop`. Coordinates mean what the scene's numbers mean.
 #ifndef GNOMON_ORACLE_READ_CANDIDATE_H
 #define GNOMON_ORACLE_READ_CANDIDATE_H
 

@@ -5,6 +5,10 @@
 //   add up;
 //   - a shadow fragment's caster shadows all of it, or its reason holds;
 //   - no caster shadows any area of a lit fragment;
+//   - under an area light, a penumbra fragment's caster hides part of the light from all of it, an
+//   umbra fragment's caster all of the light (or it is behind the light), and no caster any part
+//   of the light from a lit fragment; if umbra is claimed per caster, none hides all of it from any
+//   area of a penumbra fragment;
 //   - claimed fractions are those of the fragments.
 // A result that passes is right: its fragments tile every polygon and each has its proof.
 //
