@@ -7,6 +7,7 @@
 
 #include "algorithm_choice.h"
 #include "commands.h"
+#include "gnomon/algorithms/deep_umbra.h"
 #include "gnomon/report/number_text.h"
 #include "gnomon/report/result_json.h"
 #include "gnomon/scene/digest.h"
@@ -34,6 +35,8 @@ struct ShadowsOptions {
   bool lit_only = false, shadow_only = false, penumbra_only = false, umbra_only = false;
   bool combined = false;
   bool no_merge = false, no_prefix = false, pieces = false;
+  bool deep_umbra = false;
+  double deep_umbra_tolerance = 1e-3;
   bool stats = false;
   IlluminateOptions illuminate;
   std::string output;
@@ -53,10 +56,15 @@ int run_shadows(const ShadowsOptions& options) {
     }
     algorithm->area = AreaAlgorithm::kPieces;
   }
-  if ((options.exact_fractions || options.exact_loops) && !kernel->exact()) {
-    const std::string option = options.exact_fractions ? "--exact-fractions" : "--exact-loops";
-    return report_usage(option + ": kernel " + kernel->name() + " rounds",
+  for (const auto& [option, given] : {std::pair("--exact-fractions", options.exact_fractions),
+                                      std::pair("--exact-loops", options.exact_loops),
+                                      std::pair("--deep-umbra", options.deep_umbra)}) {
+    if (!given || kernel->exact()) continue;
+    return report_usage(std::string(option) + ": kernel " + kernel->name() + " rounds",
                         "an exact kernel: plane, rational or epeck");
+  }
+  if (options.deep_umbra && options.pieces) {
+    return report_usage("--deep-umbra is of whole lights", "no --pieces");
   }
   const ThreadLimit threads(options.scene.jobs);
   auto loaded = load_scene(options.scene, true);
@@ -72,7 +80,7 @@ int run_shadows(const ShadowsOptions& options) {
   shadow_options.thickness = kernel->thin ? 0 : options.thickness;
   shadow_options.lights = loaded->lights;
   shadow_options.keep_points = options.fragments || (options.combined && !options.exact_loops);
-  shadow_options.keep_exact_points = options.exact_loops;
+  shadow_options.keep_exact_points = options.exact_loops || options.deep_umbra;
   shadow_options.exact_fractions = options.exact_fractions;
   shadow_options.combined = options.combined;
   shadow_options.count_stages = options.stats;
@@ -106,6 +114,21 @@ int run_shadows(const ShadowsOptions& options) {
   if (options.shadow_only) json_options.only = LightState::kShadow;
   if (options.penumbra_only) json_options.only = LightState::kPenumbra;
   if (options.umbra_only) json_options.only = LightState::kUmbra;
+  if (options.deep_umbra) {
+    for (const LightResult& light : result->lights) {
+      auto& bounds = json_options.deep_umbra.emplace_back();
+      if (loaded->prepared.lights[light.light].type != LightType::kArea) continue;
+      DeepUmbraOptions deep_options;
+      deep_options.tolerance = options.deep_umbra_tolerance;
+      deep_options.interrupted = &interrupted();
+      auto found = deep_umbra_bounds(loaded->prepared, light, deep_options);
+      if (!found) return report_error(found.error());
+      bounds = std::move(*found);
+    }
+    const Seconds deep = stopwatch.lap();
+    times.shadows.cpu += deep.cpu;
+    times.shadows.elapsed += deep.elapsed;
+  }
   auto output = Output::open(options.output);
   if (!output) return report_error(output.error());
   output->give_up_if(interrupted());
@@ -156,6 +179,17 @@ void add_shadows_command(CLI::App& app, Action& action) {
       "receiver)");
   command.add_flag("--pieces", options->pieces,
                    "Area lights as in 1992: cut by the planes of polygons, classes for each piece");
+  auto* deep_umbra = command.add_flag(
+      "--deep-umbra", options->deep_umbra,
+      "Area lights: also bounds of the share of each polygon that no light reaches, whatever\n"
+      "hides it (exact kernels)");
+  command
+      .add_option("--deep-umbra-tolerance", options->deep_umbra_tolerance,
+                  "Share of each part that may stay undecided")
+      ->check(not_negative())
+      ->needs(deep_umbra)
+      ->type_name("F")
+      ->default_str("1e-3");
   const std::array<CLI::Option*, 4> only{
       command.add_flag("--lit-only", options->lit_only, "List lit fragments only"),
       command.add_flag("--shadow-only", options->shadow_only,

@@ -383,6 +383,26 @@ std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const Ligh
   return sides;
 }
 
+Interval deep_umbra_share(const PreparedScene& scene, const LightResult& light,
+                          const ClassifiedSide& side, std::span<const DeepUmbraBounds> bounds) {
+  const std::uint32_t first = scene.first_part[side.polygon];
+  Enclosure total{0, 0}, deep{0, 0};
+  for (std::uint32_t i = 0; i < side.parts.size(); ++i) {
+    const PartSide& part = side.parts[i];
+    Interval fraction{1, 1};  // of what sees nothing of the light
+    if (part.reason == ShadowReason::kNone) {
+      fraction = bounds[static_cast<std::size_t>(part.result - light.parts.data())].fraction;
+    }
+    if (side.parts.size() == 1) return fraction;
+    const Enclosure area = to_enclosure(part_area(scene, scene.parts[first + i]));
+    total = total + area;
+    deep = deep + area * to_enclosure(fraction);
+  }
+  if (total.lower <= 0) return {0, 1};
+  const Interval share = to_interval(deep / total);
+  return {std::max(share.lower, 0.0), std::min(share.upper, 1.0)};
+}
+
 std::string_view reason_name(ShadowReason reason) {
   switch (reason) {
     case ShadowReason::kNone:

@@ -164,6 +164,15 @@ class ResultWriter {
       write_share(state_name(state), light, side, area, share_of(side, state),
                   exact_share_of(side, state));
     }
+    if (side.area_light && !options_.deep_umbra.empty()) {
+      const auto index = static_cast<std::size_t>(&light - result_.lights.data());
+      const Interval deep = deep_umbra_share(prepared_, light, side, options_.deep_umbra[index]);
+      json_.key("deep_umbra");
+      json_.begin_object(JsonLayout::kInline);
+      json_.member("lower", deep.lower);
+      json_.member("upper", deep.upper);
+      json_.end_object();
+    }
     if (side.reason != ShadowReason::kNone) json_.member("reason", reason_name(side.reason));
     if (has_parts) write_parts(side);
     if (options_.fragments || options_.exact_loops) write_fragments(light, side);
@@ -282,7 +291,7 @@ class ResultWriter {
       write_loop("loop", std::span(points).subspan(first, count),
                  [&](const auto& point) { write_point(point); });
     }
-    if (!exact_points.empty()) {
+    if (options_.exact_loops && !exact_points.empty()) {
       write_loop("exact_loop", std::span(exact_points).subspan(first, count),
                  [&](const auto& point) { write_exact_point(point); });
     }

@@ -190,6 +190,24 @@ TEST(AreaLights, CombinedFragmentsNameTheLightsOfTheirPenumbra) {
   EXPECT_FALSE(points["combined"][0]["fragments"][0].HasMember("penumbra_of"));
 }
 
+TEST(AreaLights, DeepUmbraIsEnclosed) {
+  // Dark along x from -44 to 152/7, of a floor of 128: the gap of figure 4(f) is part of it.
+  const rapidjson::Document document =
+      parsed(run({"shadows", example("figure-4f"), "--deep-umbra", "--deep-umbra-tolerance", "0.01",
+                  "--fragments"}));
+  const auto& floor = document["lights"][0]["polygons"][0];
+  const double deep = (44 + 152.0 / 7) / 128;
+  EXPECT_LE(floor["deep_umbra"]["lower"].GetDouble(), deep);
+  EXPECT_GE(floor["deep_umbra"]["upper"].GetDouble(), deep);
+  EXPECT_LE(floor["deep_umbra"]["upper"].GetDouble(),
+            floor["deep_umbra"]["lower"].GetDouble() + 0.02);
+  EXPECT_FALSE(floor["fragments"][0].HasMember("exact_loop"));
+  expect_refused({"shadows", example("figure-4f"), "--deep-umbra", "--kernel", "double"},
+                 {"--deep-umbra", "double"});
+  expect_refused({"shadows", example("figure-4f"), "--deep-umbra-tolerance", "0.1"},
+                 {"--deep-umbra"});
+}
+
 TEST(AreaLights, CertificatesOfForeignResultsTellMissingUmbra) {
   const TestDirectory directory;
   const std::string own = directory.file("own.json"), foreign = directory.file("foreign.json");

@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gnomon/algorithms/deep_umbra.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/kernel/sign.h"
 #include "gnomon/scene/prepare.h"
@@ -87,6 +88,11 @@ mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon);
 /// Area in scene units squared of all sides of parts that face or see one of the lights, once a
 /// light.
 double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights);
+
+/// Bounds of the share of a side that is in the deep umbra of its area light. `bounds`: of the
+/// parts of the same LightResult, one for each.
+Interval deep_umbra_share(const PreparedScene& scene, const LightResult& light,
+                          const ClassifiedSide& side, std::span<const DeepUmbraBounds> bounds);
 
 /// "faces-away", "light-in-plane", "behind-light"; empty for kNone.
 std::string_view reason_name(ShadowReason reason);

@@ -9,7 +9,9 @@
 #include <atomic>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "gnomon/algorithms/deep_umbra.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/report/text_sink.h"
 #include "gnomon/scene/prepare.h"
@@ -18,11 +20,14 @@
 namespace gnomon::report {
 
 struct ResultJsonOptions {
-  std::string geometry_digest;     // "sha256:..."
-  bool fragments = false;          // loops of nearest doubles; needs LightResult::points
-  bool exact_fractions = false;    // "p/q" instead of numbers; needs PartResult::exact_lit
-  bool exact_loops = false;        // needs LightResult::exact_points
-  bool combined = false;           // all lights together; needs ShadowResult::combined
+  std::string geometry_digest;   // "sha256:..."
+  bool fragments = false;        // loops of nearest doubles; needs LightResult::points
+  bool exact_fractions = false;  // "p/q" instead of numbers; needs PartResult::exact_lit
+  bool exact_loops = false;      // needs LightResult::exact_points
+  bool combined = false;         // all lights together; needs ShadowResult::combined
+  /// For each light the bounds that deep_umbra_bounds() has of it, none for other lights; empty: do
+  /// not write them.
+  std::vector<std::vector<DeepUmbraBounds>> deep_umbra;
   std::optional<LightState> only;  // list fragments of this class alone; kShadow: all not lit
   /// Once true, polygons are left off: what has been written is then no result.
   const std::atomic<bool>* interrupted = nullptr;
