@@ -22,7 +22,10 @@ constexpr Colour kInk{33, 37, 48};
 constexpr double kSeamWidth = 1;    // hides the seams that antialiasing leaves between neighbours
 constexpr double kBorderInk = 0.5;  // of a face's border, the rest is the face's colour
 constexpr double kLegendHeight = 46;
+constexpr double kShortest = 1.5;     // pixels; a gradient that is shorter is not seen
 constexpr double kLevel = 1.0 / 255;  // one step of what the screen can show
+
+std::string hundredths(double pixels) { return shortest(std::round(100 * pixels) / 100); }
 
 /// A linear function, fitted to values at points of a plane by least squares about their mean.
 struct LinearFit {
@@ -195,7 +198,10 @@ class ShadedPainter {
     }
     const Colour mean = colour(on_screen.mean, face);
     std::string fill = colour_text(mean);
-    if (high - low > 1.5 * kLevel) fill = gradient(on_screen, low, high, face);
+    const double steepness = std::hypot(on_screen.gradient[0], on_screen.gradient[1]);
+    if (high - low > 1.5 * kLevel && high - low > kShortest * steepness) {
+      fill = gradient(on_screen, low, high, face);
+    }
     const std::string border =
         options_.picture.fragments ? colour_text(mix(mean, kInk, kBorderInk)) : fill;
     svg_.polygon(pixels, {fill, border, kSeamWidth});
@@ -212,8 +218,8 @@ class ShadedPainter {
     const PixelPoint from = point_at(low), to = point_at(high);
     const std::string id = "g" + std::to_string(gradients_++);
     svg_.define("<linearGradient id=\"" + id + "\" gradientUnits=\"userSpaceOnUse\" x1=\"" +
-                rounded(from[0], 6) + "\" y1=\"" + rounded(from[1], 6) + "\" x2=\"" +
-                rounded(to[0], 6) + "\" y2=\"" + rounded(to[1], 6) + "\"><stop stop-color=\"" +
+                hundredths(from[0]) + "\" y1=\"" + hundredths(from[1]) + "\" x2=\"" +
+                hundredths(to[0]) + "\" y2=\"" + hundredths(to[1]) + "\"><stop stop-color=\"" +
                 colour_text(colour(low, face)) + "\"/><stop offset=\"1\" stop-color=\"" +
                 colour_text(colour(high, face)) + "\"/></linearGradient>");
     return "url(#" + id + ")";

@@ -133,6 +133,35 @@ TEST_F(Illuminate, RenderPaintsIt) {
   EXPECT_THAT(both.err, HasSubstr("--illuminate shows the exact answer"));
 }
 
+/// A panel over the table: lit, penumbra and umbra by every way to find them.
+TEST_F(Illuminate, AreaLights) {
+  std::string text = kTable;
+  const std::string panel =
+      R"({"id": "panel", "type": "area", "loop": [[1,1,3],[1,2,3],[2,2,3],[2,1,3]]}, )";
+  text.insert(text.find("{\"id\": \"bulb\""), panel);
+  write_text(scene_, text);
+  const auto counts = [&](const Arguments& options) {
+    Arguments all{"--illuminate", "--stats"};
+    all.insert(all.end(), options.begin(), options.end());
+    const RunResult done = run(all);
+    EXPECT_EQ(done.status, 0) << done.err;
+    const std::size_t at = done.err.find("light panel: vertices ");
+    EXPECT_NE(at, std::string::npos) << done.err;
+    return done.err.substr(at, done.err.find("; illumination ", at) - at);
+  };
+  EXPECT_EQ(counts({"--light", "panel"}).find(" 0 "), std::string::npos)
+      << counts({"--light", "panel"});
+  counts({"--light", "panel", "--algorithm", "merged"});
+  counts({"--light", "panel", "--pieces"});
+  counts({"--light", "panel", "--kernel", "rational", "--grid", "1"});
+  counts({});
+  counts({"--algorithm", "receiver"});
+  const std::string mesh = directory_.file("mesh.glb");
+  const RunResult all = run({"--illuminate", "--adaptive", "0.1", "--mesh", mesh});
+  EXPECT_EQ(all.status, 0) << all.err;
+  EXPECT_THAT(read_text(mesh), StartsWith("glTF"));
+}
+
 TEST_F(Illuminate, AGridThatIsTooFineIsALimit) {
   const std::string mesh = directory_.file("mesh.ply");
   const RunResult done = run({"--illuminate", "--mesh", mesh, "--grid", "0.0001"});
