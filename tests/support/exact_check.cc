@@ -185,6 +185,9 @@ std::vector<ShadowOptions> variants(const Case& scene) {
     options.merge = options.prefix = kernel != KernelId::kRational;
     options.seed = 1 + static_cast<std::uint64_t>(kernel);
     all.push_back(options);
+    if (kernel != KernelId::kPlane) continue;
+    options.algorithm = Algorithm::kReceiver;  // as area lights are found
+    all.push_back(options);
   }
   return all;
 }
