@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <unordered_map>
 #include <utility>
 
 namespace gnomon {
@@ -51,6 +53,17 @@ class CellShadow {
     return true;
   }
 
+  /// The caster's edges as seen from its blocking side: counter-clockwise from the light.
+  std::span<const PlaneRef> edges() const {
+    return view_.scene().edges(view_.scene().parts[caster_.part]);
+  }
+  std::span<const VertexId> loop() const {
+    return view_.scene().loop(view_.scene().parts[caster_.part]);
+  }
+  /// Whether the caster is in front of the planes through one of its edges as line_of_edge has
+  /// them.
+  bool is_in_front_of(PlaneRef edge) const { return edge.flipped() != front_; }
+
   /// Lines between which is all that is hidden from any point of the cell.
   void outer(std::vector<PlaneRef>& region) {
     region.clear();
@@ -82,9 +95,6 @@ class CellShadow {
   }
 
  private:
-  std::span<const PlaneRef> edges() const {
-    return view_.scene().edges(view_.scene().parts[caster_.part]);
-  }
   PlaneRef line(PlaneRef edge, std::uint32_t corner) {
     const PlaneRef made = pieces_.line_of_edge(edge.index(), corner);
     return edge.flipped() == front_ ? -made : made;
@@ -110,6 +120,108 @@ class CellShadow {
   std::array<Sign, kCorners> heights_{};
   std::uint32_t deepest_ = kCorners;
   bool in_front_ = false;
+};
+
+/// Casters that share edges hide what passes by them: whatever passes one of the two at their
+/// common edge meets the other.
+class JoinedShadows {
+ public:
+  JoinedShadows(LightPieces& pieces, std::span<CellShadow> shadows) : pieces_(pieces) {
+    std::vector<PlaneRef> region;
+    for (CellShadow& shadow : shadows) {
+      if (!shadow.inner(region)) continue;
+      pieces_.subtract(region);
+      if (pieces_.empty()) return;
+      const auto number = static_cast<std::uint32_t>(faces_.size());
+      faces_.push_back({&shadow, region});
+      for (std::uint32_t i = 0; i < shadow.edges().size(); ++i) {
+        const PlaneRef edge = shadow.edges()[i];
+        sides_[key(edge.index(), shadow.is_in_front_of(edge))].push_back({number, i});
+      }
+    }
+    subtract_pairs();
+    subtract_fans();
+  }
+
+ private:
+  struct Face {
+    CellShadow* shadow;
+    std::vector<PlaneRef> region;  // a line for each edge, and perhaps the caster's plane
+  };
+  struct FaceEdge {
+    std::uint32_t face = 0, edge = 0;
+  };
+  static constexpr std::size_t kLongestFan = 16;
+
+  static std::uint64_t key(EdgeId edge, bool in_front) {
+    return std::uint64_t{edge} * 2 + (in_front ? 1 : 0);
+  }
+  /// What lies on the other side of an edge.
+  std::span<const FaceEdge> across(FaceEdge at) const {
+    const CellShadow& shadow = *faces_[at.face].shadow;
+    const PlaneRef edge = shadow.edges()[at.edge];
+    const auto found = sides_.find(key(edge.index(), !shadow.is_in_front_of(edge)));
+    if (found == sides_.end()) return {};
+    return found->second;
+  }
+  /// The face's region without the bounds of one or two of its edges.
+  static void append(std::vector<PlaneRef>& region, const Face& face, std::uint32_t left_out,
+                     std::uint32_t left_out_too) {
+    for (std::uint32_t i = 0; i < face.region.size(); ++i) {
+      if (i != left_out && i != left_out_too) region.push_back(face.region[i]);
+    }
+  }
+
+  void subtract_pairs() {
+    std::vector<PlaneRef> region;
+    for (std::uint32_t f = 0; f < faces_.size() && !pieces_.empty(); ++f) {
+      for (std::uint32_t e = 0; e < faces_[f].shadow->edges().size(); ++e) {
+        for (const FaceEdge other : across({f, e})) {
+          if (other.face < f) continue;  // was the other's turn
+          region.clear();
+          append(region, faces_[f], e, e);
+          append(region, faces_[other.face], other.edge, other.edge);
+          pieces_.subtract(region);
+        }
+      }
+    }
+  }
+
+  /// All the way round a vertex, from face to face.
+  void subtract_fans() {
+    std::vector<PlaneRef> region;
+    for (std::uint32_t f = 0; f < faces_.size() && !pieces_.empty(); ++f) {
+      const auto size = static_cast<std::uint32_t>(faces_[f].shadow->edges().size());
+      for (std::uint32_t e = 0; e < size; ++e) {
+        const VertexId vertex = faces_[f].shadow->loop()[e];
+        region.clear();
+        FaceEdge at{f, e};
+        bool closed = false, is_first = true;
+        for (std::size_t steps = 0; steps < kLongestFan; ++steps) {
+          // Into the face over one of its edges at the vertex, out over the other.
+          const CellShadow& shadow = *faces_[at.face].shadow;
+          const auto n = static_cast<std::uint32_t>(shadow.edges().size());
+          const std::uint32_t out =
+              shadow.loop()[at.edge] == vertex ? (at.edge + n - 1) % n : (at.edge + 1) % n;
+          append(region, faces_[at.face], at.edge, out);
+          const std::span<const FaceEdge> next = across({at.face, out});
+          if (next.empty()) break;
+          at = next[0];
+          if (at.face == f) {
+            closed = at.edge == e;
+            break;
+          }
+          is_first = is_first && at.face > f;
+        }
+        // Each fan once, from its first face.
+        if (closed && is_first) pieces_.subtract(region);
+      }
+    }
+  }
+
+  LightPieces& pieces_;
+  std::vector<Face> faces_;
+  std::unordered_map<std::uint64_t, std::vector<FaceEdge>> sides_;
 };
 
 }  // namespace
@@ -192,16 +304,15 @@ CellAnswer UmbraCells::decide(const UmbraCell& cell, std::vector<CasterSide>& ca
   }
   const bool is_dark = pieces.empty();
   pieces.set_pieces(in_front);
+  if (is_dark) {
+    JoinedShadows(pieces, shadows);
+    return pieces.empty() ? CellAnswer::kDeep : CellAnswer::kUndecided;
+  }
   for (CellShadow& shadow : shadows) {
     if (pieces.empty()) break;
-    if (is_dark) {
-      if (shadow.inner(region)) pieces.subtract(region);
-    } else {
-      shadow.outer(region);
-      pieces.subtract(region);
-    }
+    shadow.outer(region);
+    pieces.subtract(region);
   }
-  if (is_dark) return pieces.empty() ? CellAnswer::kDeep : CellAnswer::kUndecided;
   return pieces.empty() ? CellAnswer::kUndecided : CellAnswer::kSeen;
 }
 

@@ -70,6 +70,30 @@ TEST(DeepUmbra, OfTwoCastersTogetherAsInFigure4f) {
   EXPECT_GT((*deep_umbra_bounds(scene, 0, {}))[0].fraction.lower, 5.5 / 8 + 0.1);
 }
 
+TEST(DeepUmbra, UnderABoxWhoseFacesHideTheLightTogether) {
+  // Faces that share edges and corners: every ray passes some of them, and which one changes within
+  // every cell, however small.
+  LightSceneBuilder builder;
+  builder.polygon({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}});
+  builder.polygon({{-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}});  // outward: up
+  builder.polygon({{-1, -1, 0}, {1, -1, 0}, {1, -1, 1}, {-1, -1, 1}});
+  builder.polygon({{1, -1, 0}, {1, 1, 0}, {1, 1, 1}, {1, -1, 1}});
+  builder.polygon({{1, 1, 0}, {-1, 1, 0}, {-1, 1, 1}, {1, 1, 1}});
+  builder.polygon({{-1, 1, 0}, {-1, -1, 0}, {-1, -1, 1}, {-1, 1, 1}});
+  builder.area({{-3, -3, 2}, {-3, 3, 2}, {3, 3, 2}, {3, -3, 2}});
+  const PreparedScene scene = builder.build();
+  DeepUmbraOptions options;
+  options.max_cells = 20000;
+  const auto bounds = deep_umbra_bounds(scene, 0, options);
+  ASSERT_TRUE(bounds);
+  const DeepUmbraBounds& floor = (*bounds)[0];
+  EXPECT_LE(floor.fraction.lower, 0.25);
+  EXPECT_GE(floor.fraction.upper, 0.25);
+  EXPECT_LE(floor.fraction.upper - floor.fraction.lower, 1.001e-2);
+  std::printf("box: [%.5f, %.5f], %llu cells\n", floor.fraction.lower, floor.fraction.upper,
+              static_cast<unsigned long long>(floor.cells));
+}
+
 TEST(DeepUmbra, CellsAreWhatTheirPointsAre) {
   Random random(21);
   std::size_t deep = 0, seen = 0, undecided = 0;
