@@ -15,6 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -25,6 +26,7 @@
 #include "caster_tree.h"
 #include "fragment_sink.h"
 #include "gnomon/kernel/fp_environment.h"
+#include "merged_light.h"
 
 namespace gnomon {
 
@@ -77,8 +79,11 @@ class AreaRun {
            (stopped_.store(true, std::memory_order_relaxed), false);
   }
   LightResult run_light(std::uint32_t light, double from, double to);
+  /// `merged`: may be null.
   std::vector<SideResult> run_part(Scratch& scratch, const AreaLight<Space>& light,
-                                   std::uint32_t part);
+                                   const MergedLight<Space>* merged, std::uint32_t part);
+  bool build_trees(const AreaLight<Space>& light, double from, double to,
+                   MergedLight<Space>& trees);
   void combine(const LightList& lights, double from, double to, AreaOutcome& outcome);
   tl::unexpected<Error> stop_reason() const;
 
@@ -132,6 +137,7 @@ bool AreaRun<Space>::for_each(std::size_t n, double from, double to, const Body&
 
 template <VolumeSpaceModel Space>
 std::vector<SideResult> AreaRun<Space>::run_part(Scratch& scratch, const AreaLight<Space>& light,
+                                                 const MergedLight<Space>* merged,
                                                  std::uint32_t index) {
   const Part& part = scene_.parts[index];
   std::vector<SideResult> sides;
@@ -144,18 +150,62 @@ std::vector<SideResult> AreaRun<Space>::run_part(Scratch& scratch, const AreaLig
       if (reason == ShadowReason::kNone) reason = sight.reason;
       continue;
     }
-    light.prepare(scratch, index, side);
+    const PlaneRef receiving = plane_of_side(part, side);
+    const bool by_trees =
+        merged != nullptr && merged->takes(scratch.space, scratch.record, receiving);
+    if (!by_trees) light.prepare(scratch, index, side);
     const Loop whole = part_loop(scratch.space, scene_, index, scratch.whole);
     sink.begin(index, side, light.is_area());
-    light.cut(scratch, whole, [&](const PieceClass& state, const Loop& loop) {
+    const auto emit = [&](const PieceClass& state, const Loop& loop) {
       sink.add(state, loop);
       return count_piece();
-    });
+    };
+    if (by_trees) {
+      if (!scratch.merged) {
+        scratch.merged = std::make_unique<MergedScratch<Space>>(scratch.space, options_.merge);
+      }
+      merged->cut(scratch.space, scratch.record, *scratch.merged, whole, receiving, emit);
+    } else {
+      light.cut(scratch, whole, emit);
+    }
     if (stopped_) return sides;
     sides.push_back(sink.finish(scratch.space, whole));
   }
   if (sides.empty()) sides.push_back(dark_side(index, Side::kFront, reason, light.is_area()));
   return sides;
+}
+
+/// The trees of the merged algorithm, for all sides that see the light and that they take. False if
+/// stopped.
+template <VolumeSpaceModel Space>
+bool AreaRun<Space>::build_trees(const AreaLight<Space>& light, double from, double to,
+                                 MergedLight<Space>& trees) {
+  std::vector<std::uint32_t> receivers;
+  {
+    Scratch scratch(space_.fork());
+    for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
+      if (stopped()) return false;
+      for (const Side side : {Side::kFront, Side::kBack}) {
+        if (side == Side::kBack && !scene_.parts[i].two_sided) break;
+        if (light.sight(scratch, i, side).sees() &&
+            trees.takes(scratch.space, scratch.record, plane_of_side(scene_.parts[i], side))) {
+          receivers.push_back(i);
+          break;
+        }
+      }
+    }
+    stages_ += scratch.space.stage_counts();
+  }
+  using Outcome = typename MergedLight<Space>::Outcome;
+  const Outcome outcome = trees.build(receivers, [&](double share) {
+    if (options_.progress) options_.progress(from + (to - from) * share);
+    return !stopped();
+  });
+  if (outcome == Outcome::kTooManyNodes) {
+    pieces_ = options_.max_fragments + 1;
+    stopped_ = true;
+  }
+  return outcome == Outcome::kDone;
 }
 
 template <VolumeSpaceModel Space>
@@ -165,6 +215,13 @@ LightResult AreaRun<Space>::run_light(std::uint32_t index, double from, double t
   const AreaLight<Space> light(space_, area_scene_, tree_, index);
   LightResult result;
   result.light = index;
+  std::optional<MergedLight<Space>> merged;
+  if (light.is_area() && options_.area_algorithm == AreaAlgorithm::kMerged) {
+    merged.emplace(space_, light, scene_, tree_, options_);
+    const double middle = from + (to - from) / 2;
+    if (!build_trees(light, from, middle, *merged)) return result;
+    from = middle;
+  }
   std::vector<std::vector<SideResult>> parts(scene_.parts.size());
   // The largest first: their work may be most of all, and what is started last is waited for.
   std::vector<std::uint32_t> order(scene_.parts.size());
@@ -180,13 +237,15 @@ LightResult AreaRun<Space>::run_light(std::uint32_t index, double from, double t
   for_each(order.size(), from, to, [&](Scratch& scratch, std::size_t i) {
     const std::uint64_t cells_before = scratch.cutter.cells(),
                         vanished_before = scratch.cutter.vanished();
-    parts[order[i]] = run_part(scratch, light, order[i]);
+    const std::uint64_t filtered_before = scratch.merged ? scratch.merged->filter.vanished() : 0;
+    parts[order[i]] = run_part(scratch, light, merged ? &*merged : nullptr, order[i]);
+    if (scratch.merged) vanished += scratch.merged->filter.vanished() - filtered_before;
     cells += scratch.cutter.cells() - cells_before;
     vanished += scratch.cutter.vanished() - vanished_before;
   });
   space_.release_planes(mark);
-  result.tree_nodes = cells;
-  result.dropped_slivers = vanished;
+  result.tree_nodes = cells + (merged ? merged->node_count() : 0);
+  result.dropped_slivers = vanished + (merged ? merged->findings() : 0);
   if (stopped_) return result;
   for (std::vector<SideResult>& sides : parts) {
     for (SideResult& side : sides) {

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "gnomon/algorithms/split.h"
 #include "gnomon/kernel/kernel_concept.h"
 #include "light_parts.h"
+#include "merged_tree.h"
 #include "receiver_cutter.h"
 #include "shadow_volume.h"
 
@@ -55,6 +57,7 @@ struct ReceiverScratch {
   std::vector<VolumeToCut> volumes;
   SplitRecord record;
   std::vector<typename Space::Vertex> crossings;
+  std::unique_ptr<MergedScratch<Space>> merged;  // once the merged algorithm asks for it
 };
 
 template <VolumeSpaceModel Space>

@@ -84,6 +84,14 @@ CoordinatePlane<T> CoordinateVolumeSpace<T>::axis_plane(int axis, double value) 
 }
 
 template <class T>
+typename CoordinateVolumeSpace<T>::Vertex CoordinateVolumeSpace<T>::axis_point(
+    const std::array<double, 3>& fractions) const {
+  Vertex vertex;
+  for (int k = 0; k < 3; ++k) vertex.x[k] = axis_plane(k, fractions[k]).d;
+  return vertex;
+}
+
+template <class T>
 std::array<Ball, 3> CoordinateVolumeSpace<T>::position(const Corner<Vertex>& corner) const {
   std::array<Ball, 3> point;
   for (int k = 0; k < 3; ++k) {

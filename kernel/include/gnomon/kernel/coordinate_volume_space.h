@@ -40,6 +40,8 @@ class CoordinateVolumeSpace
 
   CoordinateVolumeSpace(const SceneSpace& scene, const KernelOptions& options);
 
+  /// The made vertex where three axis planes meet.
+  Vertex axis_point(const std::array<double, 3>& fractions) const;
   /// Fractions of the grid's extent. With a float type, of radius 0 around the rounded numbers.
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   /// Scene units: the kernel's own numbers, exactly.

@@ -61,6 +61,13 @@ class PlaneVolumeSpace {
   PlaneRef add_plane(const Corner<Vertex>& a, const Corner<Vertex>& b, const LightPoint& light);
   /// Exactly where the coordinate is `value` 2^b grid units. Requires: value in [0, 1].
   PlaneRef add_axis_plane(int axis, double value);
+  /// The made vertex where three such planes meet. Requires: values in [0, 1].
+  Vertex axis_point(const std::array<double, 3>& values) const {
+    Vertex vertex;
+    vertex.x = values;
+    vertex.bound = rounded_up(vertex_bound(0, 1));
+    return vertex;
+  }
   std::uint32_t plane_mark() const { return static_cast<std::uint32_t>(own_.size()); }
   void release_planes(std::uint32_t mark) {
     own_.resize(mark);

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The merged trees of 1992 against the receiver algorithm, which shares neither tree nor polyhedra
+// with them: the same exact fractions of all classes on small scenes, most of them degenerate; the
+// scenes of the paper's figures 4 and 6; limits, interruption, progress.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gnomon/algorithms/shadows.h"
+#include "gnomon/scene/prepare.h"
+#include "gnomon/scene/random.h"
+#include "scene_pen.h"
+
+namespace gnomon::test {
+namespace {
+
+Scene with_lamp(ScenePen& pen, const std::vector<Triple>& loop) {
+  Light light;
+  light.id = "panel";
+  light.type = LightType::kArea;
+  for (const Triple& vertex : loop) light.loop.push_back(pen.position(vertex));
+  Scene scene = pen.take();
+  scene.lights.push_back(std::move(light));
+  return scene;
+}
+
+/// Triangles and parallelograms of a small grid.
+std::vector<Triple> random_loop(Random& random, std::int64_t size) {
+  const auto point = [&]() -> Triple {
+    return {random.between(0, size), random.between(0, size), random.between(0, size)};
+  };
+  for (;;) {
+    const Triple a = point(), b = point(), c = point();
+    if (is_zero(cross(b - a, c - a))) continue;
+    if (random.chance(1, 3)) return {a, b, c};
+    return {a, b, b + (c - a), c};
+  }
+}
+
+/// Anything: casters and receivers cut the light, share its vertices, edges, plane.
+Scene soup(std::uint64_t seed) {
+  Random random(seed);
+  const std::int64_t size = seed % 3 == 0 ? 3 : seed % 3 == 1 ? 6 : 500;
+  ScenePen pen;
+  for (int i = 0; i < 7; ++i) {
+    pen.two_sided(random.chance(1, 3)).casts(!random.chance(1, 12));
+    pen.polygon(random_loop(random, size));
+  }
+  return with_lamp(pen, random_loop(random, size));
+}
+
+/// A ceiling light over axis-parallel boxes on a floor: much that touches.
+Scene boxes(std::uint64_t seed) {
+  Random random(seed);
+  ScenePen pen;
+  pen.polygon({{0, 0, 0}, {12, 0, 0}, {12, 12, 0}, {0, 12, 0}});
+  pen.two_sided(random.chance(1, 2));
+  pen.polygon({{0, 12, 0}, {12, 12, 0}, {12, 12, 12}, {0, 12, 12}});
+  pen.two_sided(false);
+  for (int i = 0; i < 2; ++i) {
+    const std::int64_t x = random.between(0, 8), y = random.between(0, 8), z = random.between(0, 5);
+    pen.box({x, y, z},
+            {x + random.between(1, 3), y + random.between(1, 3), z + random.between(1, 3)});
+  }
+  const std::int64_t x = random.between(0, 8), y = random.between(0, 8), z = random.between(5, 12);
+  const std::int64_t w = random.between(1, 4), d = random.between(1, 4);
+  return with_lamp(pen, {{x, y, z}, {x, y + d, z}, {x + w, y + d, z}, {x + w, y, z}});
+}
+
+/// Walls that stand on the floor that the light stands on: planes of volumes in the floor.
+Scene standing(std::uint64_t seed) {
+  Random random(seed);
+  ScenePen pen;
+  pen.two_sided(random.chance(1, 2));
+  pen.polygon({{0, 0, 0}, {12, 0, 0}, {12, 12, 0}, {0, 12, 0}});
+  for (int i = 0; i < 3; ++i) {
+    const std::int64_t x = random.between(2, 8), y = random.between(0, 6), h = random.between(1, 8),
+                       w = random.between(1, 6), shift = random.between(-1, 2);
+    pen.two_sided(random.chance(1, 2));
+    pen.polygon({{x, y, 0}, {x, y, h}, {x + shift, y + w, h}, {x + shift, y + w, 0}});
+  }
+  pen.polygon({{11, 0, 0}, {11, 0, 9}, {11, 12, 9}, {11, 12, 0}});
+  const std::int64_t y = random.between(1, 6), w = random.between(1, 3), h = random.between(1, 4);
+  return with_lamp(pen, {{1, y, 0}, {1, y + w, 0}, {1, y + w, h}, {1, y, h}});
+}
+
+/// 1992, fig. 6: the penumbra of the second polygon, which goes in last, crosses the leftmost plane
+/// of the penumbra of the first, and comes out of it again beside it.
+Scene figure_6() {
+  ScenePen pen;
+  pen.polygon({{-40, -40, 0}, {40, -40, 0}, {40, 40, 0}, {-40, 40, 0}});
+  pen.polygon({{1, 3, 14}, {1, -3, 14}, {4, -3, 14}, {4, 3, 14}});
+  pen.polygon({{-6, -8, 12}, {-2, -8, 12}, {-2, 8, 12}, {-6, 8, 12}});
+  return with_lamp(pen, {{-4, -4, 20}, {-4, 4, 20}, {4, 4, 20}, {4, -4, 20}});
+}
+
+ShadowOptions options_of(AreaAlgorithm algorithm, KernelId kernel) {
+  ShadowOptions options;
+  options.kernel = kernel;
+  options.area_algorithm = algorithm;
+  options.exact_fractions = true;
+  options.jobs = 1;
+  return options;
+}
+
+std::string text_of(const LightResult& light) {
+  std::string text;
+  for (std::size_t i = 0; i < light.parts.size(); ++i) {
+    const PartResult& part = light.parts[i];
+    text += std::to_string(part.part) + (part.side == Side::kFront ? " front " : " back ") +
+            std::to_string(static_cast<int>(part.reason)) + " " + part.exact_lit.get_str() + " " +
+            light.area_fractions[i].exact_penumbra.get_str() + " " +
+            light.area_fractions[i].exact_umbra.get_str() + "\n";
+  }
+  return text;
+}
+
+std::string text_of(const PreparedScene& scene, const ShadowOptions& options) {
+  const auto result = compute_shadows(scene, options);
+  if (!result) return result.error().what;
+  EXPECT_EQ(result->lights.size(), 1u);
+  EXPECT_EQ(result->lights[0].dropped_slivers, 0u);
+  const LightResult& light = result->lights[0];
+  for (std::size_t i = 0; i < light.parts.size(); ++i) {
+    const mpq_class sum = light.parts[i].exact_lit + light.area_fractions[i].exact_penumbra +
+                          light.area_fractions[i].exact_umbra;
+    EXPECT_EQ(sum, 1);
+  }
+  return text_of(light);
+}
+
+void compare(Scene (*make)(std::uint64_t), unsigned scenes) {
+  for (std::uint64_t seed = 0; seed < scenes; ++seed) {
+    const Scene scene = make(seed);
+    const auto prepared = prepare(scene);
+    if (!prepared) continue;
+    const std::string expected =
+        text_of(*prepared, options_of(AreaAlgorithm::kReceiver, KernelId::kPlane));
+    ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+    EXPECT_EQ(text_of(*prepared, options), expected) << "seed " << seed;
+    options.prefix = false;
+    options.merge = false;
+    EXPECT_EQ(text_of(*prepared, options), expected) << "without a prefix, seed " << seed;
+    if (seed % 10 != 0) continue;
+    options = options_of(AreaAlgorithm::kMerged, KernelId::kRational);
+    EXPECT_EQ(text_of(*prepared, options), expected) << "rational, seed " << seed;
+  }
+}
+
+TEST(Merged, EqualsReceiverOnSoups) { compare(soup, 300); }
+TEST(Merged, EqualsReceiverOnBoxes) { compare(boxes, 200); }
+TEST(Merged, EqualsReceiverOnStandingWalls) { compare(standing, 200); }
+
+TEST(Merged, Figure6) {
+  const auto scene = prepare(figure_6()).value();
+  const std::string expected =
+      text_of(scene, options_of(AreaAlgorithm::kReceiver, KernelId::kPlane));
+  ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+  EXPECT_EQ(text_of(scene, options), expected);
+  options.continue_planes = false;
+  EXPECT_NE(text_of(scene, options), expected);
+}
+
+}  // namespace
+}  // namespace gnomon::test
