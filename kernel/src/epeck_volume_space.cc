@@ -39,6 +39,13 @@ Epeck::Plane_3 EpeckVolumeSpace::axis_plane(int axis, double value) const {
           Epeck::Vector_3(normal[0], normal[1], normal[2])};
 }
 
+EpeckVertex EpeckVolumeSpace::axis_point(const std::array<double, 3>& fractions) const {
+  const Number extent = number_from(mpz_class(1) << geometry().grid.bits());
+  return {Epeck::Point_3(Number(fractions[0]) * extent, Number(fractions[1]) * extent,
+                         Number(fractions[2]) * extent),
+          kMadeVertex};
+}
+
 Side EpeckVolumeSpace::side(const Epeck::Plane_3& plane, const Vertex& vertex) const {
   return epeck_detail::side_of(plane, vertex.point);
 }

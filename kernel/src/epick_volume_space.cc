@@ -78,6 +78,12 @@ EpickPlane EpickVolumeSpace::axis_plane(int axis, double value) const {
   return plane;
 }
 
+EpickVertex EpickVolumeSpace::axis_point(const std::array<double, 3>& fractions) const {
+  EpickVertex vertex;
+  for (int k = 0; k < 3; ++k) vertex.x[k] = axis_plane(k, fractions[k]).a[k];
+  return vertex;
+}
+
 Side EpickVolumeSpace::side(const EpickPlane& plane, const Vertex& vertex) const {
   return side_of_points(plane, vertex.x);
 }

@@ -31,6 +31,8 @@ class EpeckVolumeSpace
 
   EpeckVolumeSpace(const SceneSpace& scene, const KernelOptions& options);
 
+  /// The made vertex where three axis planes meet.
+  Vertex axis_point(const std::array<double, 3>& fractions) const;
   /// Fractions of the grid's extent, certified.
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   /// Scene units, exact.

@@ -32,6 +32,8 @@ class EpickVolumeSpace
 
   EpickVolumeSpace(const SceneSpace& scene, const KernelOptions& options);
 
+  /// The made vertex where three axis planes meet.
+  Vertex axis_point(const std::array<double, 3>& fractions) const;
   /// Fractions of the grid's extent, of radius 0 around the rounded numbers.
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   /// Scene units: the kernel's own doubles.

@@ -107,7 +107,8 @@ template <class S>
 concept VolumeSpaceModel = DecisionSpace<S> && SceneSpaceModel<typename S::SceneSpace> &&
     std::constructible_from<S, const typename S::SceneSpace&, const KernelOptions&> &&
     requires(S& space, const S& constant, VertexId id, int axis, double value, std::uint32_t mark,
-             const LightPoint& direction, const Corner<typename S::Vertex>& corner) {
+             const LightPoint& direction, const Corner<typename S::Vertex>& corner,
+             const std::array<double, 3>& fractions) {
   /// Whether forks may be used by different threads at the same time.
   { S::kParallel } -> std::convertible_to<bool>;
   /// A space with the same planes so far; what either adds later is its own.
@@ -124,6 +125,8 @@ concept VolumeSpaceModel = DecisionSpace<S> && SceneSpaceModel<typename S::Scene
   /// The plane on which coordinate `axis` is `value` of the grid's extent, 0 to 1; its front is
   /// where the coordinate is larger.
   { space.add_axis_plane(axis, value) } -> std::same_as<PlaneRef>;
+  /// The made vertex where three such planes meet; the caller names it by them.
+  { constant.axis_point(fractions) } -> std::same_as<typename S::Vertex>;
   { constant.plane_mark() } -> std::same_as<std::uint32_t>;
   space.release_planes(mark);
   /// Fractions of the grid's extent (all axes alike): certified on exact kernels.
