@@ -525,8 +525,10 @@ Side PlaneVolumeSpace<Stats>::undecided_side(PlaneRef ref, const Corner<Vertex>&
                      support = shared_with(PlaneRef(corner.support));
       const bool on_edge = (is_input_edge(corner.before) && std::popcount(before) == 2) ||
                            (is_input_edge(corner.after) && std::popcount(after) == 2);
-      if (on_edge || std::popcount(before & after) == 2 || std::popcount(before & support) == 2 ||
-          std::popcount(after & support) == 2) {
+      // All three: it is the same plane once more.
+      const bool same = before == 7 || after == 7 || support == 7;
+      if (same || on_edge || std::popcount(before & after) == 2 ||
+          std::popcount(before & support) == 2 || std::popcount(after & support) == 2) {
         return identity();
       }
     }
@@ -595,46 +597,18 @@ Sign PlaneVolumeSpace<Stats>::exact_side(const Plane& plane, const Corner<Vertex
                 [&]<class Factor, class Int>() { return side_of_meet<Factor, Int>(plane, meet); });
 }
 
-// Planes p, q, r meet in o - (P(o) q x r + Q(o) r x p + R(o) p x q) / (p . q x r), by their normals
-// and their values at any point o; a fourth, t, has there the value
-// (T(o) (p . q x r) - P(o) (t . q x r) - Q(o) (t . r x p) - R(o) (t . p x q)) / (p . q x r).
 template <class Stats>
 template <class Factor, class Int>
 Sign PlaneVolumeSpace<Stats>::side_of_meet(const Plane& plane, const Meet& meet) const {
   using Value = Product<Int, Factor, Factor>;
-  using Cross = Product<Int, Factor, Factor>;
-  using Minor = Product<Int, Factor, Cross>;
-  const Vector3<Factor> t = exact_normal<Factor>(plane);
-  const std::array<Vector3<Factor>, 3> n = {exact_normal<Factor>(*meet.planes[0]),
-                                            exact_normal<Factor>(*meet.planes[1]),
-                                            exact_normal<Factor>(*meet.planes[2])};
-  Value sole{};
-  Minor sole_minor{};
-  Int sum{};
-  int terms = 0;
-  const auto add = [&](const Value& value, const Minor& minor) {
-    if (terms == 0) {
-      sole = value;
-      sole_minor = minor;
-    } else {
-      if (terms == 1) sum = multiply<Int>(sole, sole_minor);
-      sum = Int(sum + multiply<Int>(value, minor));
-    }
-    ++terms;
-  };
-  const Minor w = gnomon::dot<Minor>(n[0], gnomon::cross<Cross>(n[1], n[2]));
+  std::array<Vector3<Factor>, 3> n;
+  std::array<Value, 3> values;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Value value = exact_value<Value>(*meet.planes[i], n[i], meet.pivot);
-    if (sign_of(value) == Sign::kZero) continue;
-    // t . n_(i+1) x n_(i+2), with its sign turned.
-    add(value, gnomon::dot<Minor>(t, gnomon::cross<Cross>(n[(i + 2) % 3], n[(i + 1) % 3])));
+    n[i] = exact_normal<Factor>(*meet.planes[i]);
+    values[i] = exact_value<Value>(*meet.planes[i], n[i], meet.pivot);
   }
-  const Value value = exact_value<Value>(plane, t, meet.pivot);
-  if (sign_of(value) != Sign::kZero) add(value, w);
-  const Sign sign = terms == 0   ? Sign::kZero
-                    : terms == 1 ? sign_of(sole) * sign_of(sole_minor)
-                                 : sign_of(sum);
-  return sign * sign_of(w);
+  const Vector3<Factor> t = exact_normal<Factor>(plane);
+  return sign_at_meet<Int>(n, values, t, exact_value<Value>(plane, t, meet.pivot));
 }
 
 template <class Stats>

@@ -21,6 +21,20 @@ static_assert(has_bits(true, 17, 53, {35, 53, 106, 159, 90, 143, 90, 234, 180, 2
 static_assert(has_bits(true, 53, 53,
                        {107, 161, 322, 483, 162, 323, 162, 378, 324, 539, 699, 859, 161}));
 
+constexpr bool has_volume_bits(LightCuts cuts, unsigned b, const std::array<unsigned, 4>& bits) {
+  const auto plan = volume_precision_plan(cuts, b);
+  for (std::size_t i = 0; i < plan.size(); ++i) {
+    if (plan[i].bits != bits[i] || plan[i].width != narrowest_width(bits[i])) return false;
+  }
+  return true;
+}
+static_assert(has_volume_bits(LightCuts::kNone, 17, {35, 53, 106, 159}));
+static_assert(has_volume_bits(LightCuts::kOnce, 17, {88, 107, 214, 319}));
+static_assert(has_volume_bits(LightCuts::kTwice, 17, {142, 161, 322, 481}));
+static_assert(has_volume_bits(LightCuts::kNone, 53, {107, 161, 322, 483}));
+static_assert(has_volume_bits(LightCuts::kOnce, 53, {268, 323, 646, 967}));
+static_assert(has_volume_bits(LightCuts::kTwice, 53, {430, 485, 970, 1453}));
+
 }  // namespace
 
 std::string_view width_name(IntegerWidth width) {

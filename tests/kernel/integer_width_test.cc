@@ -135,6 +135,83 @@ TEST(IntegerWidth, SideOfCrossingAtTheLastBit) {
   }
 }
 
+/// Four planes by their normals (below 2^n) and their values at one point (below 2^v).
+struct FourPlanes {
+  std::array<Integers, 4> n;
+  std::array<mpz_class, 4> values;
+
+  mpz_class minor(std::size_t i, std::size_t j, std::size_t k) const {
+    return test::dot(n[i], test::cross(n[j], n[k]));
+  }
+  mpz_class value() const {
+    return values[3] * minor(0, 1, 2) - values[0] * minor(3, 1, 2) - values[1] * minor(3, 2, 0) -
+           values[2] * minor(3, 0, 1);
+  }
+  int sign() const { return sgn(value()) * sgn(minor(0, 1, 2)); }
+};
+
+FourPlanes extreme_planes(Random& random, unsigned n, unsigned v) {
+  FourPlanes planes;
+  for (Integers& normal : planes.n) normal = extreme(random, n);
+  for (mpz_class& value : planes.values) value = extreme(random, v)[0];
+  if (random.chance(1, 4)) {
+    // Each minor of rows of a Hadamard matrix is 4 2^(3n), and values of the right signs add them.
+    const mpz_class most = (mpz_class(1) << n) - 1;
+    planes.n = {Integers{most, most, most}, Integers{most, -most, -most},
+                Integers{-most, most, -most}, Integers{-most, -most, most}};
+    const mpz_class largest = (mpz_class(1) << v) - 1;
+    planes.values = {largest, largest, largest, largest};
+    if (sgn(planes.minor(0, 1, 2)) < 0) planes.values[3] = -largest;
+    if (sgn(planes.minor(3, 1, 2)) > 0) planes.values[0] = -largest;
+    if (sgn(planes.minor(3, 2, 0)) > 0) planes.values[1] = -largest;
+    if (sgn(planes.minor(3, 0, 1)) > 0) planes.values[2] = -largest;
+  }
+  if (random.chance(1, 4)) planes.values[random.below(4)] = 0;
+  return planes;
+}
+
+/// The most bits that a value had, and how many signs were wrong.
+template <class Factor, class Int>
+std::pair<unsigned, int> check_meets(unsigned n, unsigned v) {
+  using Value = Product<Int, Factor, Factor>;
+  Random random(n + v);
+  unsigned most = 0;
+  int wrong = 0;
+  for (int round = 0; round < 2000; ++round) {
+    const FourPlanes planes = extreme_planes(random, n, v);
+    const std::array<Vector3<Factor>, 3> normals = {vector_from<Factor>(planes.n[0]),
+                                                    vector_from<Factor>(planes.n[1]),
+                                                    vector_from<Factor>(planes.n[2])};
+    const std::array<Value, 3> values = {integer_from<Value>(planes.values[0]),
+                                         integer_from<Value>(planes.values[1]),
+                                         integer_from<Value>(planes.values[2])};
+    const Sign sign = sign_at_meet<Int>(normals, values, vector_from<Factor>(planes.n[3]),
+                                        integer_from<Value>(planes.values[3]));
+    wrong += static_cast<int>(sign) != planes.sign() ? 1 : 0;
+    most = std::max(most, signed_bits(planes.value()));
+  }
+  return {most, wrong};
+}
+
+TEST(IntegerWidth, SideOfMeetAtTheLastBit) {
+  for (const IntegerWidth width : kFixedWidths) {
+    const unsigned bits = bits_of(width);
+    // Values of at least as many bits as normals; the last one takes what is left.
+    const unsigned n = (bits - 5) / 5, v = bits - 5 - 3 * n;
+    ASSERT_EQ(narrowest_width(volume_meet_bits(3 * n + v)), width);
+    ASSERT_GT(narrowest_width(volume_meet_bits(3 * n + v + 1)), width);
+    const auto [most, wrong] = with_widths(
+        width, n, [&]<class Factor, class Int>() { return check_meets<Factor, Int>(n, v); });
+    EXPECT_EQ(most, bits);
+    EXPECT_EQ(wrong, 0);
+    // One past: the values need the next width, and signs are wrong without it.
+    const auto [most_past, wrong_unbounded] = check_meets<mpz_class, mpz_class>(n, v + 1);
+    EXPECT_EQ(most_past, bits + 1);
+    EXPECT_EQ(wrong_unbounded, 0);
+  }
+  EXPECT_GT((check_meets<Int256, Int256>(50, 102).second), 0);
+}
+
 // What happens if the plan is not asked: the sign of a true value one bit too large is wrong.
 template <class Int>
 void expect_wrong_signs_past_the_last_bit() {
@@ -441,7 +518,55 @@ TEST(PrecisionPlan, HoldsEveryValueAndIsNotFarFromIt) {
   }
 }
 
+// The planes of volumes on extreme grids: through corners that no, one or two support planes cut
+// off a light, as the kernel makes them primitive or not.
+TEST(PrecisionPlan, BoundsThePlanesOfVolumes) {
+  for (const unsigned b : {5u, 17u, 53u}) {
+    Random random(b);
+    std::array<unsigned, 3> most{};
+    for (int round = 0; round < 8000; ++round) {
+      const Extremes x = random_extremes(random, b, 12);
+      // Light 0 (p0, p1, p2), cut by planes 3 and 6; the caster's edge is p9, p10.
+      const auto value = [&](int plane, int vertex) { return value_of(x, plane, vertex); };
+      const Integers l = normal_of(x.p[0], x.p[1], x.p[2]), p = normal_of(x.p[3], x.p[4], x.p[5]),
+                     q = normal_of(x.p[6], x.p[7], x.p[8]), edge = minus(x.p[10], x.p[9]);
+      const auto raise = [&](std::size_t cuts, const Integers& n) {
+        for (const mpz_class& c : n) most[cuts] = std::max(most[cuts], signed_bits(c));
+      };
+      raise(0, normal_of(x.p[9], x.p[10], x.p[0]));
+      const mpz_class u = value(3, 0), v = value(3, 1);
+      if (sgn(u) * sgn(v) < 0) {
+        Integers corner;  // relative to p9, times P(u) - P(v)
+        for (int k = 0; k < 3; ++k) {
+          corner[k] = u * (x.p[1][k] - x.p[9][k]) - v * (x.p[0][k] - x.p[9][k]);
+        }
+        raise(1, cross(edge, corner));
+      }
+      Integers line;  // through p9 and where the light and plane 3 meet
+      for (int k = 0; k < 3; ++k) line[k] = value(0, 9) * p[k] - value(3, 9) * l[k];
+      raise(1, line);
+      Integers corner;
+      const Integers pq = cross(p, q), ql = cross(q, l), lp = cross(l, p);
+      for (int k = 0; k < 3; ++k) {
+        corner[k] = -value(0, 9) * pq[k] - value(3, 9) * ql[k] - value(6, 9) * lp[k];
+      }
+      raise(2, cross(edge, corner));
+    }
+    for (const LightCuts cuts : {LightCuts::kNone, LightCuts::kOnce, LightCuts::kTwice}) {
+      const auto i = static_cast<std::size_t>(cuts);
+      EXPECT_LE(most[i], volume_precision_plan(cuts, b)[0].bits) << "b = " << b;
+      EXPECT_GE(most[i] + 2 + 2 * i, volume_precision_plan(cuts, b)[0].bits) << "b = " << b;
+    }
+  }
+}
+
 TEST(PrecisionPlan, GrowsWithTheBits) {
+  for (const LightCuts cuts : {LightCuts::kNone, LightCuts::kOnce, LightCuts::kTwice}) {
+    for (unsigned b = 1; b < 80; ++b) {
+      const auto less = volume_precision_plan(cuts, b), more = volume_precision_plan(cuts, b + 1);
+      for (std::size_t i = 0; i < less.size(); ++i) EXPECT_LT(less[i].bits, more[i].bits);
+    }
+  }
   for (const bool directional : {false, true}) {
     for (unsigned b = 1; b < 80; ++b) {
       const auto less = precision_plan(directional, b, 10),

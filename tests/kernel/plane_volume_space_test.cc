@@ -48,11 +48,33 @@ struct TrackedVertex {
   PlaneRef after;
 };
 
+/// The bound of the filter: the doubles' value is that of the exact plane, scaled as its normal in
+/// doubles is, up to the bound that the vertex carries.
+void check_filter(const Space::LoadedPlane& loaded, const RationalPlane& exact,
+                  const TrackedVertex& vertex, const mpq_class& scale) {
+  std::size_t largest = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (std::fabs(loaded.n[k]) > std::fabs(loaded.n[largest])) largest = k;
+  }
+  EXPECT_GE(std::fabs(loaded.n[largest]), 0.5);
+  EXPECT_LE(std::fabs(loaded.n[largest]), 1);
+  EXPECT_LE(std::fabs(loaded.d), 3);
+  const std::array<double, 3>& x = vertex.vertex.x;
+  const double value = loaded.n[0] * x[0] + loaded.n[1] * x[1] + loaded.n[2] * x[2] - loaded.d;
+  // That component is itself off by 2u.
+  const mpq_class truth =
+      exact.at(vertex.exact) * scale * mpq_class(loaded.n[largest]) / exact.n[largest];
+  EXPECT_LE(abs(mpq_class(value) - truth), mpq_class(static_cast<double>(vertex.vertex.bound)) +
+                                               mpq_class(0x1.01p-52) * abs(truth))
+      << "bound " << vertex.vertex.bound;
+}
+
 /// A loop, with the exact points beside it.
 class Tracked {
  public:
   Tracked(const TriangleSoup& soup, const Space& space, std::uint32_t triangle)
-      : support_(triangle) {
+      : support_(triangle), scale_(1, mpz_class(1) << soup.geometry().grid.bits()) {
+    scale_.canonicalize();
     for (std::uint32_t i = 0; i < 3; ++i) {
       const VertexId v = soup.loop(triangle)[i];
       const Integers at = soup.at(v);
@@ -80,6 +102,7 @@ class Tracked {
       if (plane.flipped()) truth = -truth;
       EXPECT_EQ(static_cast<int>(sides.back()), truth) << "vertex " << i;
       EXPECT_EQ(space.side_of_plane(-plane, corner(i)), opposite(sides.back()));
+      if (++asked_ % 8 == 0) check_filter(loaded, exact, loop_[i], scale_);
     }
     return sides;
   }
@@ -118,8 +141,7 @@ class Tracked {
   /// Where the space says the corners are.
   void check_positions(const TriangleSoup& soup, const Space& space, bool nearest) const {
     const Geometry& geometry = soup.geometry();
-    mpq_class scale(1, mpz_class(1) << geometry.grid.bits());
-    scale.canonicalize();
+    const mpq_class& scale = scale_;
     mpq_class extent = 0;
     for (const VertexId v : soup.loop(support_)) {
       const Integers step = minus(soup.at(v), soup.at(soup.loop(support_)[0]));
@@ -154,6 +176,8 @@ class Tracked {
 
  private:
   PlaneId support_;
+  mpq_class scale_;  // 2^-b
+  mutable unsigned asked_ = 0;
   std::vector<TrackedVertex> loop_;
 };
 
@@ -265,7 +289,10 @@ class Planes {
   std::vector<RationalPlane> exact_;
 };
 
-StageCounts check_soup(const TriangleSoup& soup, Random& random, int extra = 6) {
+enum class Kinds : std::uint8_t { kAll, kThroughVertices };
+
+StageCounts check_soup(const TriangleSoup& soup, Random& random, int extra = 6,
+                       Kinds kinds = Kinds::kAll) {
   const PlaneSceneSpace<CountStats> scene(soup.geometry(), {});
   Space space(scene, {});
   Planes planes(soup, space, random);
@@ -273,6 +300,7 @@ StageCounts check_soup(const TriangleSoup& soup, Random& random, int extra = 6) 
   for (int i = 0; i < extra; ++i) {
     planes.add_through_vertices();
     planes.add_through_vertices();
+    if (kinds == Kinds::kThroughVertices) continue;
     planes.add_along_direction();
     planes.add_axis_plane();
     planes.add_through_cut_light();
@@ -316,6 +344,73 @@ INSTANTIATE_TEST_SUITE_P(Bits, PlaneVolumes,
                          testing::Values(3u, 6u, 7u, 10u, 11u, 13u, 14u, 17u, 20u, 21u, 27u, 28u,
                                          31u, 32u, 42u, 43u, 53u, 54u, 56u, 57u, 62u, 63u, 64u, 84u,
                                          113u, 171u, 340u));
+
+// Which integers had to answer is decided by the bits alone, while all planes go through input
+// vertices.
+TEST(PlaneVolumesStages, AreThoseOfThePlan) {
+  for (const unsigned bits : {6u, 13u, 14u, 20u, 21u, 42u, 57u, 63u, 70u, 84u, 114u, 126u, 127u}) {
+    Random random(1000 + bits);
+    StageCounts counts;
+    for (const SoupKind kind : {SoupKind::kLattice, SoupKind::kNear, SoupKind::kFull}) {
+      counts += check_soup(random_soup(random, kind, bits, 6), random, 6, Kinds::kThroughVertices);
+      ASSERT_FALSE(testing::Test::HasFailure()) << bits << " bits";
+    }
+    const auto plan = volume_precision_plan(LightCuts::kNone, bits);
+    for (std::size_t i = 0; i < counts.by_width().size(); ++i) {
+      const auto width = static_cast<IntegerWidth>(i);
+      bool planned = false;
+      for (std::size_t k = 1; k < plan.size(); ++k) {
+        planned = planned || width == (bits <= 126 ? plan[k].width : IntegerWidth::kUnbounded);
+      }
+      if (counts.by_width()[i] > 0) {
+        EXPECT_TRUE(planned) << width_name(width) << ", b = " << bits;
+      }
+    }
+  }
+}
+
+// A fork has the planes so far, and what either adds later is its own.
+TEST(PlaneVolumesForks, AreApart) {
+  Random random(3);
+  const TriangleSoup soup = random_soup(random, SoupKind::kFull, 20, 6);
+  const PlaneSceneSpace<CountStats> scene(soup.geometry(), {});
+  Space space(scene, {});
+  Planes planes(soup, space, random);
+  planes.add_supports();
+  for (int i = 0; i < 6; ++i) planes.add_through_vertices();
+  planes.add_axis_plane();
+  Space fork = space.fork();
+  EXPECT_EQ(fork.plane_mark(), space.plane_mark());
+  EXPECT_EQ(fork.stage_counts().total(), 0u);
+  const std::uint32_t mark = space.plane_mark();
+  Planes more(soup, fork, random);
+  more.add_supports();
+  for (int i = 0; i < 20; ++i) {
+    planes.add_axis_plane();
+    planes.add_through_cut_light();
+    more.add_through_cut_light();
+    more.add_axis_plane();
+  }
+  for (std::uint32_t triangle = 0; triangle < soup.size(); ++triangle) {
+    const Tracked loop(soup, space, triangle);
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      loop.sides(space, planes.ref(i), planes.exact(i));
+    }
+    for (std::size_t i = 0; i < more.size(); ++i) loop.sides(fork, more.ref(i), more.exact(i));
+  }
+  space.release_planes(mark);
+  EXPECT_EQ(space.plane_mark(), mark);
+  const std::size_t kept = soup.size() + mark;
+  for (std::size_t i = 0; i < kept; ++i) {
+    Tracked(soup, space, 0).sides(space, planes.ref(i), planes.exact(i));
+  }
+  Planes again(soup, space, random);
+  again.add_supports();
+  for (int i = 0; i < 6; ++i) again.add_through_cut_light();
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    Tracked(soup, space, 0).sides(space, again.ref(i), again.exact(i));
+  }
+}
 
 TEST(PlaneVolumesUnderflow, EverySideIsTrue) {
   Random random(78);

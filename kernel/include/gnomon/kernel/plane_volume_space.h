@@ -87,9 +87,10 @@ class PlaneVolumeSpace {
     const Plane& plane = plane_at(ref.index());
     return {plane.n, plane.d, ref};
   }
-  /// Identities: (1) the support plane and the planes of the corner's edges contain it; (2) a plane
-  /// contains the input vertices that define it, and so every point on the line through two of
-  /// them: of an input edge, or in which two planes meet that they define, too. Exactness: always.
+  /// Identities: (1) the support plane and the planes of the corner's edges contain it, whatever
+  /// their number if the same three vertices define them; (2) a plane contains the input vertices
+  /// that define it, and so every point on the line through two of them: of an input edge, or in
+  /// which two planes meet that they define, too. Exactness: always.
   Side side_of_plane(const LoadedPlane& plane, const Corner<Vertex>& corner) {
     const std::array<double, 3>& x = corner.vertex.x;
     const double value = plane.n[0] * x[0] + plane.n[1] * x[1] + plane.n[2] * x[2] - plane.d;

@@ -171,6 +171,32 @@ constexpr std::array<PredicateBits, 13> precision_plan(bool directional, unsigne
   }};
 }
 
+/// How often support planes cut the corners of a light that planes of volumes go through. Edges and
+/// areas stay those of input polygons.
+enum class LightCuts : std::uint8_t { kNone, kOnce, kTwice };
+
+/// The plan of shadow volumes of area lights, whose planes go through edges of casters and corners
+/// of the light, or through edges of the light and vertices of casters. The corners that are asked
+/// about are of receivers, cut by such planes.
+constexpr std::array<PredicateBits, 4> volume_precision_plan(LightCuts cuts, unsigned b) {
+  const unsigned normal = cuts == LightCuts::kNone   ? support_normal_bits(b)
+                          : cuts == LightCuts::kOnce ? cut_once_normal_bits(b)
+                                                     : cut_twice_normal_bits(b);
+  const unsigned degree = cuts == LightCuts::kNone ? 2 : cuts == LightCuts::kOnce ? 5 : 8;
+  const unsigned value =
+      cuts == LightCuts::kNone ? support_value_bits(b) : volume_value_bits(normal, b);
+  const auto of = [](std::string_view name, unsigned in_positions, unsigned bits) {
+    return PredicateBits{name, in_positions, 0, bits, narrowest_width(bits)};
+  };
+  return {{
+      of("plane of a volume", degree, normal + 1),
+      of("input vertex against plane of a volume", degree + 1, value + 1),
+      of("edge cut by a volume against another", 2 * degree + 2, volume_edge_bits(value, value)),
+      of("point of two volumes against a third", 3 * degree + 3,
+         volume_meet_bits(support_normal_bits(b) + 2 * normal + value)),
+  }};
+}
+
 }  // namespace gnomon
 
 #endif  // GNOMON_KERNEL_PRECISION_PLAN_H
