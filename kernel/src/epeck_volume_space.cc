@@ -13,6 +13,19 @@ using namespace epeck_detail;
 
 static_assert(VolumeSpaceModel<EpeckVolumeSpace>);
 
+namespace {
+
+/// Whether intervals are good enough on the scale of `size`, so that rationals need not be
+/// evaluated. No tolerance: an enclosure it is in any case.
+bool is_narrow(const std::array<Ball, 3>& point, double size) {
+  for (const Ball& x : point) {
+    if (!x.is_finite() || !(x.radius <= 0x1p-44 * size)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 EpeckVolumeSpace::EpeckVolumeSpace(const SceneSpace& scene, const KernelOptions&)
     : Base(scene, true) {}
 
@@ -55,27 +68,44 @@ EpeckVertex EpeckVolumeSpace::meet(const Epeck::Plane_3& plane, const Vertex& fr
   return meeting_point(plane, from.point, to.point);
 }
 
-std::array<Ball, 3> EpeckVolumeSpace::position(const Corner<Vertex>& corner) const {
-  // An interval wider than this, a fraction of the extent, is a lazy number's that nothing has
-  // evaluated yet. Not a tolerance: the answer is an enclosure in any case.
-  constexpr double kWide = 0x1p-44;
-  const unsigned bits = geometry().grid.bits();
-  std::array<Ball, 3> point;
+std::array<Ball, 3> EpeckVolumeSpace::by_intervals(const Numbers& grid) const {
+  std::array<Ball, 3> result;
+  // Scaling by a power of two rounds only where it underflows.
+  const int exponent = -static_cast<int>(geometry().grid.bits());
   for (int k = 0; k < 3; ++k) {
-    const Number& x = corner.vertex.point[k];
-    if (bits <= 1000) {
-      const Ball grid = epeck_detail::enclose(x);
-      // Scaling by a power of two rounds only where it underflows.
-      const int exponent = -static_cast<int>(bits);
-      point[k] = {std::ldexp(grid.middle, exponent),
-                  std::ldexp(grid.radius, exponent) + Ball::kTiny};
-      if (point[k].radius < kWide) continue;
-    }
-    mpq_class fraction = to_mpq(x.exact());
-    fraction /= mpz_class(1) << bits;
-    point[k] = gnomon::enclose(fraction);
+    const Ball x = epeck_detail::enclose(grid[k]);
+    result[k] = {std::ldexp(x.middle, exponent), std::ldexp(x.radius, exponent) + Ball::kTiny};
   }
-  return point;
+  return result;
+}
+
+std::array<Ball, 3> EpeckVolumeSpace::by_rationals(const Numbers& grid) const {
+  std::array<Ball, 3> result;
+  for (int k = 0; k < 3; ++k) {
+    mpq_class x = to_mpq(grid[k].exact());
+    x /= mpz_class(1) << geometry().grid.bits();
+    result[k] = gnomon::enclose(x);
+  }
+  return result;
+}
+
+std::array<Ball, 3> EpeckVolumeSpace::position(const Corner<Vertex>& corner) const {
+  const Epeck::Point_3& p = corner.vertex.point;
+  const Numbers grid{p.x(), p.y(), p.z()};
+  const std::array<Ball, 3> result = by_intervals(grid);
+  return is_narrow(result, 1) ? result : by_rationals(grid);
+}
+
+std::array<Ball, 3> EpeckVolumeSpace::offset(VertexId origin, const Corner<Vertex>& corner) const {
+  if (corner.vertex.source == origin) return {};
+  const Epeck::Point_3 from = input_vertex(origin).point;
+  const Epeck::Point_3& p = corner.vertex.point;
+  const Numbers grid{p.x() - from.x(), p.y() - from.y(), p.z() - from.z()};
+  const std::array<Ball, 3> result = by_intervals(grid);
+  const double size =
+      std::fmax(std::fabs(result[0].middle),
+                std::fmax(std::fabs(result[1].middle), std::fabs(result[2].middle)));
+  return is_narrow(result, size) ? result : by_rationals(grid);
 }
 
 std::array<mpq_class, 3> EpeckVolumeSpace::exact_position(const Corner<Vertex>& corner) const {

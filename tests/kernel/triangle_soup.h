@@ -214,8 +214,9 @@ inline LightPoint small_light(Random& random, const Geometry& geometry, unsigned
 inline Geometry moved(Geometry geometry, const Rationals& origin) {
   for (std::size_t k = 0; k < 3; ++k) {
     geometry.origin[k] += origin[k];
-    for (auto& position : geometry.positions) {
-      position[k] = mpq_class(mpq_class(position[k]) + origin[k]).get_d();
+    for (VertexId v = 0; v < geometry.positions.size(); ++v) {
+      geometry.positions[v][k] = nearest_double(
+          mpq_class(geometry.origin[k] + geometry.step * geometry.grid.at(v, static_cast<int>(k))));
     }
   }
   return geometry;

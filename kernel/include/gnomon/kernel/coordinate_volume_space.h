@@ -44,6 +44,9 @@ class CoordinateVolumeSpace
   Vertex axis_point(const std::array<double, 3>& fractions) const;
   /// Fractions of the grid's extent. With a float type, of radius 0 around the rounded numbers.
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
+  /// The same as seen from vertex `origin`, with errors that are small against the distances from
+  /// it: areas of small polygons are then not measured on the scale of the scene.
+  std::array<Ball, 3> offset(VertexId origin, const Corner<Vertex>& corner) const requires kExact;
   /// Scene units: the kernel's own numbers, exactly.
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
   /// Scene units: the doubles nearest to the kernel's own numbers.

@@ -35,6 +35,9 @@ class EpeckVolumeSpace
   Vertex axis_point(const std::array<double, 3>& fractions) const;
   /// Fractions of the grid's extent, certified.
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
+  /// The same as seen from vertex `origin`, with errors that are small against the distance from
+  /// it.
+  std::array<Ball, 3> offset(VertexId origin, const Corner<Vertex>& corner) const;
   /// Scene units, exact.
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
   /// Scene units, the nearest doubles.
@@ -42,6 +45,11 @@ class EpeckVolumeSpace
 
  private:
   friend Base;
+  using Numbers = std::array<Epeck::FT, 3>;
+
+  /// Divided by the extent.
+  std::array<Ball, 3> by_intervals(const Numbers& grid) const;
+  std::array<Ball, 3> by_rationals(const Numbers& grid) const;
   std::optional<Epeck::Plane_3> plane_of(const Vertex& a, const Vertex& b, const Vertex& c) const;
   std::optional<Epeck::Plane_3> plane_of(const Vertex& a, const Vertex& b,
                                          const LightPoint& direction) const;
