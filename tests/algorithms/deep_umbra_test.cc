@@ -97,8 +97,9 @@ TEST(DeepUmbra, UnderABoxWhoseFacesHideTheLightTogether) {
 TEST(DeepUmbra, CellsAreWhatTheirPointsAre) {
   Random random(21);
   std::size_t deep = 0, seen = 0, undecided = 0;
-  for (int round = 0; round < 200; ++round) {
-    const PreparedScene scene = soup(random, 8 + round % 12, 2 + round % 4);
+  for (int round = 0; round < 300; ++round) {
+    const PreparedScene scene = round % 2 == 0 ? soup(random, 8 + round % 12, 2 + round % 4)
+                                               : solids(random, 3 + round % 6, 3 + round % 3);
     const BruteView brute(scene);
     const LightView view(scene, 0);
     const LightVisibility visibility(scene, 0);

@@ -10,6 +10,7 @@
 #include <array>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gnomon/scene/prepare.h"
@@ -189,6 +190,36 @@ inline PreparedScene soup(Random& random, int polygons, int size, double scale =
     }
   }
   for (int i = 0; i < polygons; ++i) builder.polygon(loop(), random.chance(1, 2));
+  return builder.build();
+}
+
+/// Closed tetrahedra, faces outwards, on a lattice under a light that looks down, over a floor:
+/// casters that share edges and corners.
+inline PreparedScene solids(Random& random, int count, int size) {
+  LightSceneBuilder builder;
+  const double s = size;
+  builder.polygon({{-s, -s, 0}, {2 * s, -s, 0}, {2 * s, 2 * s, 0}, {-s, 2 * s, 0}});
+  builder.area({{0, 0, 2 * s}, {0, s, 2 * s}, {s, s, 2 * s}, {s, 0, 2 * s}});
+  for (int made = 0; made < count;) {
+    std::array<Triple, 4> v;
+    for (Triple& p : v) {
+      for (double& c : p) c = static_cast<double>(random.between(0, size));
+    }
+    const auto volume = [](const Triple& a, const Triple& b, const Triple& c, const Triple& d) {
+      const ExactPoint3 base = exactly(a);
+      return sgn(dot_of(cross_of(minus(exactly(b), base), minus(exactly(c), base)),
+                        minus(exactly(d), base)));
+    };
+    const int sign = volume(v[0], v[1], v[2], v[3]);
+    if (sign == 0) continue;
+    if (sign < 0) std::swap(v[0], v[1]);
+    // The fourth is in front of the other three: that face turns round to look outwards.
+    builder.polygon({v[0], v[2], v[1]});
+    builder.polygon({v[0], v[1], v[3]});
+    builder.polygon({v[1], v[2], v[3]});
+    builder.polygon({v[2], v[0], v[3]});
+    ++made;
+  }
   return builder.build();
 }
 
