@@ -86,6 +86,15 @@ bool AreaSolids::sees(std::uint32_t part, PolygonSide side) const {
   return any_at(front_of(part, side), light_, 1) && any_at(before_light_, *loops_[part], 1);
 }
 
+bool AreaSolids::light_in_plane(std::uint32_t part) const {
+  const HalfSpace front = front_of(part, PolygonSide::kFront);
+  return !any_at(front, light_, 1) && !any_at(front, light_, -1);
+}
+
+bool AreaSolids::faces_away(std::uint32_t part, PolygonSide side) const {
+  return !any_at(front_of(part, side), light_, 1) && !light_in_plane(part);
+}
+
 AreaSolids::Volume AreaSolids::penumbra_of(const Blocker& blocker, const Loop& light) const {
   const Loop& caster = *loops_[blocker.part];
   Volume volume;

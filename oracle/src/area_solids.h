@@ -34,6 +34,10 @@ class AreaSolids {
 
   /// The side receives, has some of the light in front of it, and some of it in front of the light.
   bool sees(std::uint32_t part, PolygonSide side) const;
+  /// All of the light is in the part's plane.
+  bool light_in_plane(std::uint32_t part) const;
+  /// None of the light is in front of that side, nor all of it in its plane.
+  bool faces_away(std::uint32_t part, PolygonSide side) const;
   const space::HalfSpace& before_light() const { return before_light_; }
   const space::HalfSpace& behind_light() const { return behind_light_; }
 

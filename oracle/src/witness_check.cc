@@ -264,8 +264,11 @@ void WitnessChecker::check_area_shade(const CandidatePolygon& polygon, const Pie
   }
   ++report_.witnesses;
   if (!fragment.reason.empty()) {
-    const bool holds = fragment.shade == ShadeClass::kUmbra && fragment.reason == "behind-light" &&
-                       before <= slack;
+    const bool holds =
+        fragment.shade == ShadeClass::kUmbra &&
+        ((fragment.reason == "behind-light" && before <= slack) ||
+         (fragment.reason == "faces-away" && area_->faces_away(piece.part, polygon.side)) ||
+         (fragment.reason == "light-in-plane" && area_->light_in_plane(piece.part)));
     if (!holds) {
       violation(polygon.id, fmt::format("the reason '{}' does not hold", fragment.reason),
                 piece.index);

@@ -167,6 +167,72 @@ TEST(AreaRegions, DeepUmbraOfTwoHalves) {
   EXPECT_TRUE(seen.deep());
   EXPECT_EQ(seen.shade, ShadeClass::kPenumbra);
   EXPECT_FALSE(visibility.at(0, Side::kFront, at(1.5, 0.25, 0)).deep());
+  // They share an edge: no light passes there, whatever the size of the piece.
+  const auto square_on_floor = [](double x0, double x1) {
+    return std::vector<ExactPoint>{at(x0, -0.5, 0), at(x1, -0.5, 0), at(x1, 0.5, 0),
+                                   at(x0, 0.5, 0)};
+  };
+  EXPECT_TRUE(visibility.hides_all_from(0, Side::kFront, square_on_floor(-1, 1)));
+  EXPECT_FALSE(visibility.hides_all_from(0, Side::kFront, square_on_floor(-1, 1.25)));
+}
+
+TEST(AreaRegions, DeepUmbraBehindABoxOnTheFloor) {
+  // Its top alone hides all from x in [-6, -4], its front from [-2, -1]; the box also in between.
+  const BuiltScene built = SceneBuilder()
+                               .polygon("floor", kFloor)
+                               .box("box", {-1, -1, 0}, {1, 1, 2})
+                               .area("panel", {{4, -1, 4}, {4, 1, 4}, {6, 1, 4}, {6, -1, 4}})
+                               .build();
+  const AreaVisibility visibility(built.prepared, built.prepared.lights[0]);
+  const auto strip = [](double x0, double x1) {
+    return std::vector<ExactPoint>{at(x0, -0.25, 0), at(x1, -0.25, 0), at(x1, 0.25, 0),
+                                   at(x0, 0.25, 0)};
+  };
+  const AreaPointVisibility seen = visibility.at(0, Side::kFront, at(-3, 0, 0));
+  EXPECT_EQ(seen.shade, ShadeClass::kPenumbra);
+  EXPECT_TRUE(seen.deep());
+  EXPECT_TRUE(visibility.hides_all_from(0, Side::kFront, strip(-5, -2)));
+  EXPECT_TRUE(visibility.hides_all_from(0, Side::kFront, strip(-6, -4)));
+  EXPECT_FALSE(visibility.hides_all_from(0, Side::kFront, strip(-6.5, -4)));
+}
+
+TEST(AreaRegions, WhatIsCertifiedDarkIsDark) {
+  // Meshes with shared edges, random triangles of the floor: what is said to be dark must be so at
+  // all points tried.
+  std::uint64_t certified = 0, tried = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Random random(seed);
+    SceneBuilder builder;
+    builder.polygon("floor", kFloor);
+    // A bent sheet of four facets around a vertex, and a box.
+    const auto some = [&](int low, int high) { return double(random.integer(low, high)); };
+    const Triple top{some(-1, 1), some(-1, 1), some(2, 4)};
+    const double side = some(2, 4), level = some(1, 2);
+    const Triple a{-side, -side, level}, b{side, -side, some(1, 2)}, c{side, side, level},
+        d{-side, side, some(1, 3)};
+    builder.polygon("1", {a, b, top}).polygon("2", {b, c, top}).polygon("3", {c, d, top});
+    if (seed % 3 != 0) builder.polygon("4", {d, a, top});
+    if (seed % 2 == 0) builder.box("box", {some(-7, -5), -6, 0}, {some(-4, -2), -3, some(1, 3)});
+    const double x = some(-5, 5), y = some(-5, 5);
+    builder.area("panel", {{x, y, 6}, {x, y + 2, 6}, {x + 2, y + 2, 6}, {x + 2, y, 6}});
+    const BuiltScene built = builder.build();
+    const AreaVisibility visibility(built.prepared, built.prepared.lights[0]);
+    for (int i = 0; i < 12; ++i) {
+      const double px = some(-6, 6) / 2, py = some(-6, 6) / 2, size = i % 2 == 0 ? 0.5 : 1.5;
+      const std::vector<ExactPoint> triangle{at(px, py, 0), at(px + size, py, 0),
+                                             at(px, py + size, 0)};
+      ++tried;
+      if (!visibility.hides_all_from(0, Side::kFront, triangle)) continue;
+      ++certified;
+      for (int k = 0; k < 6; ++k) {
+        const double u = some(0, 64) / 64, v = (1 - u) * some(0, 64) / 64;
+        EXPECT_TRUE(visibility.at(0, Side::kFront, at(px + u * size, py + v * size, 0)).deep())
+            << seed << " " << px << " " << py;
+      }
+    }
+  }
+  EXPECT_GT(certified, tried / 20);
+  EXPECT_LT(certified, tried);
 }
 
 TEST(AreaRegions, NumbersOfHundredsOfBits) {

@@ -209,6 +209,25 @@ TEST(AreaVerdictStrips, DeepUmbraMayBeClaimed) {
   EXPECT_EQ(report.worst->found, kIsUmbra);
 }
 
+TEST(AreaVerdictStrips, DeepUmbraOfASheetMayBeClaimed) {
+  // The lid in four quarters: its umbra is deep, and of no quarter alone.
+  SceneBuilder builder;
+  builder.polygon("floor", kFloor).area("panel", kPanel);
+  for (const double x : {-1.0, 0.0}) {
+    for (const double y : {-1.0, 0.0}) {
+      builder.polygon("lid" + std::to_string(int(x)) + std::to_string(int(y)),
+                      {{x, y, 2}, {x + 1, y, 2}, {x + 1, y + 1, 2}, {x, y + 1, 2}});
+    }
+  }
+  const BuiltScene built = builder.build();
+  Candidate candidate = nested({{8, kIsLit}, {3, kIsPenumbra}, {1, kIsUmbra}});
+  const Report report = certified(built, candidate);
+  EXPECT_EQ(report.verdict, Verdict::kIdentical) << report.reason;
+  EXPECT_TRUE(report.lights[0].polygons[0].umbra.zero);
+  candidate.lights[0].per_caster_umbra = true;
+  EXPECT_EQ(certified(built, candidate).verdict, Verdict::kFailed);
+}
+
 TEST(AreaVerdictSoups, ExactCandidatesAreIdentical) {
   std::uint64_t fragments = 0;
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {

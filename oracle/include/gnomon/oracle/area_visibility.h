@@ -53,7 +53,7 @@ class AreaVisibility {
   /// Whether certainly no part of A_R is visible from any point of a convex polygon on that side:
   /// what each caster hides from all its corners it hides from all of it, and these parts together
   /// cover A_R. False says nothing. A polygon on or behind the light's plane is no answer's concern
-  /// here: false.
+  /// here: false. Casters that share edges count as one sheet.
   bool hides_all_from(std::uint32_t receiver, Side side,
                       const std::vector<ExactPoint>& polygon) const;
 
