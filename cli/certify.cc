@@ -143,6 +143,7 @@ class CertifyRun {
       return {};
     }
     run.cpu_seconds = *seconds;
+    run.algorithm = result->algorithm;
     for (const LightResult& light : result->lights) {
       run.fragments += light.fragment_total;
       run.dropped_slivers += light.dropped_slivers;

@@ -68,32 +68,37 @@ class Pictures {
     const oracle::CandidateLight* truth = find_light(exact, light);
     if (truth == nullptr) return {};
     std::vector<report::Panel> panels;
-    panels.push_back({"exact answer", truth, nullptr, {}});
+    const std::uint32_t index = light_index(light);
+    panels.push_back({index, "exact answer", truth, nullptr, {}});
     const oracle::CandidateLight* shown = find_light(candidate, light);
     if (shown != nullptr) {
-      panels.push_back(
-          {run.name + ": " + name_of(report.verdict), shown, truth, worst_places(report, light)});
+      panels.push_back({index, run.name + ": " + name_of(report.verdict), shown, truth,
+                        worst_places(report, light)});
     }
     return write_panels(file, light, panels);
   }
 
   Expected<void> write_exact(const std::string& file, const oracle::Candidate& exact) {
     if (exact.lights.empty()) return {};
-    return write_panels(file, exact.lights.front().id,
-                        {{"exact answer", &exact.lights.front(), nullptr, {}}});
+    const std::string& light = exact.lights.front().id;
+    return write_panels(file, light,
+                        {{light_index(light), "exact answer", &exact.lights.front(), nullptr, {}}});
   }
 
  private:
   Expected<void> write_panels(const std::string& file, const std::string& light,
                               const std::vector<report::Panel>& panels) {
-    std::uint32_t index = 0;
-    while (loaded_.scene.lights[loaded_.prepared.lights[index].light].id != light) ++index;
     options_.title = loaded_.scene.name + ", light " + light;
     auto output = Output::open(directory_ / file);
     if (!output) return tl::unexpected(output.error());
-    report::paint_scene(loaded_.scene, loaded_.prepared, index, pieces_, panels, options_)
-        .write(*output);
+    report::paint_scene(loaded_.scene, loaded_.prepared, pieces_, panels, options_).write(*output);
     return output->finish();
+  }
+
+  std::uint32_t light_index(const std::string& id) const {
+    std::uint32_t index = 0;
+    while (loaded_.scene.lights[loaded_.prepared.lights[index].light].id != id) ++index;
+    return index;
   }
 
   /// The light of the worst place, else the first.

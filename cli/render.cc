@@ -148,9 +148,8 @@ Expected<void> render(const RenderOptions& options) {
   const auto camera = camera_of(options, loaded->prepared);
   if (!camera) return tl::unexpected(camera.error());
   if (options.illuminate.illuminate) return render_illuminated(options, *loaded, *camera);
-  const std::uint32_t light = loaded->lights.front();
-  const std::string& id = loaded->scene.lights[light].id;
-  loaded->lights = {light};
+  // One light, or those that were asked for side by side.
+  if (options.scene.lights.empty()) loaded->lights.resize(1);
 
   report::PictureOptions picture;
   picture.camera = *camera;
@@ -159,46 +158,54 @@ Expected<void> render(const RenderOptions& options) {
   picture.backs = options.backs;
   picture.fragments = options.fragments;
   picture.legend = !options.no_legend;
-  picture.title = loaded->scene.name + ", light " + id;
+  picture.title = loaded->scene.name + (loaded->lights.size() == 1 ? ", light" : ", lights");
+  for (const std::uint32_t light : loaded->lights) {
+    picture.title += " " + loaded->scene.lights[light].id;
+  }
 
   // What is shown: a result if one is named, else the exact answer; marked is what a candidate has
   // otherwise.
   std::deque<oracle::Candidate> kept;  // panels point into them
-  std::vector<report::Panel> panels;
-  const auto keep = [&](oracle::Candidate&& candidate) {
-    kept.push_back(std::move(candidate));
-    return find_light(kept.back(), id);
-  };
-  if (!options.result.empty()) {
-    auto result = oracle::read_candidate(options.result, loaded->scene);
+  for (const std::string& file : {options.result, options.candidate}) {
+    if (file.empty()) continue;
+    auto result = oracle::read_candidate(file, loaded->scene);
     if (!result) return tl::unexpected(result.error());
-    panels.push_back({{}, keep(std::move(*result)), nullptr, {}});
-    if (panels.back().shown == nullptr) return missing_light(options.result, id);
-  } else {
+    kept.push_back(std::move(*result));
+  }
+  const oracle::Candidate* candidate = options.candidate.empty() ? nullptr : &kept.back();
+  std::vector<const oracle::Candidate*> shown;
+  if (options.result.empty()) {
     for (const AlgorithmChoice& algorithm : *algorithms) {
       auto exact = exact_fragments(*loaded, algorithm);
       if (!exact) return tl::unexpected(exact.error());
-      panels.push_back({{}, keep(std::move(*exact)), nullptr, {}});
-      if (algorithms->size() > 1) {
-        panels.back().caption = algorithm.name(*loaded) + ": " +
-                                report::grouped(fragment_count(*panels.back().shown)) +
-                                " fragments";
-      }
+      shown.push_back(&kept.emplace_back(std::move(*exact)));
     }
+  } else {
+    shown.push_back(&kept.front());
   }
-  if (!options.candidate.empty()) {
-    auto candidate = oracle::read_candidate(options.candidate, loaded->scene);
-    if (!candidate) return tl::unexpected(candidate.error());
-    report::Panel& panel = panels.front();
-    panel.truth = panel.shown;
-    panel.shown = keep(std::move(*candidate));
-    if (panel.shown == nullptr) return missing_light(options.candidate, id);
+  std::vector<report::Panel> panels;
+  for (const std::uint32_t light : loaded->lights) {
+    const std::string& id = loaded->scene.lights[light].id;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      report::Panel& panel = panels.emplace_back();
+      panel.light = light;
+      panel.shown = find_light(*shown[i], id);
+      if (panel.shown == nullptr) return missing_light(options.result, id);
+      const std::string fragments = report::grouped(fragment_count(*panel.shown)) + " fragments";
+      if (shown.size() > 1) panel.caption = (*algorithms)[i].name(*loaded) + ": " + fragments;
+      if (loaded->lights.size() > 1) {
+        panel.caption = "light " + id + ", " + (shown.size() > 1 ? panel.caption : fragments);
+      }
+      if (candidate == nullptr) continue;
+      panel.truth = panel.shown;
+      panel.shown = find_light(*candidate, id);
+      if (panel.shown == nullptr) return missing_light(options.candidate, id);
+    }
   }
   const std::vector<OrderedPiece> pieces = back_to_front(loaded->prepared, camera->eye);
   auto output = Output::open(options.output);
   if (!output) return tl::unexpected(output.error());
-  report::paint_scene(loaded->scene, loaded->prepared, light, pieces, panels, picture)
-      .write(*output);
+  report::paint_scene(loaded->scene, loaded->prepared, pieces, panels, picture).write(*output);
   return output->finish();
 }
 
@@ -210,7 +217,8 @@ void add_render_command(CLI::App& app, Action& action) {
   command.footer(
       "Without RESULT the exact answer is shown. With --candidate the candidate is shown, and "
       "where it\n"
-      "differs is marked.\n\n"
+      "differs is marked. Of several lights the first is shown, or, side by side, those named with "
+      "--light.\n\n"
       "Examples:\n"
       "  gnomon render room.json --eye 9,-7,6 --look-at 2,2,1 --light bulb -o room.svg\n"
       "  gnomon render room.json --algorithm both --fragments -o room.svg");

@@ -35,7 +35,7 @@ constexpr Colour kInk{33, 37, 48};
 constexpr Colour kLamp{255, 196, 0};
 constexpr Colour kLampFrame{176, 120, 0};
 constexpr double kOutlineWidth = 0.9;
-constexpr double kSeamWidth = 0.6;    // hides the seams that antialiasing leaves between neighbours
+constexpr double kSeamWidth = 1.0;    // hides the seams that antialiasing leaves between neighbours
 constexpr double kFragmentInk = 0.6;  // of a fragment's border, the rest is the fragment's colour
 constexpr double kLegendHeight = 46;
 constexpr double kCaptionHeight = 34;
@@ -69,7 +69,8 @@ bool boxes_meet(const ShadedLoop& a, const ShadedLoop& b) {
 /// The fragments of one result under one light, by polygon and side.
 class ShadedPolygons {
  public:
-  explicit ShadedPolygons(const CandidateLight& light) : background_(light.background) {
+  explicit ShadedPolygons(const CandidateLight& light)
+      : background_(light.background), per_caster_umbra_(light.per_caster_umbra) {
     for (const CandidatePolygon& polygon : light.polygons) {
       std::vector<ShadedLoop> loops;
       for (const CandidateFragment& fragment : polygon.fragments) {
@@ -93,9 +94,12 @@ class ShadedPolygons {
     return found == loops_.end() ? nullptr : &found->second;
   }
   std::optional<ShadeClass> background() const { return background_; }
+  /// Else umbra may be called penumbra: a cost, no difference.
+  bool per_caster_umbra() const { return per_caster_umbra_; }
 
  private:
   std::optional<ShadeClass> background_;
+  bool per_caster_umbra_;
   std::map<std::pair<std::string, oracle::PolygonSide>, std::vector<ShadedLoop>> loops_;
 };
 
@@ -126,10 +130,11 @@ class Painter {
     }
   }
 
-  void panel(const Panel& panel, const std::vector<OrderedPiece>& pieces, double left, double top) {
+  /// `clip`: a name of the panel's own.
+  void panel(const Panel& panel, const std::string& clip, const std::vector<OrderedPiece>& pieces,
+             double left, double top) {
     const View view(options_.camera, left, top, options_.width, options_.height, size_,
-                    prepared_.geometry.positions);
-    const std::string clip = "frame" + std::to_string(panels_++);
+                    to_be_in_view());
     svg_.define("<clipPath id=\"" + clip + "\"><rect x=\"" +
                 std::to_string(static_cast<int>(left)) + "\" y=\"" +
                 std::to_string(static_cast<int>(top)) + "\" width=\"" +
@@ -154,6 +159,16 @@ class Painter {
   }
 
  private:
+  /// The scene, and an area light unless it is so far off that the scene would be small.
+  std::vector<Vector> to_be_in_view() const {
+    std::vector<Vector> points = prepared_.geometry.positions;
+    const auto [low, high] = bounding_box(prepared_);
+    if (area_light_ && length(panel_centre_ - 0.5 * (low + high)) < 0.75 * size_) {
+      points.insert(points.end(), panel_.begin(), panel_.end());
+    }
+    return points;
+  }
+
   Vector to_light(const Vector& from) const {
     if (area_light_) return unit(panel_centre_ - from);
     const Vector light{light_.nearest[0], light_.nearest[1], light_.nearest[2]};
@@ -217,7 +232,8 @@ class Painter {
           },
           view);
       if (truth != nullptr) {
-        paint_difference(piece, normal, *loops, truth->find(id, side), view);
+        paint_difference(piece, normal, *loops, truth->find(id, side), view,
+                         shown.per_caster_umbra());
       }
     }
     paint_outline(piece, part, view);
@@ -253,11 +269,13 @@ class Painter {
   /// them leaves uncovered shows as grey.
   void paint_difference(const OrderedPiece& piece, const Vector& normal,
                         const std::vector<ShadedLoop>& shown, const std::vector<ShadedLoop>* truth,
-                        const View& view) {
+                        const View& view, bool per_caster_umbra) {
     if (truth == nullptr) return;
     for (const ShadedLoop& a : shown) {
       for (const ShadedLoop& b : *truth) {
         if (a.shade == b.shade || !boxes_meet(a, b)) continue;
+        if (!per_caster_umbra && a.shade == ShadeClass::kPenumbra && b.shade == ShadeClass::kUmbra)
+          continue;
         const std::vector<Vector> wrong = intersection(
             intersection(projected(a.loop, normal, piece.loop.front()), b.loop), piece.loop);
         if (wrong.empty()) continue;
@@ -326,7 +344,7 @@ class Painter {
       const std::vector<PixelPoint> pixels = view.pixels(panel_);
       if (pixels.size() < 3) return;
       const bool emits = dot(area_vector(panel_), view.eye() - panel_centre_) > 0;
-      svg_.polygon(pixels, {colour_text(kLamp), "none", 0, emits ? 0.95 : 0.3});
+      svg_.polygon(pixels, {colour_text(kLamp), "none", 0, emits ? 0.95 : 0.5});
       svg_.polygon(pixels, {"none", colour_text(kLampFrame), 1.8});
       return;
     }
@@ -356,11 +374,16 @@ class Painter {
   const PictureOptions& options_;
   SvgPicture& svg_;
   double size_ = 1;
-  int panels_ = 0;
 };
 
-void paint_legend(SvgPicture& svg, double left, double top, bool area_light, bool differences,
-                  bool marks, const std::string& words) {
+/// What the panels show.
+struct LegendLights {
+  bool point = false, area = false;  // kinds of lights
+  std::vector<std::string> ids;
+};
+
+void paint_legend(SvgPicture& svg, double left, double top, const LegendLights& lights,
+                  bool differences, bool marks) {
   double x = left + 2;
   const auto entry = [&](Colour colour, const std::string& text) {
     svg.rectangle({x, top + 14}, 22, 16, {colour_text(colour), colour_text(kInk), 0.6});
@@ -368,11 +391,10 @@ void paint_legend(SvgPicture& svg, double left, double top, bool area_light, boo
     x += 54 + 7.2 * static_cast<double>(text.size());
   };
   entry(kLitBright, "lit");
-  if (area_light) {
+  if (lights.point) entry(kShadowBright, "in shadow");
+  if (lights.area) {
     entry(kPenumbraBright, "penumbra");
     entry(kUmbraBright, "umbra");
-  } else {
-    entry(kShadowBright, "in shadow");
   }
   if (differences) {
     entry(kSignal, "differs from the exact answer");
@@ -383,6 +405,8 @@ void paint_legend(SvgPicture& svg, double left, double top, bool area_light, boo
     svg.text({x + 26, top + 27}, "worst places", 14, kInk);
     x += 130;
   }
+  std::string words = lights.ids.size() == 1 ? "light: " : "lights: ";
+  for (const std::string& id : lights.ids) words += (&id == lights.ids.data() ? "" : ", ") + id;
   svg.text({x + 6, top + 27}, words, 14, mix(kInk, kBackground, 0.3));
 }
 
@@ -398,12 +422,17 @@ Camera default_camera(const PreparedScene& prepared) {
   return camera;
 }
 
-SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared, std::uint32_t light,
+SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared,
                        const std::vector<OrderedPiece>& pieces, const std::vector<Panel>& panels,
                        const PictureOptions& options) {
   const auto count = static_cast<double>(panels.size());
   bool captions = false, differences = false, marks = false;
+  LegendLights lights;
   for (const Panel& panel : panels) {
+    const PreparedLight& light = prepared.lights[panel.light];
+    (light.type == LightType::kArea ? lights.area : lights.point) = true;
+    const std::string& id = scene.lights[light.light].id;
+    if (std::ranges::find(lights.ids, id) == lights.ids.end()) lights.ids.push_back(id);
     captions = captions || !panel.caption.empty();
     differences = differences || panel.truth != nullptr;
     marks = marks || !panel.marks.empty();
@@ -413,16 +442,14 @@ SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared, std::u
   const double height = top + options.height + (options.legend ? kLegendHeight : 0);
   SvgPicture svg(width, height, options.title.empty() ? scene.name : options.title);
   svg.rectangle({0, 0}, width, height, {"#ffffff"});
-  Painter painter(scene, prepared, light, options, svg);
   double left = 0;
-  for (const Panel& panel : panels) {
-    painter.panel(panel, pieces, left, top);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    Painter(scene, prepared, panels[i].light, options, svg)
+        .panel(panels[i], "frame" + std::to_string(i), pieces, left, top);
     left += options.width + kGap;
   }
   if (options.legend) {
-    const std::string& id = scene.lights[prepared.lights[light].light].id;
-    const bool area_light = prepared.lights[light].type == LightType::kArea;
-    paint_legend(svg, 0, top + options.height, area_light, differences, marks, "light: " + id);
+    paint_legend(svg, 0, top + options.height, lights, differences, marks);
   }
   return svg;
 }

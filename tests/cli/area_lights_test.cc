@@ -247,6 +247,11 @@ TEST(AreaLights, FactsAndPictures) {
   const std::string picture = run({"render", example("plates1")});
   EXPECT_THAT(picture, AllOf(HasSubstr("<svg"), HasSubstr("penumbra"), HasSubstr("umbra"),
                              Not(HasSubstr("in shadow"))));
+  // Lights that are asked for stand side by side.
+  const std::string two = run({"render", example("room1992-simple"), "--light", "panel2", "--light",
+                               "panel", "--width", "200", "--height", "160"});
+  EXPECT_THAT(two, AllOf(HasSubstr("light panel,"), HasSubstr("light panel2,"),
+                         HasSubstr("lights: panel, panel2")));
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ struct PictureOptions {
 
 /// One panel: the scene under one light as `shown` has it.
 struct Panel {
+  std::uint32_t light = 0;  // index into PreparedScene::lights
   std::string caption;
   const oracle::CandidateLight* shown = nullptr;
   const oracle::CandidateLight* truth = nullptr;  // what differs from it is marked; may be null
@@ -58,8 +59,8 @@ struct Panel {
 };
 
 /// Panels side by side, one legend below them. `pieces` back to front as seen from the camera's
-/// eye; `light` is an index into PreparedScene::lights.
-SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared, std::uint32_t light,
+/// eye.
+SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared,
                        const std::vector<OrderedPiece>& pieces, const std::vector<Panel>& panels,
                        const PictureOptions& options);
 
