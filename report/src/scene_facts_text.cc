@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The facts of a scene for people and for programs.
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
 #include "gnomon/report/json_writer.h"
 #include "gnomon/report/number_text.h"
 #include "gnomon/report/scene_facts.h"
@@ -29,10 +34,8 @@ std::string position_text(const Position& position) {
          ")";
 }
 
-/// The plan holds for all lights of a kind, and needs e only for directional ones.
-std::string plan_text(const SceneFacts& facts, bool directional) {
-  const auto plan = precision_plan(directional, facts.position_bits, facts.direction_bits);
-  TextTable table({{directional ? "directional lights: predicate" : "point lights: predicate"},
+std::string plan_text(const std::string& title, std::span<const PredicateBits> plan) {
+  TextTable table({{title + ": predicate"},
                    {"degree", Align::kRight},
                    {"bits", Align::kRight},
                    {"integers", Align::kRight}});
@@ -43,6 +46,18 @@ std::string plan_text(const SceneFacts& facts, bool directional) {
                    std::string(width_name(predicate.width))});
   }
   return table.to_string();
+}
+
+/// The plan holds for all lights of a kind, and needs e only for directional ones.
+std::array<PredicateBits, 13> light_plan(const SceneFacts& facts, bool directional) {
+  return precision_plan(directional, facts.position_bits, facts.direction_bits);
+}
+
+/// How often a corner of an area light may be cut: by the receiver's plane, and by the caster's.
+LightCuts light_cuts(const SceneFacts& facts) {
+  std::size_t most = 0;
+  for (const LightFacts& light : facts.lights) most = std::max(most, light.cutting);
+  return most == 0 ? LightCuts::kNone : most == 1 ? LightCuts::kOnce : LightCuts::kTwice;
 }
 
 std::string facing_text(const FacingShare& facing) {
@@ -86,11 +101,10 @@ std::string notes_text(const Scene& scene, const SceneFacts& facts, bool all_not
   return text;
 }
 
-void write_plan(JsonWriter& json, const char* name, const SceneFacts& facts, bool directional) {
+void write_plan(JsonWriter& json, const char* name, std::span<const PredicateBits> plan) {
   json.key(name);
   json.begin_array();
-  for (const PredicateBits& predicate :
-       precision_plan(directional, facts.position_bits, facts.direction_bits)) {
+  for (const PredicateBits& predicate : plan) {
     json.begin_object(JsonLayout::kInline);
     json.member("predicate", predicate.name);
     json.member("degree", predicate.degree);
@@ -157,13 +171,23 @@ std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_not
     text += wrapped(line, kWidth, 2, 6);
   }
   text += "\nprecision plan: what the exact stage of `plane` needs here\n";
-  const bool any = facts.has_point || facts.has_directional;
-  if (facts.has_point || !any) text += plan_text(facts, false);
-  if (facts.has_point && facts.has_directional) text += '\n';
-  if (facts.has_directional) {
-    text += plan_text(facts, true);
-    text += "degree: in positions + in the direction to the light\n";
+  std::vector<std::string> plans;
+  if (facts.has_point || facts.lights.empty()) {
+    plans.push_back(plan_text("point lights", light_plan(facts, false)));
   }
+  if (facts.has_directional) {
+    plans.push_back(plan_text("directional lights", light_plan(facts, true)) +
+                    "degree: in positions + in the direction to the light\n");
+  }
+  const unsigned b = facts.position_bits;
+  if (facts.has_area) {
+    plans.push_back(plan_text("area lights", volume_precision_plan(LightCuts::kNone, b)));
+    if (light_cuts(facts) != LightCuts::kNone) {
+      plans.push_back(plan_text("area lights, where planes of polygons cut them",
+                                volume_precision_plan(light_cuts(facts), b)));
+    }
+  }
+  for (std::size_t i = 0; i < plans.size(); ++i) text += (i == 0 ? "" : "\n") + plans[i];
   return text;
 }
 
@@ -224,8 +248,13 @@ void write_facts_json(TextSink& sink, const Scene& scene, const SceneFacts& fact
     json.end_object();
   }
   json.end_array();
-  write_plan(json, "point_light_plan", facts, false);
-  write_plan(json, "directional_light_plan", facts, true);
+  write_plan(json, "point_light_plan", light_plan(facts, false));
+  write_plan(json, "directional_light_plan", light_plan(facts, true));
+  const unsigned b = facts.position_bits;
+  write_plan(json, "area_light_plan", volume_precision_plan(LightCuts::kNone, b));
+  if (light_cuts(facts) != LightCuts::kNone) {
+    write_plan(json, "cut_area_light_plan", volume_precision_plan(light_cuts(facts), b));
+  }
   json.end_object();
   json.finish();
 }

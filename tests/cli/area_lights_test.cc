@@ -235,8 +235,13 @@ TEST(AreaLights, CertificatesOfForeignResultsTellMissingUmbra) {
 
 TEST(AreaLights, FactsAndPictures) {
   const std::string facts = run({"info", example("room1992-two")});
-  EXPECT_THAT(facts, AllOf(HasSubstr("panel2: area, 4 corners"), HasSubstr("see it"),
-                           HasSubstr("planes"), HasSubstr("behind it")));
+  EXPECT_THAT(facts,
+              AllOf(HasSubstr("panel2: area, 4 corners"), HasSubstr("see it"), HasSubstr("planes"),
+                    HasSubstr("behind it"), HasSubstr("area lights: predicate"),
+                    HasSubstr("area lights, where planes of polygons cut them")));
+  EXPECT_THAT(run({"info", example("figure-4f")}),
+              AllOf(HasSubstr("area lights: predicate"), Not(HasSubstr("cut them")),
+                    Not(HasSubstr("point lights: predicate"))));
   const rapidjson::Document document = parsed(run({"info", example("figure-6"), "--json", "-"}));
   const auto& light = document["lights"][0];
   EXPECT_EQ(light["facing"].GetInt(), 3);
