@@ -466,6 +466,7 @@ class MeshMaker {
     // Nodes of every face that has a tested edge: where a lit face meets a penumbra face, its
     // middle is lit for both.
     std::vector<std::uint32_t> centre_points;
+    centre_points.reserve(centres.size());
     for (NewPoint& point : centres) centre_points.push_back(points_.insert(std::move(point)));
     std::vector<std::uint32_t> others = middles;
     others.insert(others.end(), centre_points.begin(), centre_points.end());

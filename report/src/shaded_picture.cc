@@ -209,7 +209,7 @@ class ShadedPainter {
 
   /// A gradient between the points where the function has these values.
   std::string gradient(const LinearFit& linear, double low, double high, const MeshFace& face) {
-    const auto [gx, gy] = linear.gradient;
+    const double gx = linear.gradient[0], gy = linear.gradient[1];
     const double square = gx * gx + gy * gy;
     const auto point_at = [&](double value) {
       const double t = (value - linear.mean) / square;
