@@ -106,6 +106,7 @@ class CertifyRun {
     run.name = file;
     run.foreign = true;
     for (const oracle::CandidateLight& light : read->lights) {
+      if (!light.per_caster_umbra) run.per_caster_umbra = false;
       for (const oracle::CandidatePolygon& polygon : light.polygons) {
         // Those that a tree made: what is in shadow as a whole for a reason is none.
         run.fragments += static_cast<std::uint64_t>(std::ranges::count_if(

@@ -130,8 +130,8 @@ void add_notes(const JudgedRun& run, TextTable& table) {
     }
     if (!counts.empty()) table.add_note(counts);
   }
-  if (report.totals.missing_umbra.upper > 0) {
-    table.add_note("umbra called penumbra (a cost, no error of shadows): " +
+  if (!run.per_caster_umbra && report.totals.missing_umbra.upper > 0) {
+    table.add_note("umbra called penumbra (a cost, no error): " +
                    bound(report.totals.missing_umbra.upper) + " of " +
                    bound(report.totals.umbra.upper) + " scene units squared");
   }

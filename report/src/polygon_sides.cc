@@ -77,7 +77,8 @@ PartSide part_side(const LightResult& light, bool area_light, std::uint32_t part
   if (one.result->reason != ShadowReason::kNone) {
     one.reason = one.result->reason;
   } else if (one.result->side != side) {
-    one.reason = area_light ? ShadowReason::kBehindLight : ShadowReason::kFacesAway;
+    // Of an area light too: a part that the other side sees it from is partly in front of it.
+    one.reason = ShadowReason::kFacesAway;
   }
   if (one.reason != ShadowReason::kNone) {
     (area_light ? one.umbra : one.shadow) = {1, 1};

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "gnomon/algorithms/shadows.h"
+#include "gnomon/kernel/nearest_double.h"
 #include "gnomon/report/candidate_from_result.h"
 #include "gnomon/report/polygon_sides.h"
 #include "gnomon/scene/read.h"
@@ -116,6 +117,100 @@ TEST(CandidateFromResult, LeavesOutWhatHasNoCoordinates) {
   all.result.lights[0].points[0][1] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(count(candidate_from_result(all.scene, all.prepared, all.result, "double", false)),
             before - 1);
+}
+
+/// The same under a panel, and a two-sided fin that reaches behind its plane.
+constexpr const char* kAreaScene = R"({"format": "gnomon-scene", "version": 1,
+ "vertices": [[0,0,0],[4,0,0],[4,2,0],[2,2,0],[2,4,0],[0,4,0], [0,0,1],[2,0,1],[2,4,1],[0,4,1],
+              [9,0,0],[10,0,0],[10,1,1],[9,1,0], [1,6,0],[2,6,0],[2,6,9],[1,6,9],
+              [0,0,20],[1,0,20],[0,1,20]],
+ "polygons": [{"id": "floor", "loop": [0,1,2,3,4,5]}, {"id": "roof", "loop": [6,7,8,9]},
+              {"id": "bent", "loop": [10,11,12,13]},
+              {"id": "fin", "loop": [14,15,16,17], "two_sided": true},
+              {"id": "above", "loop": [18,19,20]}],
+ "lights": [{"id": "panel", "type": "area", "loop": [[0,5,6],[0,7,6],[3,7,6],[3,5,6]]},
+            {"id": "zenith", "type": "directional", "to_light": [0,0,1]}]})";
+
+TEST(AreaLights, SharesOfPartsAddUpToOne) {
+  const Classified all = classify(kAreaScene);
+  const LightResult& light = all.result.lights[0];
+  ASSERT_GT(all.prepared.first_part[1], 1u);
+  for (std::uint32_t polygon = 0; polygon < 5; ++polygon) {
+    for (const ClassifiedSide& side : polygon_sides(all.prepared, light, polygon, true)) {
+      EXPECT_TRUE(side.area_light);
+      EXPECT_FALSE(side.exact_shadow);
+      if (side.coplanar) {
+        EXPECT_EQ(*side.exact_lit + *side.exact_penumbra + *side.exact_umbra, 1);
+        EXPECT_NEAR(side.penumbra.middle(), side.exact_penumbra->get_d(), 1e-12);
+        EXPECT_NEAR(side.umbra.middle(), side.exact_umbra->get_d(), 1e-12);
+      } else {
+        EXPECT_FALSE(side.exact_penumbra);
+      }
+      EXPECT_LE(side.lit.lower + side.penumbra.lower + side.umbra.lower, 1);
+      EXPECT_GE(side.lit.upper + side.penumbra.upper + side.umbra.upper, 1);
+    }
+  }
+}
+
+TEST(AreaLights, SidesStandInOrderAndWhatSeesNothingOnce) {
+  const Classified all = classify(kAreaScene);
+  const LightResult& light = all.result.lights[0];
+  const auto fin = polygon_sides(all.prepared, light, 3, true);
+  ASSERT_EQ(fin.size(), 2u);
+  EXPECT_EQ(fin[0].side, Side::kFront);
+  EXPECT_EQ(fin[1].side, Side::kBack);
+  // Three of its nine units are above the light's plane.
+  EXPECT_EQ(*fin[0].exact_umbra, mpq_class(1, 3));
+  EXPECT_EQ(*fin[1].exact_umbra, mpq_class(1, 3));
+  const auto above = polygon_sides(all.prepared, light, 4, true);
+  ASSERT_EQ(above.size(), 1u);
+  EXPECT_EQ(above[0].reason, ShadowReason::kFacesAway);
+  EXPECT_EQ(*above[0].exact_umbra, 1);
+  const FacingShare facing = facing_share(all.prepared, light);
+  EXPECT_EQ(facing.facing, 4u);
+  EXPECT_EQ(facing.away, 1u);
+}
+
+TEST(AreaLights, WhatSeesCutsAndReachesBehind) {
+  const Classified all = classify(kAreaScene);
+  const PreparedLight& panel = all.prepared.lights[0];
+  const auto part = [&](std::uint32_t polygon) {
+    return all.prepared.parts[all.prepared.first_part[polygon]];
+  };
+  EXPECT_TRUE(sees_area_light(all.prepared, part(0), Side::kFront, panel));
+  EXPECT_FALSE(sees_area_light(all.prepared, part(0), Side::kBack, panel));
+  EXPECT_FALSE(cuts_area_light(all.prepared, part(0), panel));
+  EXPECT_FALSE(reaches_behind(all.prepared, part(0), panel));
+  EXPECT_TRUE(sees_area_light(all.prepared, part(3), Side::kBack, panel));
+  EXPECT_TRUE(cuts_area_light(all.prepared, part(3), panel));
+  EXPECT_TRUE(reaches_behind(all.prepared, part(3), panel));
+  EXPECT_FALSE(sees_area_light(all.prepared, part(4), Side::kFront, panel));
+  EXPECT_FALSE(reaches_behind(all.prepared, part(4), panel));
+  // Floor 12, roof 8, bent, and the fin twice.
+  EXPECT_NEAR(facing_area(all.prepared, {0}),
+              12 + 8 + 2 * 9 + nearest_double(precise_area(all.prepared, 2)), 1e-9);
+}
+
+TEST(AreaLights, TheOracleGetsWhatWasClassified) {
+  const Classified all = classify(kAreaScene);
+  const oracle::Candidate candidate =
+      candidate_from_result(all.scene, all.prepared, all.result, "plane", true);
+  ASSERT_EQ(candidate.lights.size(), 2u);
+  EXPECT_TRUE(candidate.lights[0].per_caster_umbra);
+  EXPECT_FALSE(candidate.lights[1].per_caster_umbra);
+  std::size_t behind = 0;
+  for (const oracle::CandidatePolygon& polygon : candidate.lights[0].polygons) {
+    EXPECT_FALSE(polygon.shadow_fraction);
+    EXPECT_EQ(polygon.umbra_fraction.has_value(), polygon.id != "bent");
+    for (const oracle::CandidateFragment& fragment : polygon.fragments) {
+      EXPECT_NE(fragment.shade, oracle::ShadeClass::kShadow);
+      if (fragment.reason.empty()) continue;
+      EXPECT_EQ(fragment.reason, polygon.id == "above" ? "faces-away" : "behind-light");
+      EXPECT_EQ(fragment.shade, oracle::ShadeClass::kUmbra);
+      ++behind;
+    }
+  }
+  EXPECT_GE(behind, 3u);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ struct JudgedRun {
   std::string kernel, algorithm;  // "double+identity", "svbsp"; empty if foreign
   bool foreign = false;           // not one of our kernels
   bool exact = false;             // an exact kernel: anything but `identical` is a bug of ours
+  bool per_caster_umbra = true;   // else umbra that is called penumbra is a cost, and told
   bool identity = false;
   bool exact_decisions = false;  // rounds points alone (epick): no thickness
   double thickness = 0;          // rounded kernels only
