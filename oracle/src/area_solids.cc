@@ -82,8 +82,17 @@ HalfSpace AreaSolids::front_of(std::uint32_t part, PolygonSide side) const {
 }
 
 bool AreaSolids::sees(std::uint32_t part, PolygonSide side) const {
-  if (side == PolygonSide::kBack && !scene_.parts[part].two_sided) return false;
-  return any_at(front_of(part, side), light_, 1) && any_at(before_light_, *loops_[part], 1);
+  const Part& own = scene_.parts[part];
+  if (side == PolygonSide::kBack && !own.two_sided) return false;
+  if (!any_at(front_of(part, side), light_, 1)) return false;
+  // A fragment may lie on any of the coplanar parts of its polygon.
+  for (std::uint32_t other = scene_.first_part[own.polygon];
+       other < scene_.first_part[own.polygon + 1]; ++other) {
+    if (scene_.parts[other].plane == own.plane && any_at(before_light_, *loops_[other], 1)) {
+      return true;
+    }
+  }
+  return false;
 }
 
 bool AreaSolids::light_in_plane(std::uint32_t part) const {

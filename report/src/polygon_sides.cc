@@ -76,6 +76,11 @@ PartSide part_side(const LightResult& light, bool area_light, std::uint32_t part
   }
   if (one.result->reason != ShadowReason::kNone) {
     one.reason = one.result->reason;
+    // That is the front's. If no light is in front, and not all of it is in the plane, some is
+    // behind; a back that does not see it then lies behind the light.
+    if (area_light && side != one.result->side && one.reason == ShadowReason::kFacesAway) {
+      one.reason = ShadowReason::kBehindLight;
+    }
   } else if (one.result->side != side) {
     // Of an area light too: a part that the other side sees it from is partly in front of it.
     one.reason = ShadowReason::kFacesAway;

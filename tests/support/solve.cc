@@ -104,7 +104,13 @@ oracle::Candidate candidate_of(const Case& scene, const ShadowResult& result) {
             if (one->reason == ShadowReason::kNone && one->side == side) own = one;
           }
           if (own == nullptr) {
-            const ShadowReason reason = results[part].front()->reason;
+            // A part that sees nothing of an area light has the reason of its front; no light is
+            // behind either if the part lies behind the light.
+            const PartResult& dark = *results[part].front();
+            ShadowReason reason = dark.reason;
+            if (area && dark.side != side && reason == ShadowReason::kFacesAway) {
+              reason = ShadowReason::kBehindLight;
+            }
             oracle::CandidateFragment whole;
             whole.shade = area ? oracle::ShadeClass::kUmbra : oracle::ShadeClass::kShadow;
             whole.reason = reason == ShadowReason::kNone ? "faces-away" : name_of(reason);
