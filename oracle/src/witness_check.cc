@@ -73,6 +73,7 @@ class WitnessChecker {
   /// Parts whose plane a result lists on this side, by family; and others it may list there.
   std::map<PlaneId, std::vector<std::uint32_t>> families_on(std::uint32_t polygon, PolygonSide side,
                                                             std::set<PlaneId>& optional) const;
+  bool sees(std::uint32_t part, PolygonSide side) const;
   std::vector<PolygonSide> listed_sides(std::uint32_t polygon) const;
   void check_polygon(const CandidatePolygon& polygon);
   void check_family(const CandidatePolygon& polygon, const std::vector<std::uint32_t>& parts,
@@ -488,37 +489,47 @@ void WitnessChecker::check_fractions(const CandidatePolygon& polygon,
   claim(polygon.umbra_fraction, ShadeClass::kUmbra);
 }
 
+bool WitnessChecker::sees(std::uint32_t part, PolygonSide side) const {
+  if (area_) return area_->sees(part, side);
+  const Solid& solid = solids_[part];
+  return solid.receives && (side == PolygonSide::kFront ? solid.facing > 0 : solid.facing < 0);
+}
+
+/// A polygon is listed once for each side that some part of it sees the light from, or with its
+/// front.
+std::vector<PolygonSide> WitnessChecker::listed_sides(std::uint32_t polygon) const {
+  std::vector<PolygonSide> sides;
+  for (const PolygonSide side : {PolygonSide::kFront, PolygonSide::kBack}) {
+    for (std::uint32_t part = prepared_.first_part[polygon];
+         part < prepared_.first_part[polygon + 1]; ++part) {
+      if (!sees(part, side)) continue;
+      sides.push_back(side);
+      break;
+    }
+  }
+  if (sides.empty()) sides.push_back(PolygonSide::kFront);
+  return sides;
+}
+
+/// All of the polygon's parts by plane. Planes that see the light from the other side alone may be
+/// listed here, as dark; what sees nothing belongs to the first side listed.
 std::map<PlaneId, std::vector<std::uint32_t>> WitnessChecker::families_on(
     std::uint32_t polygon, PolygonSide side, std::set<PlaneId>& optional) const {
   std::map<PlaneId, std::vector<std::uint32_t>> families;
   for (std::uint32_t part = prepared_.first_part[polygon]; part < prepared_.first_part[polygon + 1];
        ++part) {
-    const Solid& solid = solids_[part];
-    const PolygonSide own =
-        solid.receives && solid.facing < 0 ? PolygonSide::kBack : PolygonSide::kFront;
-    if (area_ || own == side) families[prepared_.parts[part].plane].push_back(part);
+    families[prepared_.parts[part].plane].push_back(part);
   }
-  if (!area_) return families;
+  const PolygonSide first = listed_sides(polygon).front();
   for (const auto& [plane, parts] : families) {
     const auto seen_from = [&, &family = parts](PolygonSide from) {
       return std::any_of(family.begin(), family.end(),
-                         [&](std::uint32_t part) { return area_->sees(part, from); });
+                         [&](std::uint32_t part) { return sees(part, from); });
     };
-    // What sees nothing is listed with its front.
-    const bool listed =
-        seen_from(side) || (side == PolygonSide::kFront && !seen_from(PolygonSide::kBack));
-    if (!listed) optional.insert(plane);
+    const bool dark = !seen_from(PolygonSide::kFront) && !seen_from(PolygonSide::kBack);
+    if (!seen_from(side) && !(dark && side == first)) optional.insert(plane);
   }
   return families;
-}
-
-std::vector<PolygonSide> WitnessChecker::listed_sides(std::uint32_t polygon) const {
-  std::vector<PolygonSide> sides;
-  for (const PolygonSide side : {PolygonSide::kFront, PolygonSide::kBack}) {
-    std::set<PlaneId> optional;
-    if (families_on(polygon, side, optional).size() > optional.size()) sides.push_back(side);
-  }
-  return sides;
 }
 
 void WitnessChecker::check_polygon(const CandidatePolygon& polygon) {
