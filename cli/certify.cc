@@ -248,7 +248,8 @@ class CertifyRun {
     std::erase_if(shadow_options.lights, [&](std::uint32_t light) {
       return loaded_.prepared.lights[light].type == LightType::kArea;
     });
-    if (shadow_options.lights.empty()) return "only of point and directional lights";
+    if (shadow_options.lights.empty())
+      return "not looked for: it is explained for point and directional lights alone";
     const auto difference = explain(loaded_.prepared, shadow_options);
     progress_.clear();
     if (!difference) return to_string(difference.error());
