@@ -631,6 +631,58 @@ TYPED_TEST_P(ExactVolumeSpace, FacesOfAddedPlanesAreCut) {
   EXPECT_GT(cuts, 100);
 }
 
+/// The floor of the grid's box, or of a part of it: corners where three axis planes meet.
+TYPED_TEST_P(ExactVolumeSpace, BoxesAreCut) {
+  using Space = TypeParam;
+  Random random(34);
+  int cuts = 0;
+  for (const unsigned bits : {3u, 20u, 53u, 63u, 84u}) {
+    for (const SoupKind kind : kSoupKinds) {
+      const TriangleSoup soup = random_soup(random, kind, bits, 6);
+      const typename Space::SceneSpace scene(soup.geometry(), TestFixture::kOptions);
+      Space space(scene, TestFixture::kOptions);
+      VolumePlanes<Space> planes(soup, space, random);
+      for (int i = 0; i < 6; ++i) {
+        planes.add_through_vertices();
+        planes.add_along_direction(3);
+        planes.add_axis_plane(static_cast<double>(random.below(9)) / 8);
+      }
+      const mpz_class extent = mpz_class(1) << soup.geometry().grid.bits();
+      for (const double low : {0.0, 0.125, 0.375}) {
+        const double high = 1 - low;
+        const std::array<PlaneRef, 2> x{space.add_axis_plane(0, low),
+                                        -space.add_axis_plane(0, high)},
+            y{space.add_axis_plane(1, low), -space.add_axis_plane(1, high)};
+        const PlaneRef floor = space.add_axis_plane(2, low);
+        VolumeLoop<Space> face;
+        face.support = floor.index();
+        face.edges = {y[0], x[1], y[1], x[0]};
+        for (const auto& [u, v] : {std::pair{low, low}, {high, low}, {high, high}, {low, high}}) {
+          face.vertices.push_back(space.axis_point({u, v, low}));
+          face.exact.push_back(
+              {mpq_class(u) * extent, mpq_class(v) * extent, mpq_class(low) * extent});
+        }
+        for (int cut = 0; cut < 4; ++cut) {
+          this->check_sides(space, planes, face);
+          if (this->HasFailure()) return;
+          for (std::uint32_t i = 0; i < face.size(); ++i) {
+            const Rationals point = space.exact_position(face.corner(i));
+            for (std::size_t k = 0; k < 3; ++k) {
+              ASSERT_EQ(point[k], soup.geometry().step * face.exact[i][k]);
+            }
+          }
+          const auto& [cutter, plane] = planes.some();
+          VolumeLoop<Space> front = face.clipped(space, cutter, plane);
+          if (front.size() < 3) continue;
+          face = std::move(front);
+          ++cuts;
+        }
+      }
+    }
+  }
+  EXPECT_GT(cuts, 50);
+}
+
 TYPED_TEST_P(ExactVolumeSpace, PositionsAreCertifiedExactAndNearest) {
   using Space = TypeParam;
   Random random(33);
@@ -685,7 +737,7 @@ TYPED_TEST_P(ExactVolumeSpace, PositionsAreCertifiedExactAndNearest) {
 }
 
 REGISTER_TYPED_TEST_SUITE_P(ExactVolumeSpace, SidesOfMadePointsAreTrue, FacesOfAddedPlanesAreCut,
-                            PositionsAreCertifiedExactAndNearest);
+                            BoxesAreCut, PositionsAreCertifiedExactAndNearest);
 
 }  // namespace gnomon::test
 
