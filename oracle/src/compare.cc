@@ -77,8 +77,8 @@ Cell read_cell(const Winding& winding, std::optional<ShadeClass> background, boo
         return cell.claims(shade) && cell.accepts(shade, rules);
       });
   cell.misclassified = !right;
-  cell.missing_umbra =
-      cell.truth == ShadeClass::kUmbra && classes == 1 && cell.claims(ShadeClass::kPenumbra);
+  cell.missing_umbra = !rules.per_caster && cell.truth == ShadeClass::kUmbra && classes == 1 &&
+                       cell.claims(ShadeClass::kPenumbra);
   return cell;
 }
 

@@ -60,7 +60,8 @@ struct PolygonComparison {
   AreaShare penumbra, umbra;  // the truth under an area light
   AreaShare misclassified, uncovered, overlapping, outside;
   AreaShare ill_conditioned;  // share of the error that is, counted apart
-  /// Area lights: true umbra claimed as penumbra. A cost; an error too if umbra is per caster.
+  /// Area lights: true umbra claimed as penumbra. A cost; where umbra is claimed per caster it is
+  /// misclassified instead, and none.
   AreaShare missing_umbra;
   Enclosure width;      // of the widest region of error, scene units
   Enclosure off_plane;  // scene units

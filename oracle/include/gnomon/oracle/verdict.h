@@ -39,7 +39,7 @@ struct CertifyOptions {
   bool subset = false;                       // lights and polygons may be missing
   std::optional<std::uint64_t> leaks;        // fail with more invented and lost regions than this
   std::vector<std::uint32_t> lights;         // indices into PreparedScene::lights; empty: all
-  std::uint64_t most_pairs = 1'000'000'000;  // a minute for a city of that size
+  std::uint64_t most_pairs = 1'000'000'000;  // a minute for a city of that size; area: minutes
   std::uint32_t points_a_polygon = 8;  // above the limit: of its fragments, and as many at random
   // Points times parts; where all polygons would take more, every n-th polygon side is checked.
   std::uint64_t most_point_pairs = 50'000'000;
