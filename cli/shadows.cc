@@ -66,6 +66,9 @@ int run_shadows(const ShadowsOptions& options) {
   if (options.deep_umbra && options.pieces) {
     return report_usage("--deep-umbra is of whole lights", "no --pieces");
   }
+  if (options.illuminate.illuminate && options.pieces) {
+    return report_usage("--illuminate is by whole lights", "no --pieces");
+  }
   const ThreadLimit threads(options.scene.jobs);
   auto loaded = load_scene(options.scene, true);
   if (!loaded) return report_error(loaded.error());

@@ -27,6 +27,7 @@
 #include "fragment_sink.h"
 #include "gnomon/kernel/fp_environment.h"
 #include "merged_light.h"
+#include "merged_pieces.h"
 
 namespace gnomon {
 
@@ -79,6 +80,9 @@ class AreaRun {
            (stopped_.store(true, std::memory_order_relaxed), false);
   }
   LightResult run_light(std::uint32_t light, double from, double to);
+  LightResult run_light(const AreaLight<Space>& light, LightResult result, double from, double to);
+  /// 1992 to the letter: the light cut by the planes of all polygons, a result for each piece.
+  void run_pieces(std::uint32_t light, double from, double to, std::vector<LightResult>& results);
   /// `merged`: may be null.
   std::vector<SideResult> run_part(Scratch& scratch, const AreaLight<Space>& light,
                                    const MergedLight<Space>* merged, std::uint32_t part);
@@ -215,8 +219,59 @@ LightResult AreaRun<Space>::run_light(std::uint32_t index, double from, double t
   const AreaLight<Space> light(space_, area_scene_, tree_, index);
   LightResult result;
   result.light = index;
+  result = run_light(light, std::move(result), from, to);
+  space_.release_planes(mark);
+  return result;
+}
+
+template <VolumeSpaceModel Space>
+void AreaRun<Space>::run_pieces(std::uint32_t index, double from, double to,
+                                std::vector<LightResult>& results) {
+  pieces_ = 0;
+  const LightFace& face = area_scene_.faces[index];
+  LoopStore<Vertex> whole;
+  for (std::size_t i = 0; i < face.loop.size(); ++i) {
+    whole.push(space_.input_vertex(face.loop[i]),
+               space_.edges().of_edge(face.edges[i].index(), face.edges[i].flipped()));
+  }
+  std::vector<PlaneRef> planes;
+  std::vector<bool> known(area_scene_.geometry.planes.size(), false);
+  known[face.plane] = true;
+  for (const Part& part : scene_.parts) {
+    if (!known[part.plane]) planes.emplace_back(part.plane, part.flipped);
+    known[part.plane] = true;
+  }
+  LightCut<Vertex> cut;
+  if (!cut_light(space_, whole.view({0, whole.size(), 0}, face.plane), planes,
+                 options_.max_fragments, cut)) {
+    pieces_ = options_.max_fragments + 1;
+    stopped_ = true;
+    return;
+  }
+  const auto count = static_cast<double>(cut.pieces.size());
+  for (std::uint32_t i = 0; i < cut.pieces.size() && !stopped_; ++i) {
+    const Loop piece = cut.loops.view(cut.pieces[i], face.plane);
+    const std::uint32_t mark = space_.plane_mark();
+    const AreaLight<Space> light(space_, area_scene_, tree_, index, piece);
+    LightResult result;
+    result.light = index;
+    result.piece = i;
+    for (std::uint32_t k = 0; options_.keep_exact_points && k < piece.size(); ++k) {
+      result.piece_loop.push_back(space_.exact_position(piece.corner(k)));
+    }
+    result = run_light(light, std::move(result), from + (to - from) * (i / count),
+                       from + (to - from) * ((i + 1) / count));
+    if (i == 0) result.dropped_slivers += cut.vanished;
+    results.push_back(std::move(result));
+    space_.release_planes(mark);
+  }
+}
+
+template <VolumeSpaceModel Space>
+LightResult AreaRun<Space>::run_light(const AreaLight<Space>& light, LightResult result,
+                                      double from, double to) {
   std::optional<MergedLight<Space>> merged;
-  if (light.is_area() && options_.area_algorithm == AreaAlgorithm::kMerged) {
+  if (light.is_area() && options_.area_algorithm != AreaAlgorithm::kReceiver) {
     merged.emplace(space_, light, scene_, tree_, options_);
     const double middle = from + (to - from) / 2;
     if (!build_trees(light, from, middle, *merged)) return result;
@@ -243,7 +298,6 @@ LightResult AreaRun<Space>::run_light(std::uint32_t index, double from, double t
     cells += scratch.cutter.cells() - cells_before;
     vanished += scratch.cutter.vanished() - vanished_before;
   });
-  space_.release_planes(mark);
   result.tree_nodes = cells + (merged ? merged->node_count() : 0);
   result.dropped_slivers = vanished + (merged ? merged->findings() : 0);
   if (stopped_) return result;
@@ -368,7 +422,12 @@ Expected<AreaOutcome> AreaRun<Space>::run(const LightList& lights, const LightLi
   const double steps = static_cast<double>(lights.size() + (combined.empty() ? 0 : 1));
   double step = 0;
   for (const std::uint32_t light : lights) {
-    outcome.lights.push_back(run_light(light, step / steps, (step + 1) / steps));
+    if (options_.area_algorithm == AreaAlgorithm::kPieces &&
+        scene_.lights[light].type == LightType::kArea) {
+      run_pieces(light, step / steps, (step + 1) / steps, outcome.lights);
+    } else {
+      outcome.lights.push_back(run_light(light, step / steps, (step + 1) / steps));
+    }
     if (stopped_) return stop_reason();
     ++step;
   }

@@ -84,6 +84,19 @@ class AreaLight {
     if (is_area()) plane_ = PlaneRef(face.plane, face.flipped);
     make_volumes(space);
   }
+  /// The same for a piece of an area light, a convex loop on its plane that support planes cut out.
+  AreaLight(Space& space, const AreaScene& scene, const CasterTree& tree, std::uint32_t light,
+            const Loop& piece)
+      : scene_(*scene.scene), light_(&scene.scene->lights[light]), tree_(&tree) {
+    const LightFace& face = scene.faces[light];
+    for (const VertexId vertex : face.loop) {
+      box_.add(grid_fraction(scene.geometry.grid, vertex));
+    }
+    loop_.append(piece);
+    plane_id_ = face.plane;
+    plane_ = PlaneRef(face.plane, face.flipped);
+    make_volumes(space);
+  }
 
   bool is_area() const { return light_->type == LightType::kArea; }
   LightState in_shadow() const { return is_area() ? LightState::kUmbra : LightState::kShadow; }

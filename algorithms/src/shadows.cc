@@ -122,6 +122,9 @@ Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowO
   if (functions.shadows == nullptr) return fail(ErrorCode::kUsage, "unknown kernel");
   const LightsByWay ways = split_by_way(scene, options, lights);
   if (ways.by_receiver.empty()) return functions.shadows(scene, options, lights);
+  if (options.combined && options.area_algorithm == AreaAlgorithm::kPieces) {
+    return fail(ErrorCode::kUsage, "pieces of lights have no classes together", "whole lights");
+  }
   if (options.combined && lights.size() > 64) {
     return fail(ErrorCode::kLimit, std::to_string(lights.size()) + " lights together",
                 "at most 64");

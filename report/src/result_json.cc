@@ -116,8 +116,10 @@ class ResultWriter {
     json_.end_array();
   }
 
-  const std::string& light_id(const LightResult& light) const {
-    return scene_.lights[prepared_.lights[light.light].light].id;
+  /// A piece of a light is named by its number: "panel/0".
+  std::string light_id(const LightResult& light) const {
+    const std::string& id = scene_.lights[prepared_.lights[light.light].light].id;
+    return light.piece == LightResult::kWhole ? id : id + "/" + std::to_string(light.piece);
   }
 
   bool is_area(const LightResult& light) const {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The merged trees of 1992 against the receiver algorithm, which shares neither tree nor polyhedra
 // with them: the same exact fractions of all classes on small scenes, most of them degenerate; the
-// scenes of the paper's figures 4 and 6; limits, interruption, progress.
+// scenes of the paper's figures 4 and 6; limits, interruption, threads; and pieces of lights.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <string>
@@ -162,6 +163,162 @@ TEST(Merged, Figure6) {
   EXPECT_EQ(text_of(scene, options), expected);
   options.continue_planes = false;
   EXPECT_NE(text_of(scene, options), expected);
+}
+
+/// 1992, fig. 4(f): between the umbras of two polygons that together hide the light is penumbra.
+TEST(Merged, Figure4f) {
+  ScenePen pen;
+  pen.polygon({{-40, -40, 0}, {40, -40, 0}, {40, 40, 0}, {-40, 40, 0}});
+  pen.polygon({{-8, -20, 12}, {0, -20, 12}, {0, 20, 12}, {-8, 20, 12}});
+  pen.polygon({{0, -20, 10}, {8, -20, 10}, {8, 20, 10}, {0, 20, 10}});
+  const Scene scene = with_lamp(pen, {{-4, -4, 20}, {-4, 4, 20}, {4, 4, 20}, {4, -4, 20}});
+  const auto prepared = prepare(scene).value();
+  const std::string expected =
+      text_of(prepared, options_of(AreaAlgorithm::kReceiver, KernelId::kPlane));
+  const ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+  EXPECT_EQ(text_of(prepared, options), expected);
+  ShadowOptions with_points = options;
+  with_points.keep_points = true;
+  const LightResult light = compute_shadows(prepared, with_points)->lights[0];
+  // The point (1, 0, 0) sees no light, since the two hide it together; neither does it alone.
+  bool found = false;
+  for (std::uint32_t f = 0; f < light.parts[0].fragment_count; ++f) {
+    const Fragment& fragment = light.fragments[light.parts[0].first_fragment + f];
+    bool inside = true;
+    for (std::uint32_t i = 0; i < fragment.count; ++i) {
+      const auto& a = light.points[fragment.first + i];
+      const auto& b = light.points[fragment.first + (i + 1) % fragment.count];
+      inside = inside && (b[0] - a[0]) * (0 - a[1]) - (b[1] - a[1]) * (1 - a[0]) >= 0;
+    }
+    if (!inside) continue;
+    found = true;
+    EXPECT_EQ(fragment.state, LightState::kPenumbra);
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST(Merged, StopsAtLimits) {
+  const auto scene = prepare(boxes(3)).value();
+  ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+  options.max_fragments = 1;
+  EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kLimit);
+  options.area_algorithm = AreaAlgorithm::kPieces;
+  EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kLimit);
+  options.max_fragments = 1000000;
+  options.combined = true;
+  EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kUsage);
+  options.combined = false;
+  const std::atomic<bool> interrupted = true;
+  options.interrupted = &interrupted;
+  EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kInterrupted);
+}
+
+TEST(Merged, AnswersAlikeOnAnyNumberOfThreads) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const auto scene = prepare(soup(seed)).value();
+    ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+    const std::string expected = text_of(scene, options);
+    options.jobs = 2;
+    double last = 0;
+    options.progress = [&](double done) {
+      EXPECT_GE(done, last);
+      EXPECT_LE(done, 1);
+      last = done;
+    };
+    EXPECT_EQ(text_of(scene, options), expected);
+  }
+}
+
+// --- Pieces: 1992 to the letter ---
+
+TEST(Pieces, OfALightThatNothingCutsIsTheLight) {
+  const auto scene = prepare(figure_6()).value();
+  ShadowOptions options = options_of(AreaAlgorithm::kPieces, KernelId::kPlane);
+  const auto result = compute_shadows(scene, options).value();
+  ASSERT_EQ(result.lights.size(), 1u);
+  EXPECT_EQ(result.lights[0].piece, 0u);
+  EXPECT_EQ(text_of(result.lights[0]),
+            text_of(scene, options_of(AreaAlgorithm::kReceiver, KernelId::kPlane)));
+}
+
+/// Every piece as a light of its own, for the receiver algorithm.
+TEST(Pieces, AreLights) {
+  unsigned pieces = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const Scene scene = boxes(seed);
+    const auto prepared = prepare(scene);
+    if (!prepared) continue;
+    ShadowOptions options = options_of(AreaAlgorithm::kPieces, KernelId::kPlane);
+    options.keep_exact_points = true;
+    const auto result = compute_shadows(*prepared, options).value();
+    EXPECT_EQ(result.algorithm, "pieces");
+    for (std::uint32_t i = 0; i < result.lights.size(); ++i) {
+      ++pieces;
+      const LightResult& light = result.lights[i];
+      EXPECT_EQ(light.piece, i);
+      Scene alone = scene;
+      alone.lights[0].loop.clear();
+      for (const auto& point : light.piece_loop) {
+        Position position;
+        for (std::size_t k = 0; k < 3; ++k) {
+          ASSERT_EQ(point[k].get_den(), 1);  // planes of boxes cut at whole numbers
+          position[k] = Number(point[k].get_d());
+        }
+        alone.lights[0].loop.push_back(position);
+      }
+      const auto prepared_alone = prepare(alone).value();
+      EXPECT_EQ(text_of(light),
+                text_of(prepared_alone, options_of(AreaAlgorithm::kReceiver, KernelId::kPlane)))
+          << "seed " << seed << " piece " << i;
+    }
+  }
+  EXPECT_GT(pieces, 100u);
+}
+
+/// Four times the square of the area of a planar loop.
+mpq_class squared_area(const std::vector<std::array<mpq_class, 3>>& loop,
+                       std::array<mpq_class, 3>& normal) {
+  normal = {0, 0, 0};
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const auto& a = loop[i];
+    const auto& b = loop[(i + 1) % loop.size()];
+    for (std::size_t k = 0; k < 3; ++k) {
+      normal[k] += a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    }
+  }
+  return normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+}
+
+TEST(Pieces, TileTheLightAndRationalAgrees) {
+  unsigned pieces = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Scene scene = soup(seed);
+    const auto prepared = prepare(scene);
+    if (!prepared) continue;
+    ShadowOptions options = options_of(AreaAlgorithm::kPieces, KernelId::kPlane);
+    options.keep_exact_points = true;
+    const auto result = compute_shadows(*prepared, options).value();
+    std::vector<std::array<mpq_class, 3>> whole;
+    for (const Position& p : scene.lights[0].loop) {
+      whole.push_back({p[0].exact(), p[1].exact(), p[2].exact()});
+    }
+    std::array<mpq_class, 3> total, sum{0, 0, 0}, normal;
+    squared_area(whole, total);
+    for (const LightResult& light : result.lights) {
+      EXPECT_GT(squared_area(light.piece_loop, normal), 0);
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += normal[k];
+    }
+    EXPECT_EQ(sum, total);
+    pieces += static_cast<unsigned>(result.lights.size());
+    if (seed % 8 != 0) continue;
+    options.kernel = KernelId::kRational;
+    const auto rational = compute_shadows(*prepared, options).value();
+    ASSERT_EQ(rational.lights.size(), result.lights.size());
+    for (std::size_t i = 0; i < result.lights.size(); ++i) {
+      EXPECT_EQ(text_of(rational.lights[i]), text_of(result.lights[i])) << seed;
+    }
+  }
+  EXPECT_GT(pieces, 200u);
 }
 
 }  // namespace
