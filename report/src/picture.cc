@@ -307,6 +307,7 @@ class Painter {
       // A thin triangle is clipped like any loop; its long sides are the line.
       const std::vector<Vector> seen = view.visible({a, b, 0.5 * (a + b)});
       std::vector<PixelPoint> pixels;
+      pixels.reserve(seen.size());
       for (const Vector& point : seen) pixels.push_back(view.pixel(point));
       if (pixels.size() < 2) continue;
       const auto [low, high] = std::ranges::minmax_element(pixels);

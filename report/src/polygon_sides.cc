@@ -61,8 +61,8 @@ mpq_class precise_part_area(const PreparedScene& scene, const Part& part) {
 
 /// The entries of one part: one for each side that sees an area light, else one.
 std::span<const PartResult> results_of(const LightResult& light, std::uint32_t part) {
-  const auto [first, last] =
-      std::ranges::equal_range(light.parts, part, std::ranges::less{}, &PartResult::part);
+  const auto first = std::ranges::lower_bound(light.parts, part, {}, &PartResult::part);
+  const auto last = std::ranges::upper_bound(light.parts, part, {}, &PartResult::part);
   return {first, last};
 }
 

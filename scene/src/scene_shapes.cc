@@ -31,6 +31,7 @@ void hexagonal_prism(SceneMaker& maker, const std::string& id, Int3 middle, std:
                                      {-half, -across, 0},
                                      {half, -across, 0}}};
   std::vector<Int3> foot;
+  foot.reserve(hexagon.size());
   for (const Int3& p : hexagon) foot.push_back(middle + p);
   upright_prism(maker, id, foot, height);
 }
