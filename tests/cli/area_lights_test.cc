@@ -168,6 +168,16 @@ TEST(AreaLights, AlgorithmsAndWhatTheyAreRefusedFor) {
   expect_refused({"shadows", scene, "--light", "lamp"}, {"lamp", "panel"});
 }
 
+TEST(AreaLights, PiecesHaveIdsOfTheirOwn) {
+  const rapidjson::Document document = parsed(run({"shadows", example("room1992"), "--pieces"}));
+  EXPECT_STREQ(document["algorithm"].GetString(), "pieces");
+  ASSERT_GT(document["lights"].Size(), 1u);
+  EXPECT_STREQ(document["lights"][0]["id"].GetString(), "panel/0");
+  EXPECT_STREQ(document["lights"][1]["id"].GetString(), "panel/1");
+  expect_refused({"shadows", example("plates1"), "--pieces", "--combined"}, {"pieces"});
+  expect_refused({"shadows", example("plates1"), "--pieces", "--deep-umbra"}, {"--pieces"});
+}
+
 TEST(AreaLights, CombinedFragmentsNameTheLightsOfTheirPenumbra) {
   const rapidjson::Document document =
       parsed(run({"shadows", example("plates1"), "--point=10,10,90", "--combined", "--fragments"}));

@@ -152,10 +152,12 @@ TEST_F(Illuminate, AreaLights) {
   EXPECT_EQ(counts({"--light", "panel"}).find(" 0 "), std::string::npos)
       << counts({"--light", "panel"});
   counts({"--light", "panel", "--algorithm", "merged"});
-  counts({"--light", "panel", "--pieces"});
   counts({"--light", "panel", "--kernel", "rational", "--grid", "1"});
   counts({});
   counts({"--algorithm", "receiver"});
+  const RunResult pieces = run({"--illuminate", "--stats", "--light", "panel", "--pieces"});
+  EXPECT_EQ(pieces.status, 2);
+  EXPECT_THAT(pieces.err, HasSubstr("whole lights"));
   const std::string mesh = directory_.file("mesh.glb");
   const RunResult all = run({"--illuminate", "--adaptive", "0.1", "--mesh", mesh});
   EXPECT_EQ(all.status, 0) << all.err;
