@@ -128,11 +128,16 @@ AreaSolids::Volume AreaSolids::penumbra_of(const Blocker& blocker, const Loop& l
 AreaSolids::Volume AreaSolids::umbra_of(const Blocker& blocker, const Loop& light) const {
   const Loop& caster = *loops_[blocker.part];
   Volume volume;
-  volume.bounds.emplace_back(negated(blocker.normal), caster[0]);
   const HalfSpace front(blocker.normal, caster[0]);
+  std::vector<int> heights;
   for (const ExactPoint& corner : light) {
-    const int height = sgn(front.value(corner));
-    if (height < 0) return volume;
+    heights.push_back(sgn(front.value(corner)));
+    if (heights.back() < 0) return volume;
+  }
+  volume.bounds.emplace_back(negated(blocker.normal), caster[0]);
+  for (std::size_t v = 0; v < light.size(); ++v) {
+    const ExactPoint& corner = light[v];
+    const int height = heights[v];
     for (std::size_t i = 0; i < caster.size(); ++i) {
       const ExactPoint &a = caster[i], &b = caster[(i + 1) % caster.size()];
       HalfSpace half(cross(minus(b, a), height == 0 ? blocker.normal : minus(corner, a)), a);
@@ -148,29 +153,31 @@ AreaSolids::Volume AreaSolids::umbra_of(const Blocker& blocker, const Loop& ligh
   return volume;
 }
 
-const AreaSolids::Volumes* AreaSolids::cut_volumes(std::size_t index, std::uint32_t receiver,
-                                                   PolygonSide side) {
-  const HalfSpace front = front_of(receiver, side);
-  if (!any_at(front, light_, -1)) return nullptr;
-  const auto [place, inserted] = cut_.try_emplace({index, receiver, side});
+const Loop* AreaSolids::cut_light(std::uint32_t receiver, PolygonSide side) {
+  const auto [place, inserted] = cut_lights_.try_emplace({receiver, side});
   if (inserted) {
-    const Loop light = cut(light_, front);
-    place->second.penumbra = penumbra_of(blockers_[index], light);
-    place->second.umbra = umbra_of(blockers_[index], light);
+    const HalfSpace front = front_of(receiver, side);
+    if (any_at(front, light_, -1)) place->second = cut(light_, front);
   }
-  return &place->second;
+  return place->second.empty() ? nullptr : &place->second;
 }
 
 const AreaSolids::Volume& AreaSolids::penumbra(std::size_t index, std::uint32_t receiver,
                                                PolygonSide side) {
-  const Volumes* own = cut_volumes(index, receiver, side);
-  return own ? own->penumbra : blockers_[index].penumbra;
+  const Loop* light = cut_light(receiver, side);
+  if (!light) return blockers_[index].penumbra;
+  const auto [place, inserted] = cut_penumbras_.try_emplace({index, receiver, side});
+  if (inserted) place->second = penumbra_of(blockers_[index], *light);
+  return place->second;
 }
 
 const AreaSolids::Volume& AreaSolids::umbra(std::size_t index, std::uint32_t receiver,
                                             PolygonSide side) {
-  const Volumes* own = cut_volumes(index, receiver, side);
-  return own ? own->umbra : blockers_[index].umbra;
+  const Loop* light = cut_light(receiver, side);
+  if (!light) return blockers_[index].umbra;
+  const auto [place, inserted] = cut_umbras_.try_emplace({index, receiver, side});
+  if (inserted) place->second = umbra_of(blockers_[index], *light);
+  return place->second;
 }
 
 }  // namespace gnomon::oracle

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <map>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "gnomon/oracle/candidate.h"
@@ -55,15 +56,12 @@ class AreaSolids {
     ExactPoint normal;  // towards the light that is blocked
     Volume penumbra, umbra;
   };
-  struct Volumes {
-    Volume penumbra, umbra;
-  };
 
   space::HalfSpace front_of(std::uint32_t part, PolygonSide side) const;
   Volume penumbra_of(const Blocker& blocker, const space::Loop& light) const;
   Volume umbra_of(const Blocker& blocker, const space::Loop& light) const;
-  /// Null if the receiver's plane does not cut the light.
-  const Volumes* cut_volumes(std::size_t blocker, std::uint32_t receiver, PolygonSide side);
+  /// A_R; null if it is all of the light. Requires: sees(receiver, side).
+  const space::Loop* cut_light(std::uint32_t receiver, PolygonSide side);
 
   const PreparedScene& scene_;
   std::vector<const space::Loop*> loops_;
@@ -71,7 +69,9 @@ class AreaSolids {
   space::Loop light_;
   space::HalfSpace before_light_, behind_light_;
   std::vector<Blocker> blockers_;
-  std::map<std::tuple<std::size_t, std::uint32_t, PolygonSide>, Volumes> cut_;
+  // Of receivers whose plane cuts the light, as they are asked for.
+  std::map<std::pair<std::uint32_t, PolygonSide>, space::Loop> cut_lights_;
+  std::map<std::tuple<std::size_t, std::uint32_t, PolygonSide>, Volume> cut_penumbras_, cut_umbras_;
 };
 
 }  // namespace gnomon::oracle
