@@ -55,7 +55,10 @@ class MergedLight {
   enum class Outcome : std::uint8_t { kDone, kStopped, kTooManyNodes };
   /// The trees are kept from outgrowing the fragments by more than this.
   static constexpr std::uint64_t kMostNodesAFragment = 8;
-  static constexpr std::uint32_t kReceiversALeaf = 8;
+  /// Of the prefix. Measured on cities and quads of 3,001 to 30,001 polygons, small and large
+  /// lights: no other value is faster than this by more than a half; 8 or no prefix cost up to 3
+  /// times as much.
+  static constexpr std::uint32_t kReceiversALeaf = 64;
 
   /// Makes the trees for those receivers (parts), which must include all that cut() will be asked
   /// for. `step(share)` is called between casters and returns false to stop.

@@ -94,6 +94,8 @@ class VolumeTree {
   struct Node {
     PlaneRef plane;
     std::int32_t front = kOut, back = kOut;
+    std::uint32_t parent : 31 = 0;
+    std::uint32_t full : 1 = 0;  // no OUT cell below: nothing to extend any more
   };
   struct Place {
     std::uint32_t node = 0;  // the cell or subtree is this node's front or back child
@@ -104,6 +106,10 @@ class VolumeTree {
   std::int32_t child(Place at) const {
     return at.front ? nodes_[at.node].front : nodes_[at.node].back;
   }
+  bool is_full(std::int32_t link) const {
+    return link < 0 ? link != kOut : nodes_[static_cast<std::size_t>(link)].full != 0;
+  }
+  void note_full(std::uint32_t node);
   void extend(Place at, const Polyhedron<Vertex>& piece, PlaneId base, std::uint32_t caster);
 
   Space* space_;
@@ -173,9 +179,14 @@ void VolumeTree<Space>::plant(const SpacePrefix& prefix) {
   };
   for (const SpacePrefix::Node& planned : prefix.nodes) {
     nodes_.push_back({space_->add_axis_plane(planned.axis, planned.value), link(planned.front),
-                      link(planned.back)});
+                      link(planned.back), 0, 0});
   }
   nodes_[0].front = 1;
+  for (std::uint32_t node = 1; node < nodes_.size(); ++node) {
+    for (const std::int32_t link : {nodes_[node].front, nodes_[node].back}) {
+      if (link >= 0) nodes_[static_cast<std::size_t>(link)].parent = node;
+    }
+  }
 }
 
 template <VolumeSpaceModel Space>
@@ -196,6 +207,7 @@ bool VolumeTree<Space>::insert(const Polyhedron<Vertex>& volume, PlaneId base, s
     bool split = false;
     while (!split && child(at) >= 0) {
       const auto node = static_cast<std::uint32_t>(child(at));
+      if (nodes_[node].full != 0) break;
       const PlaneRef plane = nodes_[node].plane;
       switch (splitter_.decide(*space_, plane, piece(top))) {
         case Placement::kOn:  // only where rounding flattens a whole piece
@@ -239,11 +251,20 @@ void VolumeTree<Space>::extend(Place at, const Polyhedron<Vertex>& piece, PlaneI
   for (const PolyhedronFace& face : piece.faces) {
     if (!face.own) continue;
     const auto node = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back({face.plane, kOut, kOut});
+    nodes_.push_back({face.plane, kOut, kOut, at.node & 0x7fffffffu, 0});
     child(at) = static_cast<std::int32_t>(node);
     at = {node, true};
   }
   child(at) = in_cell(caster);
+  note_full(at.node);
+}
+
+template <VolumeSpaceModel Space>
+void VolumeTree<Space>::note_full(std::uint32_t node) {
+  for (; node != 0 && is_full(nodes_[node].front) && is_full(nodes_[node].back);
+       node = nodes_[node].parent) {
+    nodes_[node].full = 1;
+  }
 }
 
 template <VolumeSpaceModel Space>

@@ -14,6 +14,7 @@
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/random.h"
 #include "scene_pen.h"
+#include "solve.h"
 
 namespace gnomon::test {
 namespace {
@@ -163,6 +164,24 @@ TEST(Merged, Figure6) {
   EXPECT_EQ(text_of(scene, options), expected);
   options.continue_planes = false;
   EXPECT_NE(text_of(scene, options), expected);
+}
+
+/// What the wrong union leaves out is lit where penumbra is true: an error, and the oracle sees it.
+TEST(Merged, TheOracleCatchesTheWrongUnion) {
+  std::string why;
+  const auto scene = Case::make(figure_6(), &why);
+  ASSERT_TRUE(scene) << why;
+  ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+  options.keep_exact_points = true;
+  const auto right = compute_shadows(scene->prepared(), options).value();
+  EXPECT_EQ(judge(*scene, right).verdict, oracle::Verdict::kIdentical);
+  options.continue_planes = false;
+  const auto wrong = compute_shadows(scene->prepared(), options).value();
+  const oracle::Report report = judge(*scene, wrong, false);
+  EXPECT_EQ(report.verdict, oracle::Verdict::kFailed);
+  ASSERT_TRUE(report.worst.has_value());
+  EXPECT_EQ(report.worst->found, oracle::ShadeClass::kLit);
+  EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kPenumbra);
 }
 
 /// 1992, fig. 4(f): between the umbras of two polygons that together hide the light is penumbra.
