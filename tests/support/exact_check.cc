@@ -160,6 +160,7 @@ std::string check_claims(const Case& scene, const ShadowResult& result) {
   oracle::WitnessOptions exactly;
   exactly.tolerance = 0;
   exactly.width = 0;
+  exactly.subset = result.lights.size() != scene.prepared().lights.size();
   const oracle::WitnessReport report = oracle::check_witnesses(
       scene.scene(), scene.prepared(), candidate_of(scene, result), exactly);
   if (report.findings.empty()) return {};

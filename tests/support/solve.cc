@@ -144,6 +144,7 @@ oracle::Report judge(const Case& scene, const ShadowResult& result, bool strict)
   options.strict = strict;
   options.threads = 1;
   options.most_regions = 4;
+  for (const LightResult& light : result.lights) options.lights.push_back(light.light);
   const oracle::Candidate candidate = candidate_of(scene, result);
   Expected<oracle::Report> report = oracle::certify(scene.answer(), candidate, options);
   if (!report) throw std::runtime_error(to_string(report.error()));
