@@ -248,6 +248,46 @@ TEST(Merged, AnswersAlikeOnAnyNumberOfThreads) {
   }
 }
 
+TEST(Merged, EpeckAgrees) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const auto scene = prepare(seed % 2 == 0 ? soup(seed) : standing(seed));
+    if (!scene) continue;
+    EXPECT_EQ(text_of(*scene, options_of(AreaAlgorithm::kMerged, KernelId::kEpeck)),
+              text_of(*scene, options_of(AreaAlgorithm::kMerged, KernelId::kPlane)))
+        << seed;
+  }
+}
+
+/// Whatever rounding makes of polyhedra is a finding, never fatal.
+TEST(Merged, RoundedKernelsComeToAnEnd) {
+  std::uint64_t findings = 0, results = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const auto scene = prepare(seed % 3 == 0   ? soup(seed)
+                               : seed % 3 == 1 ? boxes(seed)
+                                               : standing(seed));
+    if (!scene) continue;
+    for (const KernelId kernel :
+         {KernelId::kFloat, KernelId::kDouble, KernelId::kLongDouble, KernelId::kEpick}) {
+      for (const bool identity : {false, true}) {
+        ShadowOptions options = options_of(AreaAlgorithm::kMerged, kernel);
+        options.exact_fractions = false;
+        options.identity = identity;
+        options.thickness = seed % 2 == 0 ? 0 : kDefaultThickness;
+        options.max_fragments = 100000;
+        const auto result = compute_shadows(*scene, options);
+        if (!result) {
+          EXPECT_EQ(result.error().code, ErrorCode::kLimit);
+          continue;
+        }
+        ++results;
+        findings += result->lights[0].dropped_slivers;
+      }
+    }
+  }
+  EXPECT_GT(results, 400u);
+  RecordProperty("findings", std::to_string(findings));
+}
+
 // --- Pieces: 1992 to the letter ---
 
 TEST(Pieces, OfALightThatNothingCutsIsTheLight) {
