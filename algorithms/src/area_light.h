@@ -124,6 +124,8 @@ class AreaLight {
 
  private:
   static constexpr PlaneId kNoPlane = 0xffffffffu;
+  /// So many casters are tried for a penumbra that holds a whole receiver.
+  static constexpr std::size_t kMostCovers = 16;
 
   void make_volumes(Space& space);
   /// The box of a corner's position is as wide as what is known of it.
@@ -142,6 +144,8 @@ class AreaLight {
     return UmbraReach(corners, receiver);
   }
   void sort_by_shadow(std::uint32_t receiver, std::vector<std::uint32_t>& casters) const;
+  void drop_behind(Scratch& scratch, std::uint32_t receiver, PlaneRef receiving,
+                   std::vector<std::uint32_t>& casters) const;
   /// The box of a cut light, as wide as its corners are known; that of all of it if they are not.
   Box box_of(const Space& space, const Loop& light) const {
     Box box;
@@ -259,8 +263,7 @@ void AreaLight<Space>::sort_by_shadow(std::uint32_t receiver,
 template <VolumeSpaceModel Space>
 void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side) const {
   Space& space = scratch.space;
-  const Part& receiver = scene_.parts[index];
-  const PlaneRef receiving = plane_of_side(receiver, side);
+  const PlaneRef receiving = plane_of_side(scene_.parts[index], side);
   scratch.own.clear();
   scratch.volumes.clear();
   LightShape<Vertex> light = shape();
@@ -273,49 +276,79 @@ void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side)
     if (children.front.count < 3) return;
     light.loop = scratch.light.view(children.front, plane_id_);
   }
-  scratch.parts.clear();
-  tree_->find(shaft_to(tree_->box(index), cut ? box_of(space, light.loop) : box_), scratch.parts);
-  // Only what is partly in front of the receiver can be in its light.
-  std::erase_if(scratch.parts, [&](std::uint32_t other) {
-    const Part& part = scene_.parts[other];
-    if (other == index || part.plane == receiver.plane || !part.casts) return true;
-    const Loop loop = part_loop(space, scene_, other, scratch.caster);
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      if (space.side_of_plane(receiving, loop.corner(i)) == Side::kFront) return false;
-    }
-    return true;
-  });
-  sort_by_shadow(index, scratch.parts);
-  const UmbraReach reach = umbra_reach(space, light.loop, tree_->box(index));
-  if (!cut) {
-    for (const std::uint32_t part : scratch.parts) {
-      const auto [begin, end] = volumes_of(part);
-      const bool umbra = reach.may_reach(tree_->box(part));
-      for (std::uint32_t i = begin; i < end; ++i) scratch.volumes.push_back({i, umbra});
-    }
-    return;
-  }
+  const Box& box = tree_->box(index);
+  const Box light_box = cut ? box_of(space, light.loop) : box_;
+  const UmbraReach reach = umbra_reach(space, light.loop, box);
   const Loop loop = part_loop(space, scene_, index, scratch.front);
-  // What hides nothing of the whole light hides nothing of a part of it.
   const auto is_missed = [&](const ShadowVolume& volume) {
     const auto planes = store_.penumbra(volume);
     return std::any_of(planes.begin(), planes.end(),
                        [&](PlaneRef plane) { return scratch.cutter.is_outside(loop, plane); });
   };
   bool covered = false;  // by one penumbra: others do not matter any more
-  for (const std::uint32_t part : scratch.parts) {
+  const auto add = [&](std::uint32_t part) {
     const bool umbra = reach.may_reach(tree_->box(part));
-    if (covered && !umbra) continue;
-    const auto [begin, end] = volumes_of(part);
-    const auto whole = store_.volumes().subspan(begin, end - begin);
-    if (std::all_of(whole.begin(), whole.end(), is_missed)) continue;
-    const std::size_t first = scratch.own.size();
-    add_part_volumes(scratch.builder, space, scene_, part, light, scratch.caster, scratch.own);
-    for (std::size_t i = first; i < scratch.own.size(); ++i) {
-      scratch.volumes.push_back({static_cast<std::uint32_t>(i), umbra});
-      covered = covered || scratch.cutter.is_inside(loop, scratch.own.penumbra(scratch.own[i]));
+    if (covered && !umbra) return;
+    auto [begin, end] = volumes_of(part);
+    if (cut) {
+      // What hides nothing of the whole light hides nothing of a part of it.
+      const auto whole = store_.volumes().subspan(begin, end - begin);
+      if (std::all_of(whole.begin(), whole.end(), is_missed)) return;
+      begin = static_cast<std::uint32_t>(scratch.own.size());
+      add_part_volumes(scratch.builder, space, scene_, part, light, scratch.caster, scratch.own);
+      end = static_cast<std::uint32_t>(scratch.own.size());
     }
+    const VolumeStore& store = cut ? scratch.own : store_;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      scratch.volumes.push_back({i, umbra});
+      covered = covered || (store[i].penumbra_count != 0 &&
+                            scratch.cutter.is_inside(loop, store.penumbra(store[i])));
+    }
+  };
+  // Casters before the middle of the light are most likely to have all of the receiver in their
+  // penumbra; then only umbras remain to be looked for, which reach less far.
+  std::vector<std::uint32_t> asked;
+  if (is_area()) {
+    Box middle;
+    middle.add(std::array{(light_box.low[0] + light_box.high[0]) / 2,
+                          (light_box.low[1] + light_box.high[1]) / 2,
+                          (light_box.low[2] + light_box.high[2]) / 2});
+    tree_->find(shaft_to(box, middle), asked);
+    drop_behind(scratch, index, receiving, asked);
+    sort_by_shadow(index, asked);
+    if (asked.size() > kMostCovers) asked.resize(kMostCovers);
+    std::size_t tried = 0;
+    while (tried < asked.size() && !covered) add(asked[tried++]);
+    asked.resize(tried);
+    std::sort(asked.begin(), asked.end());
   }
+  scratch.parts.clear();
+  if (covered) {
+    tree_->find(shaft_to(box, light_box), reach, scratch.parts);
+  } else {
+    tree_->find(shaft_to(box, light_box), scratch.parts);
+  }
+  std::erase_if(scratch.parts, [&](std::uint32_t part) {
+    return std::binary_search(asked.begin(), asked.end(), part);
+  });
+  drop_behind(scratch, index, receiving, scratch.parts);
+  sort_by_shadow(index, scratch.parts);
+  for (const std::uint32_t part : scratch.parts) add(part);
+}
+
+/// Only what is partly in front of the receiver can be in its light.
+template <VolumeSpaceModel Space>
+void AreaLight<Space>::drop_behind(Scratch& scratch, std::uint32_t receiver, PlaneRef receiving,
+                                   std::vector<std::uint32_t>& casters) const {
+  std::erase_if(casters, [&](std::uint32_t other) {
+    const Part& part = scene_.parts[other];
+    if (other == receiver || part.plane == scene_.parts[receiver].plane || !part.casts) return true;
+    const Loop loop = part_loop(scratch.space, scene_, other, scratch.caster);
+    for (std::uint32_t i = 0; i < loop.size(); ++i) {
+      if (scratch.space.side_of_plane(receiving, loop.corner(i)) == Side::kFront) return false;
+    }
+    return true;
+  });
 }
 
 template <VolumeSpaceModel Space>

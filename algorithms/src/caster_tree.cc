@@ -13,6 +13,10 @@ namespace {
 // through two points at least kShortest apart then is off by less than 2^-50 / kShortest anywhere.
 constexpr double kMargin = 1e-12, kShortest = 1e-3;
 
+double diagonal_of(const Box& box) {
+  return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
+}
+
 }  // namespace
 
 std::array<double, 3> grid_fraction(const GridPositions& grid, VertexId vertex) {
@@ -126,16 +130,18 @@ UmbraReach::UmbraReach(std::span<const std::array<double, 3>> light, const Box& 
 }
 
 bool UmbraReach::may_reach(const Box& caster) const {
+  return may_reach(caster, diagonal_of(caster));
+}
+
+bool UmbraReach::may_reach(const Box& box, double size) const {
   if (sine_ == 0) return true;
-  double gap = 0, size = 0;
+  double gap = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const double apart =
-        std::max({receiver_.low[k] - caster.high[k], caster.low[k] - receiver_.high[k], 0.0});
-    const double own = caster.high[k] - caster.low[k];
+        std::max({receiver_.low[k] - box.high[k], box.low[k] - receiver_.high[k], 0.0});
     gap += apart * apart;
-    size += own * own;
   }
-  return std::sqrt(size) + kMargin >= std::sqrt(gap) * sine_ * (1 - kMargin);
+  return size + kMargin >= std::sqrt(gap) * sine_ * (1 - kMargin);
 }
 
 CasterTree::CasterTree(const Geometry& geometry, const PreparedScene& scene,
@@ -171,6 +177,7 @@ void CasterTree::build() {
     for (std::uint32_t i = task.begin; i < task.end; ++i) {
       const std::uint32_t part = order_[i];
       node.box.add(boxes_[part]);
+      node.largest = std::max(node.largest, diagonal_of(boxes_[part]));
       middles.add(std::array{middle(part, 0), middle(part, 1), middle(part, 2)});
     }
     nodes_.push_back(node);
@@ -191,7 +198,8 @@ void CasterTree::build() {
   }
 }
 
-void CasterTree::find(const Shaft& shaft, std::vector<std::uint32_t>& parts) const {
+template <class MayBe>
+void CasterTree::search(const MayBe& may_be, std::vector<std::uint32_t>& parts) const {
   if (nodes_.empty()) return;
   const std::size_t first = parts.size();
   // Left children are reached by going on, so that the stack holds right children only: as deep as
@@ -202,17 +210,29 @@ void CasterTree::find(const Shaft& shaft, std::vector<std::uint32_t>& parts) con
   while (depth > 0) {
     const std::uint32_t index = stack[--depth];
     const Node& node = nodes_[index];
-    if (!shaft.may_meet(node.box)) continue;
+    if (!may_be(node.box, node.largest)) continue;
     if (node.right != 0) {
       stack[depth++] = node.right;
       stack[depth++] = index + 1;
       continue;
     }
     for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      if (shaft.may_meet(boxes_[order_[i]])) parts.push_back(order_[i]);
+      const Box& box = boxes_[order_[i]];
+      if (may_be(box, diagonal_of(box))) parts.push_back(order_[i]);
     }
   }
   std::sort(parts.begin() + static_cast<std::ptrdiff_t>(first), parts.end());
+}
+
+void CasterTree::find(const Shaft& shaft, std::vector<std::uint32_t>& parts) const {
+  search([&](const Box& box, double) { return shaft.may_meet(box); }, parts);
+}
+
+void CasterTree::find(const Shaft& shaft, const UmbraReach& reach,
+                      std::vector<std::uint32_t>& parts) const {
+  search([&](const Box& box,
+             double size) { return shaft.may_meet(box) && reach.may_reach(box, size); },
+         parts);
 }
 
 }  // namespace gnomon

@@ -76,6 +76,8 @@ class UmbraReach {
   UmbraReach(std::span<const std::array<double, 3>> light, const Box& receiver);
   /// False only if a caster in the box certainly has no umbra on the receiver.
   bool may_reach(const Box& caster) const;
+  /// The same of casters of at most that size (the diagonal of a box) anywhere in the box.
+  bool may_reach(const Box& box, double size) const;
 
  private:
   Box receiver_;
@@ -91,6 +93,8 @@ class CasterTree {
   const Box& box(std::uint32_t part) const { return boxes_[part]; }
   /// Appends the parts that may meet the shaft, in order of their numbers.
   void find(const Shaft& shaft, std::vector<std::uint32_t>& parts) const;
+  /// Of these only those whose umbra may reach the receiver.
+  void find(const Shaft& shaft, const UmbraReach& reach, std::vector<std::uint32_t>& parts) const;
 
  private:
   static constexpr std::uint32_t kLeaf = 4;
@@ -98,8 +102,11 @@ class CasterTree {
     Box box;
     std::uint32_t begin = 0, end = 0;  // into order_
     std::uint32_t right = 0;           // 0: a leaf; the left child follows its parent
+    double largest = 0;                // diagonal of a part's box
   };
   void build();
+  template <class MayBe>
+  void search(const MayBe& may_be, std::vector<std::uint32_t>& parts) const;
 
   std::vector<Box> boxes_;  // of all parts
   std::vector<std::uint32_t> order_;
