@@ -131,9 +131,9 @@ void add_notes(const JudgedRun& run, TextTable& table) {
     if (!counts.empty()) table.add_note(counts);
   }
   if (!run.per_caster_umbra && report.totals.missing_umbra.upper > 0) {
-    table.add_note("umbra called penumbra (a cost, no error): " +
-                   bound(report.totals.missing_umbra.upper) + " of " +
-                   bound(report.totals.umbra.upper) + " scene units squared");
+    table.add_note(
+        "umbra called penumbra (a cost, no error): " + bound(report.totals.missing_umbra.upper) +
+        " of " + bound(report.totals.umbra.upper) + " scene units squared");
   }
   constexpr std::size_t kMostProblems = 5;
   for (std::size_t i = 0; i < report.problems.size() && i < kMostProblems; ++i) {

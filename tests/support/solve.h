@@ -45,7 +45,8 @@ ShadowOptions options_for(KernelId kernel);
 /// Requires: the result was computed with keep_exact_points.
 oracle::Candidate candidate_of(const Case& scene, const ShadowResult& result);
 
-/// The lights of the result certified, with one thread, without tolerance (strict) or with the default one.
+/// The lights of the result certified, with one thread, without tolerance (strict) or with the
+/// default one.
 oracle::Report judge(const Case& scene, const ShadowResult& result, bool strict = true);
 
 /// A kernel with its policies, by name: "double@1e-12" (thickness), "double+identity@0", "epick",
