@@ -93,8 +93,12 @@ Choice choice_of(const std::string& family, std::int64_t polygons, std::int64_t 
     parameters["n"] = std::max<std::int64_t>(2, polygons / 5);
   } else if (family == "quads") {
     parameters["n"] = polygons - 1;
+  } else {
+    parameters["n"] = std::max<std::int64_t>(12, polygons);
   }
-  return {fmt::format("{}, {} light", family, size <= 2 ? "small" : "large"), family, parameters};
+  return {fmt::format("{}, {} light", family == "slater-room" ? "room" : family,
+                      size <= 2 ? "small" : "large"),
+          family, parameters};
 }
 
 /// Plane against doubles with and without identity, and against epeck; exact answers must agree.
@@ -189,13 +193,13 @@ bool measure_ratios(Extent extent, Verdicts& verdicts) {
 /// its own.
 bool measure_growth(Extent extent, Verdicts& verdicts) {
   fmt::print(
-      "\nArea lights, growth: kernel plane, one thread, each run in a process of its own; CPU "
-      "seconds\nof preparation and classes.\n");
+      "\nArea lights, growth: kernel plane, one thread, each run in a process of its own, the "
+      "middle of three; CPU\nseconds of preparation and classes.\n");
   std::vector<std::int64_t> sizes = {10, 100, 1000, 10000, 30000};
   if (extent == Extent::kShort) sizes = {10, 50, 150};
   Table table(
       {"scene", "algorithm", "polygons", "CPU s", "us/polygon", "fragments", "nodes", "peak MB"});
-  for (const std::string family : {"quads", "city"}) {
+  for (const std::string family : {"quads", "city", "slater-room"}) {
     for (const std::int64_t light : {1, 50}) {
       std::vector<double> exponents(area_algorithms().size(), kNotMeasured);
       std::vector<double> largest(area_algorithms().size(), kNotMeasured);
@@ -209,9 +213,15 @@ bool measure_growth(Extent extent, Verdicts& verdicts) {
           if (area_algorithms()[a].algorithm == AreaAlgorithm::kMerged && n > limit) continue;
           const Choice choice = choice_of(family, n, light);
           title = choice.title;
-          const ChildReport run =
-              run_in_child({choice.generator, choice.parameters, Coordinates::kGrid},
-                           Algorithm::kSectors, 1, area_algorithms()[a].algorithm);
+          // The middle of three: what else the machine does weighs most on the smallest.
+          std::array<ChildReport, 3> runs;
+          for (ChildReport& own : runs) {
+            own = run_in_child({choice.generator, choice.parameters, Coordinates::kGrid},
+                               Algorithm::kSectors, 1, area_algorithms()[a].algorithm);
+          }
+          std::sort(runs.begin(), runs.end(),
+                    [](const ChildReport& x, const ChildReport& y) { return x.cpu() < y.cpu(); });
+          const ChildReport& run = runs[1];
           most = std::max(most, run.polygons);
           if (n >= 1000 || extent == Extent::kShort) {
             x.push_back(static_cast<double>(run.polygons));
