@@ -126,6 +126,8 @@ class AreaLight {
   static constexpr PlaneId kNoPlane = 0xffffffffu;
   /// So many casters are tried for a penumbra that holds a whole receiver.
   static constexpr std::size_t kMostCovers = 16;
+  /// Keeps the shadow of a caster at the light finite, as far as the order of casters goes.
+  static constexpr double kNearestToLight = 1e-12;
 
   void make_volumes(Space& space);
   /// The box of a corner's position is as wide as what is known of it.
@@ -212,12 +214,7 @@ Sight AreaLight<Space>::sight(Scratch& scratch, std::uint32_t index, Side side) 
   const PlaneRef receiving = plane_of_side(part, side);
   const LightShape<Vertex> light = shape();
   if (!scratch.builder.is_in_front(receiving, light)) {
-    if (!is_area()) {
-      const bool in_plane = scratch.builder.holds(receiving, light);
-      return {in_plane ? ShadowReason::kLightInPlane : ShadowReason::kFacesAway};
-    }
-    const bool in_plane =
-        scratch.record.decide(scratch.space, receiving, light.loop) == Placement::kOn;
+    const bool in_plane = scratch.builder.holds(receiving, light);
     return {in_plane ? ShadowReason::kLightInPlane : ShadowReason::kFacesAway};
   }
   if (is_area()) {
@@ -253,7 +250,8 @@ void AreaLight<Space>::sort_by_shadow(std::uint32_t receiver,
     const Box& box = tree_->box(caster);
     // A point of the shadow is (1 + t) o - t a.
     const double t =
-        directional ? 0 : distance(box, tree_->box(receiver)) / (distance(box, box_) + 1e-12);
+        directional ? 0
+                    : distance(box, tree_->box(receiver)) / (distance(box, box_) + kNearestToLight);
     keys.emplace_back(-((1 + t) * size(box) + (directional ? 0 : t * size(box_))), caster);
   }
   std::sort(keys.begin(), keys.end());
@@ -286,7 +284,9 @@ void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side)
                        [&](PlaneRef plane) { return scratch.cutter.is_outside(loop, plane); });
   };
   bool covered = false;  // by one penumbra: others do not matter any more
-  const auto add = [&](std::uint32_t part) {
+  // Volumes of the whole light cost nothing more, and the cutter asks them again: only where
+  // `may_cover` is likely is it worth to ask here.
+  const auto add = [&](std::uint32_t part, bool may_cover) {
     const bool umbra = reach.may_reach(tree_->box(part));
     if (covered && !umbra) return;
     auto [begin, end] = volumes_of(part);
@@ -301,8 +301,7 @@ void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side)
     const VolumeStore& store = cut ? scratch.own : store_;
     for (std::uint32_t i = begin; i < end; ++i) {
       scratch.volumes.push_back({i, umbra});
-      covered = covered || (store[i].penumbra_count != 0 &&
-                            scratch.cutter.is_inside(loop, store.penumbra(store[i])));
+      covered = covered || (may_cover && scratch.cutter.is_inside(loop, store.penumbra(store[i])));
     }
   };
   // Casters before the middle of the light are most likely to have all of the receiver in their
@@ -318,7 +317,7 @@ void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side)
     sort_by_shadow(index, asked);
     if (asked.size() > kMostCovers) asked.resize(kMostCovers);
     std::size_t tried = 0;
-    while (tried < asked.size() && !covered) add(asked[tried++]);
+    while (tried < asked.size() && !covered) add(asked[tried++], true);
     asked.resize(tried);
     std::sort(asked.begin(), asked.end());
   }
@@ -333,7 +332,7 @@ void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side)
   });
   drop_behind(scratch, index, receiving, scratch.parts);
   sort_by_shadow(index, scratch.parts);
-  for (const std::uint32_t part : scratch.parts) add(part);
+  for (const std::uint32_t part : scratch.parts) add(part, cut);
 }
 
 /// Only what is partly in front of the receiver can be in its light.

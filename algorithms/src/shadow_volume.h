@@ -113,10 +113,13 @@ class VolumeBuilder {
     }
     return false;
   }
-  /// Whether a support plane holds a point or directional light.
+  /// Whether a support plane holds all of the light.
   bool holds(PlaneRef plane, const LightShape<Vertex>& light) {
     if (light.direction != nullptr) return direction_side(plane, *light.direction) == Side::kOn;
-    return space_->side_of_plane(plane, light.loop.corner(0)) == Side::kOn;
+    for (std::uint32_t i = 0; i < light.loop.size(); ++i) {
+      if (space_->side_of_plane(plane, light.loop.corner(i)) != Side::kOn) return false;
+    }
+    return true;
   }
 
  private:
