@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "gnomon/algorithms/explain.h"
 #include "gnomon/algorithms/shadows.h"
+#include "gnomon/fuzz/kernel_choice.h"
 #include "gnomon/oracle/prepared_check.h"
 #include "gnomon/oracle/read_candidate.h"
 #include "gnomon/oracle/verdict.h"
@@ -19,7 +20,6 @@
 #include "gnomon/scene/digest.h"
 #include "interrupt.h"
 #include "jobs.h"
-#include "kernel_choice.h"
 #include "messages.h"
 #include "output.h"
 #include "progress.h"
@@ -28,6 +28,9 @@
 namespace gnomon::cli {
 
 namespace {
+
+using fuzz::KernelChoice;
+using fuzz::parse_kernel_choice;
 
 /// Up to so many parts the slow exact kernels run without being asked for.
 constexpr std::size_t kSmallScene = 200;

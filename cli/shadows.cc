@@ -8,13 +8,13 @@
 #include "algorithm_choice.h"
 #include "commands.h"
 #include "gnomon/algorithms/deep_umbra.h"
+#include "gnomon/fuzz/kernel_choice.h"
 #include "gnomon/report/number_text.h"
 #include "gnomon/report/result_json.h"
 #include "gnomon/scene/digest.h"
 #include "illuminate.h"
 #include "interrupt.h"
 #include "jobs.h"
-#include "kernel_choice.h"
 #include "messages.h"
 #include "output.h"
 #include "progress.h"
@@ -24,6 +24,8 @@
 namespace gnomon::cli {
 
 namespace {
+
+using fuzz::parse_kernel_choice;
 
 struct ShadowsOptions {
   SceneOptions scene;

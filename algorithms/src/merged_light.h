@@ -35,6 +35,10 @@
 
 namespace gnomon {
 
+inline Union union_of(const ShadowOptions& options) {
+  return options.mutation == Mutation::kUnionWithoutContinuedPlanes ? Union::kWrong : Union::kTrue;
+}
+
 template <VolumeSpaceModel Space>
 class MergedLight {
  public:
@@ -49,8 +53,8 @@ class MergedLight {
         scene_(&scene),
         boxes_(&boxes),
         options_(&options),
-        penumbra_(space, options.continue_planes ? Union::kTrue : Union::kWrong),
-        umbra_(space, options.continue_planes ? Union::kTrue : Union::kWrong) {}
+        penumbra_(space, union_of(options)),
+        umbra_(space, union_of(options)) {}
 
   enum class Outcome : std::uint8_t { kDone, kStopped, kTooManyNodes };
   /// The trees are kept from outgrowing the fragments by more than this.
@@ -129,7 +133,7 @@ template <class Step>
 typename MergedLight<Space>::Outcome MergedLight<Space>::build(
     std::span<const std::uint32_t> receivers, const Step& step) {
   // What is wrong on purpose is wrong only where no plane but the volumes' cuts them.
-  if (options_->prefix && options_->continue_planes) {
+  if (options_->prefix && union_of(*options_) == Union::kTrue) {
     std::vector<SpaceBox> spaces;
     spaces.reserve(receivers.size());
     for (const std::uint32_t part : receivers) {

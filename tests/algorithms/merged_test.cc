@@ -162,7 +162,7 @@ TEST(Merged, Figure6) {
       text_of(scene, options_of(AreaAlgorithm::kReceiver, KernelId::kPlane));
   ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
   EXPECT_EQ(text_of(scene, options), expected);
-  options.continue_planes = false;
+  options.mutation = Mutation::kUnionWithoutContinuedPlanes;
   EXPECT_NE(text_of(scene, options), expected);
 }
 
@@ -175,7 +175,7 @@ TEST(Merged, TheOracleCatchesTheWrongUnion) {
   options.keep_exact_points = true;
   const auto right = compute_shadows(scene->prepared(), options).value();
   EXPECT_EQ(judge(*scene, right).verdict, oracle::Verdict::kIdentical);
-  options.continue_planes = false;
+  options.mutation = Mutation::kUnionWithoutContinuedPlanes;
   const auto wrong = compute_shadows(scene->prepared(), options).value();
   const oracle::Report report = judge(*scene, wrong, false);
   EXPECT_EQ(report.verdict, oracle::Verdict::kFailed);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gnomon/algorithms/mutation.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/kernel/error.h"
 #include "gnomon/kernel/kernel_list.h"
@@ -44,9 +45,7 @@ struct ShadowOptions {
   bool exact_fractions = false;          // sum exact rational fractions per part (exact kernels)
   bool merge = true;                     // merge sibling fragments, collapse parts that agree
   bool prefix = true;                    // balanced prefix of light space
-  // Merged trees: false leaves out, on purpose, what 1992 (fig. 6) warns of: a volume is not
-  // continued behind those in its way. Wrong; for tests of what would notice.
-  bool continue_planes = true;
+  Mutation mutation = Mutation::kNone;   // wrong on purpose; for tests of what would notice
   // Sectors: cells of at most leaf_size polygons are not split, those of at most task_size are one
   // thread's (0: by the size of the scene). The areas do not depend on them.
   std::uint32_t leaf_size = 16, task_size = 0;

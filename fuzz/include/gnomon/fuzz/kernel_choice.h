@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A kernel as it is named on the command line: `double`, `double+identity`, `double+thin`, `exact`.
-#ifndef GNOMON_CLI_KERNEL_CHOICE_H
-#define GNOMON_CLI_KERNEL_CHOICE_H
+#ifndef GNOMON_FUZZ_KERNEL_CHOICE_H
+#define GNOMON_FUZZ_KERNEL_CHOICE_H
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 #include "gnomon/kernel/error.h"
 #include "gnomon/kernel/kernel_list.h"
 
-namespace gnomon::cli {
+namespace gnomon::fuzz {
 
 struct KernelChoice {
   KernelId kernel = kDefaultExactKernel;
@@ -25,6 +25,6 @@ struct KernelChoice {
 /// Errors: kUsage, with the names that there are.
 Expected<KernelChoice> parse_kernel_choice(std::string_view text);
 
-}  // namespace gnomon::cli
+}  // namespace gnomon::fuzz
 
-#endif  // GNOMON_CLI_KERNEL_CHOICE_H
+#endif  // GNOMON_FUZZ_KERNEL_CHOICE_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "kernel_choice.h"
+#include "gnomon/fuzz/kernel_choice.h"
 
-namespace gnomon::cli {
+namespace gnomon::fuzz {
 
 namespace {
 
@@ -47,4 +47,4 @@ Expected<KernelChoice> parse_kernel_choice(std::string_view text) {
   return choice;
 }
 
-}  // namespace gnomon::cli
+}  // namespace gnomon::fuzz
