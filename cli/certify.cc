@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "algorithm_choice.h"
+#include "certify_corpus.h"
 #include "certify_report.h"
 #include "commands.h"
 #include "gnomon/algorithms/explain.h"
@@ -48,6 +49,7 @@ struct CertifyCommandOptions {
   bool strict = false, subset = false, explain = false, times = false;
   std::string report_directory;
   std::string json;
+  CorpusCommandOptions corpus;  // what certify_corpus.h needs besides
 };
 
 Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& options,
@@ -271,7 +273,20 @@ class CertifyRun {
   bool limit_reached_ = false;
 };
 
+int run_corpus(const CertifyCommandOptions& options) {
+  CorpusCommandOptions corpus = options.corpus;
+  corpus.kernels = options.kernels;
+  corpus.tolerance = options.tolerance;
+  corpus.jobs = options.scene.jobs;
+  corpus.json = options.json;
+  return run_certify_corpus(corpus);
+}
+
 int run_certify(const CertifyCommandOptions& options) {
+  if (!options.corpus.corpus.empty()) return run_corpus(options);
+  if (options.scene.scene.empty()) {
+    return report_usage("neither a scene nor a corpus", "SCENE, or --corpus DIR");
+  }
   const auto algorithms = chosen_algorithms(options);
   if (!algorithms) return report_error(algorithms.error());
   const ThreadLimit threads(options.scene.jobs);
@@ -317,6 +332,64 @@ int run_certify(const CertifyCommandOptions& options) {
   return run.status();
 }
 
+/// Options that --corpus does not go with, and those that go with nothing else.
+struct CorpusOptionRules {
+  std::vector<const CLI::Option*> excluded, needing;
+
+  Expected<void> check(bool corpus) const {
+    for (const CLI::Option* option : corpus ? excluded : needing) {
+      if (option->count() == 0) continue;
+      return fail(ErrorCode::kUsage, corpus
+                                         ? option->get_name() + " and --corpus do not go together"
+                                         : option->get_name() + " needs --corpus");
+    }
+    return {};
+  }
+};
+
+/// --corpus takes the place of SCENE, and few of the other options make sense with it.
+CorpusOptionRules add_corpus_options(CLI::App& command, CertifyCommandOptions& options,
+                                     CLI::Option* scene) {
+  CorpusOptionRules rules;
+  scene->required(false);
+  const std::vector<std::string> common = {"--help",      "--help-all", "--kernel",
+                                           "--tolerance", "--json",     "--jobs"};
+  for (const CLI::Option* other : command.get_options()) {
+    const bool is_common = std::ranges::any_of(
+        common, [&](const std::string& name) { return other->check_name(name); });
+    if (!is_common) rules.excluded.push_back(other);
+  }
+  command
+      .add_option("--corpus", options.corpus.corpus,
+                  "Instead of a scene: judge by a folder of scenes with recorded answers, by\n"
+                  "default all kernels under all policies; --kernel also takes algorithms, as in\n"
+                  "double/svbsp")
+      ->type_name("DIR");
+  rules.needing = {
+      repeatable(command.add_option("--candidate-command", options.corpus.commands,
+                                    "With --corpus: judge a program, which the shell runs with a\n"
+                                    "scene's file as its last argument (repeatable)"))
+          ->type_name("CMD"),
+      command
+          .add_option("--seconds", options.corpus.seconds,
+                      "With --corpus: time that a program has for each scene")
+          ->check(not_negative())
+          ->type_name("S")
+          ->default_str("10"),
+      command
+          .add_option("--megabytes", options.corpus.megabytes,
+                      "With --corpus: address space that a program has; 0: no limit")
+          ->type_name("M")
+          ->default_str("2048"),
+      command.add_flag("--by-scene", options.corpus.by_scene,
+                       "With --corpus: a row a scene instead of a row a kind"),
+      command.add_flag("--record", options.corpus.record,
+                       "With --corpus: judge nothing, write the exact fractions into its scenes,\n"
+                       "and into i_ ones which kernels differ"),
+  };
+  return rules;
+}
+
 }  // namespace
 
 void add_certify_command(CLI::App& app, Action& action) {
@@ -330,8 +403,9 @@ void add_certify_command(CLI::App& app, Action& action) {
       "  gnomon certify room.json\n"
       "  gnomon certify room.json --kernel double --kernel double+identity --explain\n"
       "  gnomon certify room.json --kernel plane --algorithm both\n"
-      "  gnomon certify room.json --candidate other.result.json --tolerance 1e-6 --report out");
-  add_scene_options(command, options->scene);
+      "  gnomon certify room.json --candidate other.result.json --tolerance 1e-6 --report out\n"
+      "  gnomon certify --corpus tests/regressions --candidate-command ./my-shadows");
+  CLI::Option* scene = add_scene_options(command, options->scene);
   repeatable(command.add_option(
                  "--kernel", options->kernels,
                  "A kernel to run, such as double, double+identity or double+thin (thickness 0)\n"
@@ -384,7 +458,13 @@ void add_certify_command(CLI::App& app, Action& action) {
   command.add_option("--json", options->json, "Write the verdicts as JSON; - is standard output")
       ->type_name("FILE");
   command.add_flag("--times", options->times, "CPU times in the JSON, which then is not stable");
-  command.callback([options, &action] { action = [options] { return run_certify(*options); }; });
+  const CorpusOptionRules rules = add_corpus_options(command, *options, scene);
+  command.callback([options, rules, &action] {
+    action = [options, rules]() -> int {
+      const auto checked = rules.check(!options->corpus.corpus.empty());
+      return checked ? run_certify(*options) : report_error(checked.error());
+    };
+  });
 }
 
 }  // namespace gnomon::cli

@@ -40,10 +40,10 @@ void add_numbers_option(CLI::App& command, std::string& numbers) {
       ->type_name("double|decimal");
 }
 
-void add_scene_options(CLI::App& command, SceneOptions& options) {
-  command.add_option("SCENE", options.scene, "Scene file: .json, .obj, .off or .ply; - reads JSON")
-      ->required()
-      ->type_name("FILE");
+CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options) {
+  CLI::Option* scene = command.add_option("SCENE", options.scene,
+                                          "Scene file: .json, .obj, .off or .ply; - reads JSON");
+  scene->required()->type_name("FILE");
   add_numbers_option(command, options.numbers);
   repeatable(command.add_option("--point", options.points, "Add a point light x,y,z (repeatable)"))
       ->type_name("x,y,z");
@@ -60,6 +60,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
       command.add_option("--light", options.lights, "Only the light with this id (repeatable)"))
       ->type_name("ID");
   add_jobs_option(command, options.jobs);
+  return scene;
 }
 
 std::optional<NumberMeaning> numbers_asked(const std::string& numbers) {

@@ -24,8 +24,9 @@ struct SceneOptions {
   unsigned jobs = 0;                // threads; 0: one a processor
 };
 
-/// Also --jobs, since preparation takes all processors.
-void add_scene_options(CLI::App& command, SceneOptions& options);
+/// Also --jobs, since preparation takes all processors. The option of the scene's file is returned:
+/// a command may do without.
+CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options);
 /// --numbers alone, for commands that take no lights.
 void add_numbers_option(CLI::App& command, std::string& numbers);
 

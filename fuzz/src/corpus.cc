@@ -17,6 +17,7 @@
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/text_file.h"
 #include "gnomon/scene/write.h"
+#include "rational_text.h"
 
 namespace gnomon::fuzz {
 
@@ -35,23 +36,6 @@ std::optional<Expectation> expectation_of(std::string_view file_name) {
   if (file_name.starts_with("i_")) return Expectation::kInform;
   if (file_name.starts_with("n_")) return Expectation::kReject;
   return std::nullopt;
-}
-
-std::optional<mpq_class> rational_of(std::string_view text) {
-  const std::size_t slash = text.find('/');
-  const auto is_digits = [](std::string_view digits) {
-    return !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
-  };
-  const std::string_view over = text.substr(0, slash);
-  const std::string_view under =
-      slash == std::string_view::npos ? std::string_view("1") : text.substr(slash + 1);
-  if (!is_digits(over) || !is_digits(under)) return std::nullopt;
-  mpq_class value;
-  value.get_num() = mpz_class(std::string(over), 10);
-  value.get_den() = mpz_class(std::string(under), 10);
-  if (value.get_den() == 0) return std::nullopt;
-  value.canonicalize();
-  return value;
 }
 
 /// Reads the words of one fixture; every error names the file and the place.
@@ -211,23 +195,29 @@ class NoteReader {
 
   static std::optional<mpq_class> rational(const Json& json) {
     if (!json.IsString()) return std::nullopt;
-    return rational_of(std::string_view(json.GetString(), json.GetStringLength()));
+    return parse_fraction({json.GetString(), json.GetStringLength()});
   }
 
   std::string file_, prefix_;
   rapidjson::Document document_;
 };
 
-Expected<void> read_note(const NoteReader& note, Fixture& fixture) {
+Expected<FixtureNote> read_words(const NoteReader& note) {
   auto shows = note.text("shows", true);
   if (!shows) return tl::unexpected(shows.error());
   auto kind = note.text("kind", true);
   if (!kind) return tl::unexpected(kind.error());
   auto found = note.text("found", false);
   if (!found) return tl::unexpected(found.error());
-  fixture.shows = std::move(*shows);
-  fixture.kind = std::move(*kind);
-  fixture.found = std::move(*found);
+  return FixtureNote{std::move(*shows), std::move(*kind), std::move(*found), {}, false};
+}
+
+Expected<void> read_note(const NoteReader& note, Fixture& fixture) {
+  auto words = read_words(note);
+  if (!words) return tl::unexpected(words.error());
+  fixture.shows = std::move(words->shows);
+  fixture.kind = std::move(words->kind);
+  fixture.found = std::move(words->found);
   return {};
 }
 
@@ -304,6 +294,34 @@ bool is_fixture_file(const fs::path& file) {
   return extension == ".json" || extension == ".obj" || extension == ".off" || extension == ".ply";
 }
 
+/// Names and files, sorted by name.
+Expected<std::vector<std::pair<std::string, fs::path>>> fixture_files(const fs::path& path) {
+  std::error_code failure;
+  const auto file_error = [&](const std::string& what) {
+    return fail(ErrorCode::kFile, what + (failure ? ": " + failure.message() : ""), {},
+                ErrorPlace{path.string(), 0, 0, {}});
+  };
+  std::vector<std::pair<std::string, fs::path>> files;
+  if (fs::is_regular_file(path, failure)) {
+    files.emplace_back(path.stem().string(), path);
+    return files;
+  }
+  fs::recursive_directory_iterator at(path, failure);
+  if (failure) return file_error("the corpus cannot be read");
+  for (; at != fs::recursive_directory_iterator(); at.increment(failure)) {
+    if (!at->is_regular_file(failure) || !is_fixture_file(at->path())) continue;
+    const fs::path name = at->path().lexically_relative(path);
+    files.emplace_back((name.parent_path() / name.stem()).generic_string(), at->path());
+  }
+  if (failure) return file_error("the corpus cannot be read");
+  if (files.empty()) {
+    return fail(ErrorCode::kFormat, "no fixture in it", "files called y_*, i_* or n_*",
+                ErrorPlace{path.string(), 0, 0, {}});
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
 void write_shares(report::JsonWriter& json, const RecordedLight& light, const RecordedSide& side) {
   const auto names = share_names(light.area);
   json.begin_object(report::JsonLayout::kInline);
@@ -357,42 +375,38 @@ std::string extra_text(const FixtureNote& note, const std::vector<RecordedLight>
     json.end_object();
     json.end_object();
   }
-  return sink.text();
+  // Within the scene it stands one level deeper.
+  std::string text;
+  for (const char c : sink.text()) {
+    text += c;
+    if (c == '\n') text += ' ';
+  }
+  return text;
 }
 
 }  // namespace
 
 Expected<std::vector<Fixture>> read_corpus(const fs::path& path) {
-  std::error_code failure;
-  const auto file_error = [&](const std::string& what) {
-    return fail(ErrorCode::kFile, what + (failure ? ": " + failure.message() : ""), {},
-                ErrorPlace{path.string(), 0, 0, {}});
-  };
-  std::vector<std::pair<std::string, fs::path>> files;
-  if (fs::is_regular_file(path, failure)) {
-    files.emplace_back(path.stem().string(), path);
-  } else {
-    fs::recursive_directory_iterator at(path, failure);
-    if (failure) return file_error("the corpus cannot be read");
-    for (; at != fs::recursive_directory_iterator(); at.increment(failure)) {
-      if (!at->is_regular_file(failure) || !is_fixture_file(at->path())) continue;
-      const fs::path name = at->path().lexically_relative(path);
-      files.emplace_back((name.parent_path() / name.stem()).generic_string(), at->path());
-    }
-    if (failure) return file_error("the corpus cannot be read");
-  }
-  if (files.empty()) {
-    return fail(ErrorCode::kFormat, "no fixture in it", "files called y_*, i_* or n_*",
-                ErrorPlace{path.string(), 0, 0, {}});
-  }
-  std::ranges::sort(files);
+  const auto files = fixture_files(path);
+  if (!files) return tl::unexpected(files.error());
   std::vector<Fixture> fixtures;
-  for (const auto& [name, file] : files) {
+  for (const auto& [name, file] : *files) {
     auto fixture = read_fixture(file, name);
     if (!fixture) return tl::unexpected(fixture.error());
     fixtures.push_back(std::move(*fixture));
   }
   return fixtures;
+}
+
+Expected<std::vector<fs::path>> scene_files(const fs::path& path) {
+  const auto files = fixture_files(path);
+  if (!files) return tl::unexpected(files.error());
+  std::vector<fs::path> scenes;
+  for (const auto& [name, file] : *files) {
+    const auto expectation = expectation_of(file.filename().string());
+    if (expectation && *expectation != Expectation::kReject) scenes.push_back(file);
+  }
+  return scenes;
 }
 
 Expected<std::string> fixture_text(const Scene& scene, const FixtureNote& note) {
@@ -403,6 +417,12 @@ Expected<std::string> fixture_text(const Scene& scene, const FixtureNote& note) 
   const auto written = scene_to_text(noted, SceneFormat::kJson);
   if (!written) return tl::unexpected(written.error());
   return written->text;
+}
+
+Expected<FixtureNote> read_note_of(const Scene& scene) {
+  NoteReader note(scene.file, "/extra");
+  if (auto done = note.parse(scene.extra); !done) return tl::unexpected(done.error());
+  return read_words(note);
 }
 
 std::string_view error_code_name(ErrorCode code) {

@@ -6,8 +6,7 @@
 // which computes planes from input polygons only, is right there.
 //
 // The seventh warning, the limited field of view of a perspective mapping, does not apply: no
-// kernel maps the scene, and a lamp in a closed room (i_lamp_inside) is only hard for float with a
-// thickness.
+// kernel maps the scene, and every kernel gets a lamp in a closed room right (y_lamp_inside).
 #include <gtest/gtest.h>
 
 #include <string>

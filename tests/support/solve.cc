@@ -2,6 +2,7 @@
 #include "solve.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -183,9 +184,14 @@ std::string text_of(const Scene& scene) {
 }
 
 Scene regression_scene(const std::string& name) {
-  Expected<ReadResult> read = read_scene(std::string(GNOMON_REGRESSIONS) + "/" + name + ".json");
-  if (!read) throw std::runtime_error(to_string(read.error()));
-  return std::move(read->scene);
+  namespace fs = std::filesystem;
+  for (const auto& entry : fs::recursive_directory_iterator(GNOMON_REGRESSIONS)) {
+    if (entry.path().filename() != name + ".json") continue;
+    Expected<ReadResult> read = read_scene(entry.path());
+    if (!read) throw std::runtime_error(to_string(read.error()));
+    return std::move(read->scene);
+  }
+  throw std::runtime_error("no regression scene " + name);
 }
 
 }  // namespace gnomon::test

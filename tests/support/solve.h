@@ -62,7 +62,7 @@ ShadowOptions with_small_cells(ShadowOptions options);
 /// The scene as JSON, for messages.
 std::string text_of(const Scene& scene);
 
-/// tests/regressions/<name>.json. Throws std::runtime_error if it cannot be read.
+/// <name>.json of any folder of tests/regressions. Throws std::runtime_error if it cannot be read.
 Scene regression_scene(const std::string& name);
 
 }  // namespace gnomon::test

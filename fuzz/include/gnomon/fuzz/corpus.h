@@ -50,6 +50,10 @@ struct Fixture {
 /// folder without any; whatever is wrong with a fixture, with its file and the JSON pointer.
 Expected<std::vector<Fixture>> read_corpus(const std::filesystem::path& path);
 
+/// The y_ and i_ files of a corpus, sorted, whether they are fixtures already or not. Errors: as
+/// read_corpus().
+Expected<std::vector<std::filesystem::path>> scene_files(const std::filesystem::path& path);
+
 /// What a fixture says beside its scene.
 struct FixtureNote {
   std::string shows;               // one sentence
@@ -63,6 +67,10 @@ struct FixtureNote {
 /// the oracle in "extra" (what was there is replaced). Errors: those of exact_answer_of() and of
 /// scene_to_text().
 Expected<std::string> fixture_text(const Scene& scene, const FixtureNote& note);
+
+/// The note of a scene that need not be a fixture yet: "shows" and "kind" of its "extra" must be
+/// there, "found" may be. Errors: kFormat.
+Expected<FixtureNote> read_note_of(const Scene& scene);
 
 /// "usage", "file", "syntax", "format", "number", "index", "id", "geometry", "limit",
 /// "interrupted".

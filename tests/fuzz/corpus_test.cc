@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The scenes of tests/regressions (docs/corpus.md): exact kernels by all algorithms and the oracle
+// say what is recorded, every rounded kernel gets the y_ ones right, and on the i_ ones those
+// differ that are recorded to: when one turns right, the list is out of date
+// (`gnomon certify --corpus tests/regressions --record`).
+#include "gnomon/fuzz/corpus.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <stdexcept>
+
+#include "area_check.h"
+#include "exact_check.h"
+#include "gnomon/fuzz/corpus_judge.h"
+#include "gnomon/scene/read.h"
+
+namespace gnomon::fuzz {
+namespace {
+
+using test::Case;
+
+const std::vector<Fixture>& corpus() {
+  static const std::vector<Fixture> fixtures = [] {
+    auto read = read_corpus(GNOMON_REGRESSIONS);
+    if (!read) throw std::runtime_error(to_string(read.error()));
+    return std::move(*read);
+  }();
+  return fixtures;
+}
+
+std::vector<const Fixture*> fixtures_of(bool rejected) {
+  std::vector<const Fixture*> some;
+  for (const Fixture& fixture : corpus()) {
+    if ((fixture.expectation == Expectation::kReject) == rejected) some.push_back(&fixture);
+  }
+  return some;
+}
+
+std::string test_name(const testing::TestParamInfo<const Fixture*>& info) {
+  std::string name = info.param->name;
+  std::ranges::replace_if(
+      name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+  return name;
+}
+
+class CorpusScene : public testing::TestWithParam<const Fixture*> {
+ protected:
+  void SetUp() override {
+    std::string why;
+    case_ = Case::make(GetParam()->scene, &why);
+    ASSERT_TRUE(case_) << why;
+  }
+  bool has_area_light() const {
+    return std::ranges::any_of(GetParam()->scene.lights,
+                               [](const Light& light) { return light.type == LightType::kArea; });
+  }
+
+  std::unique_ptr<Case> case_;
+};
+
+TEST_P(CorpusScene, ExactKernelsAndOracleAgree) {
+  EXPECT_EQ(test::check_exact(*case_), "");
+  if (has_area_light()) {
+    EXPECT_EQ(test::check_area_exact(*case_), "");
+  }
+}
+
+TEST_P(CorpusScene, FractionsAreThoseRecorded) {
+  EXPECT_EQ(difference_from_oracle(case_->answer(), GetParam()->fractions), "");
+  ShadowOptions options = test::options_for(KernelId::kPlane);
+  const auto check = [&] {
+    const auto result = compute_shadows(case_->prepared(), options);
+    ASSERT_TRUE(result) << to_string(result.error());
+    const auto found = recorded_of(case_->scene(), case_->prepared(), *result);
+    ASSERT_TRUE(found) << to_string(found.error());
+    EXPECT_EQ(difference(GetParam()->fractions, *found), "");
+  };
+  options.algorithm = Algorithm::kSvbsp;
+  options.area_algorithm = AreaAlgorithm::kMerged;
+  for (options.seed = 1; options.seed <= 8; ++options.seed) check();  // orders of splitting
+  options.algorithm = Algorithm::kSectors;
+  options.area_algorithm = AreaAlgorithm::kReceiver;
+  for (options.leaf_size = 0; options.leaf_size <= 4; ++options.leaf_size) check();
+}
+
+TEST_P(CorpusScene, RoundedKernelsDifferWhereRecorded) {
+  const std::vector<std::string> wrong = wrong_subjects(GetParam()->scene, recorded_subjects());
+  EXPECT_EQ(wrong, GetParam()->wrong);
+  if (GetParam()->expectation == Expectation::kInform) {
+    EXPECT_FALSE(wrong.empty()) << "an i_ scene that all get right is a y_ scene";
+  }
+}
+
+TEST_P(CorpusScene, IsWhereAndWhatItSays) {
+  const Fixture& fixture = *GetParam();
+  EXPECT_EQ(fixture.file.parent_path().filename(), fixture.kind);
+  EXPECT_EQ(fixture.scene.name, fixture.file.stem());
+  EXPECT_TRUE(fixture.shows.ends_with('.')) << fixture.shows;
+  EXPECT_FALSE(fixture.scene.lights.empty());
+  for (const std::string& name : fixture.wrong) EXPECT_TRUE(parse_subject(name)) << name;
+  EXPECT_EQ(has_area_light(), fixture.kind.starts_with("area-"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpus, CorpusScene, testing::ValuesIn(fixtures_of(false)), test_name);
+
+class RejectedFile : public testing::TestWithParam<const Fixture*> {};
+
+TEST_P(RejectedFile, IsRejectedAsRecorded) {
+  CorpusOptions options;
+  options.subjects = {Subject{}};
+  const auto report = judge_corpus({*GetParam()}, options);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->judgements[0][0].outcome, Outcome::kPass) << report->judgements[0][0].why;
+  EXPECT_EQ(GetParam()->file.parent_path().filename(), GetParam()->kind);
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpus, RejectedFile, testing::ValuesIn(fixtures_of(true)), test_name);
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RejectedFile);
+
+TEST(Corpus, JudgesAllKernels) {
+  CorpusOptions options;
+  options.subjects = default_corpus_subjects();
+  const auto report = judge_corpus(corpus(), options);
+  ASSERT_TRUE(report);
+  EXPECT_FALSE(report->disagree()) << corpus_text(*report, false);
+  EXPECT_EQ(report->failures(false), 0u) << corpus_text(*report, false);
+}
+
+TEST(Corpus, SlantedThroughIsSplitAtAll) {
+  // The scene would show nothing if no order of splitting cut A.
+  const auto scene = Case::make(test::regression_scene("y_slanted_through"));
+  ASSERT_TRUE(scene);
+  unsigned split = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    ShadowOptions options = test::options_for(KernelId::kPlane);
+    options.algorithm = Algorithm::kSvbsp;
+    options.seed = seed;
+    const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
+    ASSERT_TRUE(result);
+    split += result->bsp_fragments > scene->prepared().parts.size() ? 1 : 0;
+  }
+  EXPECT_GT(split, 0u);
+}
+
+}  // namespace
+}  // namespace gnomon::fuzz
