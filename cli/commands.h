@@ -18,6 +18,7 @@ void add_info_command(CLI::App& app, Action& action);
 void add_generate_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
+void add_shrink_command(CLI::App& app, Action& action);
 
 /// A finite number, 0 or more.
 CLI::Validator not_negative();

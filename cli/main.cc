@@ -69,6 +69,7 @@ int run(int argc, char** argv) {
   add_info_command(app, action);
   add_generate_command(app, action);
   add_convert_command(app, action);
+  add_shrink_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForAllHelp&) {

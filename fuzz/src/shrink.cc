@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "gnomon/fuzz/shrink.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -623,6 +625,14 @@ SceneSize size_of(const Scene& scene) {
   SceneSize size = size_unprepared(scene);
   if (const auto prepared = prepare(scene)) size.repairs = repairs_of(*prepared);
   return size;
+}
+
+std::string fingerprint_of(const Scene& scene) {
+  Scene plain = scene;
+  plain.name.clear();
+  plain.extra.clear();
+  const auto text = scene_to_text(plain, SceneFormat::kJson);
+  return fmt::format("{:016x}", text ? fingerprint(text->text) : 0);
 }
 
 ShrinkResult shrink(Scene scene, const StillFails& fails, const ShrinkOptions& options) {

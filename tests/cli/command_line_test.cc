@@ -57,7 +57,7 @@ TEST_F(CommandLine, VersionAndHelp) {
   const RunResult all = run_gnomon({"--help-all"});
   EXPECT_EQ(all.status, 0);
   for (const std::string command :
-       {"certify", "shadows", "verify", "render", "info", "generate", "convert"}) {
+       {"certify", "shadows", "verify", "render", "info", "generate", "convert", "shrink"}) {
     EXPECT_THAT(all.out, HasSubstr(command));
     const RunResult help = run_gnomon({command, "--help"});
     EXPECT_EQ(help.status, 0) << command;

@@ -16,6 +16,7 @@
 #include "area_families.h"
 #include "families.h"
 #include "gnomon/fuzz/check.h"
+#include "gnomon/fuzz/still_fails.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
 #include "solve.h"
@@ -216,14 +217,6 @@ TEST(Shrink, EndsAtTheLimitOfTries) {
   EXPECT_FALSE(result.locally_minimal);
 }
 
-/// The predicate of one failure: alike is the same property, subject and class.
-bool fails_alike(const Scene& scene, const Failure& failure) {
-  CheckOptions options;
-  options.subjects = {*parse_subject(failure.subject)};
-  options.properties = {failure.property};
-  return check_scene(scene, options).find(failure) != nullptr;
-}
-
 TEST(Shrink, FailuresOfRoundedKernelsGetSmall) {
   std::size_t shrunken = 0;
   for (const auto& [family, subject] :
@@ -236,10 +229,9 @@ TEST(Shrink, FailuresOfRoundedKernelsGetSmall) {
       const CaseReport report = check_scene(scene, options);
       if (report.failures.empty()) continue;
       const Failure& failure = report.failures.front();
-      const ShrinkResult result =
-          shrink(scene, [&](const Scene& tried) { return fails_alike(tried, failure); });
+      const ShrinkResult result = shrink(scene, fails_like(failure, options));
       EXPECT_TRUE(result.locally_minimal);
-      EXPECT_TRUE(fails_alike(result.scene, failure)) << failure.signature();
+      EXPECT_TRUE(fails_like(failure, options)(result.scene)) << failure.signature();
       EXPECT_LE(result.after.polygons, 3u) << text_of(result.scene);
       EXPECT_LT(result.after, result.before);
       ++shrunken;
@@ -247,6 +239,37 @@ TEST(Shrink, FailuresOfRoundedKernelsGetSmall) {
     }
   }
   EXPECT_EQ(shrunken, 3u);
+}
+
+TEST(Shrink, ABlunderStaysABlunder) {
+  CaseReport report;
+  Failure failure{Property::kOracle, "double", "misclassified", {}, {}, {}};
+  failure.share = 0.5;
+  report.failures = {failure};
+  EXPECT_TRUE(fails_alike(report, failure));
+  report.failures[0].share = 1e-7;
+  EXPECT_FALSE(fails_alike(report, failure));
+  failure.share = 1e-8;
+  EXPECT_TRUE(fails_alike(report, failure));
+  failure.subject = "float";
+  EXPECT_FALSE(fails_alike(report, failure));
+}
+
+TEST(Shrink, OnlyWhatAFailureNeedsIsChecked) {
+  CheckOptions options;
+  options.subjects = {*parse_subject("double"), *parse_subject("plane"), *parse_subject("epeck")};
+  const auto names = [&](Property property, const char* subject) {
+    const CheckOptions own = narrowed(options, {property, subject, "x", {}, {}, {}});
+    EXPECT_EQ(own.properties, std::vector{property});
+    std::vector<std::string> result;
+    for (const Subject& one : own.subjects) result.push_back(name_of(one));
+    return result;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(names(Property::kOracle, "double"), Names({"double"}));
+  EXPECT_EQ(names(Property::kAgreement, "epeck"), Names({"plane", "epeck"}));
+  EXPECT_EQ(names(Property::kMetamorphic, "plane"), Names({"plane"}));
+  EXPECT_EQ(names(Property::kPreparation, "prepare"), Names());
 }
 
 }  // namespace

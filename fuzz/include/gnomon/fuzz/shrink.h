@@ -17,6 +17,7 @@
 #include <compare>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -39,6 +40,9 @@ struct SceneSize {
 };
 
 SceneSize size_of(const Scene& scene);
+
+/// 16 hexadecimal digits that tell scenes apart: of all but name and "extra" (FNV-1a of the JSON).
+std::string fingerprint_of(const Scene& scene);
 
 /// Whether a scene fails as the first one did. Must be true for the scene that comes in, and the
 /// same whenever it is asked for the same scene.

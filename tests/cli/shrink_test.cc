@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// gnomon shrink as a user runs it: what it prints, what it leaves, how it goes on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <string>
+
+#include "run_gnomon.h"
+
+namespace gnomon::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+const std::string kRoom = std::string(GNOMON_EXAMPLES) + "/table-chair.json";
+
+std::size_t count(const std::string& text, const std::string& word) {
+  std::size_t number = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    ++number;
+  }
+  return number;
+}
+
+TEST(Shrink, ASceneGetsSmallAndFailsStill) {
+  const TestDirectory directory;
+  const std::string small = directory.file("small.json");
+  const RunResult run = run_gnomon({"shrink", kRoom, "--kernel", "float", "-o", small});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  // The case as it came stands before all else.
+  EXPECT_THAT(run.out, StartsWith(kRoom + " fails: oracle:misclassified:float\n"));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("65 polygons"), HasSubstr("locally minimal: no step")));
+  const std::string text = read_text(small);
+  EXPECT_LE(count(text, "\"loop\""), 3u) << text;
+  EXPECT_THAT(text, HasSubstr("\"fails\": \"oracle:misclassified:float\""));
+  EXPECT_EQ(run_gnomon({"certify", small, "--kernel", "float"}).status, 1);
+  EXPECT_EQ(directory.count(), 1u);  // nothing half-written
+
+  // The same again: it goes on from there, and stays.
+  const RunResult again = run_gnomon({"shrink", kRoom, "--kernel", "float", "-o", small});
+  EXPECT_EQ(again.status, 0);
+  EXPECT_THAT(again.out, AllOf(HasSubstr("going on from"), HasSubstr("(0 accepted)")));
+  EXPECT_EQ(read_text(small), text);
+  // Another task does not.
+  EXPECT_THAT(run_gnomon({"shrink", kRoom, "--kernel", "float+thin", "-o", small}).out,
+              Not(HasSubstr("going on from")));
+}
+
+TEST(Shrink, WithoutAFileTheSceneIsStandardOutput) {
+  const RunResult run = run_gnomon({"shrink", kRoom});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, StartsWith("{\"format\": \"gnomon-scene\""));
+  EXPECT_THAT(run.err, AllOf(HasSubstr(" fails: "), HasSubstr("locally minimal")));
+}
+
+TEST(Shrink, WhatDoesNotFailIsAnAnswer) {
+  const RunResult run = run_gnomon({"shrink", kRoom, "--kernel", "plane"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out, "");
+  EXPECT_THAT(run.err, HasSubstr("nothing to shrink: it does not fail (plane)"));
+  EXPECT_EQ(run_gnomon({"shrink", kRoom, "--kernel", "float", "--class", "no such"}).status, 0);
+}
+
+TEST(Shrink, StoppedItKeepsTheBestAndGoesOn) {
+  const TestDirectory directory;
+  const std::string large = directory.file("large.json"), small = directory.file("small.json");
+  ASSERT_EQ(run_gnomon({"generate", "city", "--param", "n=40", "-o", large}).status, 0);
+  RunOptions options;
+  options.signal = SIGINT;
+  options.signal_after = 0.5;
+  const std::vector<std::string> command = {"shrink", large, "--kernel", "float", "-o", small};
+  RunResult run = run_gnomon(command, options);
+  EXPECT_TRUE(run.status == 130 || run.status == 0) << run.status << run.err;
+  run = run_gnomon({"shrink", large, "--kernel", "float", "--time", "0.02", "-o", small});
+  EXPECT_EQ(run.status, 0) << run.err;
+  run = run_gnomon(command);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, AllOf(HasSubstr("going on from"), HasSubstr("locally minimal: no step")));
+  EXPECT_LE(count(read_text(small), "\"loop\""), 3u);
+}
+
+TEST(Shrink, BadUsageIsTold) {
+  const RunResult property = run_gnomon({"shrink", kRoom, "--property", "beauty"});
+  EXPECT_EQ(property.status, 2);
+  EXPECT_THAT(property.err, HasSubstr("one of: no-crash, budget"));
+  EXPECT_EQ(run_gnomon({"shrink", kRoom, "--kernel", "quad"}).status, 2);
+  EXPECT_EQ(run_gnomon({"shrink", "no such file"}).status, 2);
+  EXPECT_EQ(
+      run_gnomon({"shrink", kRoom, "--kernel", "float", "-o", "/no/such/folder/x.json"}).status, 2);
+}
+
+}  // namespace
+}  // namespace gnomon::test
