@@ -42,6 +42,16 @@ struct Tally {
   }
 };
 
+/// A program's command line, shortened in the middle: its end tells more than its path.
+std::string shown_name(const Subject& subject, const std::string& name) {
+  constexpr std::size_t kMost = 40, kStart = 12;
+  if (!subject.foreign() || subject.command.size() <= kMost) {
+    return subject.foreign() ? subject.command : name;
+  }
+  return subject.command.substr(0, kStart) + "..." +
+         subject.command.substr(subject.command.size() - (kMost - kStart - 3));
+}
+
 std::string plural(std::uint64_t count, const std::string& one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
@@ -128,7 +138,8 @@ std::string totals(const CorpusReport& report) {
     for (std::size_t i = 0; i < report.judgements.size(); ++i) {
       tally.add((*report.fixtures)[i], report.subjects[s].exact(), report.judgements[i][s].outcome);
     }
-    std::vector<std::string> row{std::to_string(s + 1), report.names[s]};
+    std::vector<std::string> row{std::to_string(s + 1),
+                                 shown_name(report.subjects[s], report.names[s])};
     for (const Outcome outcome : {Outcome::kPass, Outcome::kDiffer, Outcome::kRejected,
                                   Outcome::kCrash, Outcome::kTimeout}) {
       row.push_back(std::to_string(tally.of(outcome)));
@@ -172,7 +183,7 @@ std::string reasons(const CorpusReport& report) {
       if (!scored && !subject.foreign()) continue;
       std::string outcome(name_of(own.outcome));
       if (!scored) outcome += ", not scored";
-      tell(fixture, report.names[s], fmt::format("{}: {}", outcome, own.why));
+      tell(fixture, shown_name(subject, report.names[s]), fmt::format("{}: {}", outcome, own.why));
     }
   }
   if (more > 0) text += fmt::format("... and {} more: see --json\n", more);
