@@ -117,7 +117,7 @@ bool AreaRun<Space>::for_each(std::size_t n, double from, double to, const Body&
         stopped_.store(true);
         return;
       }
-      scratch = std::make_unique<Scratch>(space_.fork());
+      scratch = std::make_unique<Scratch>(space_.fork(), options_.mutation);
     }
     const std::uint32_t mark = scratch->space.plane_mark();
     body(*scratch, i);
@@ -186,7 +186,7 @@ bool AreaRun<Space>::build_trees(const AreaLight<Space>& light, double from, dou
                                  MergedLight<Space>& trees) {
   std::vector<std::uint32_t> receivers;
   {
-    Scratch scratch(space_.fork());
+    Scratch scratch(space_.fork(), options_.mutation);
     for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
       if (stopped()) return false;
       for (const Side side : {Side::kFront, Side::kBack}) {
@@ -216,7 +216,7 @@ template <VolumeSpaceModel Space>
 LightResult AreaRun<Space>::run_light(std::uint32_t index, double from, double to) {
   pieces_ = 0;
   const std::uint32_t mark = space_.plane_mark();
-  const AreaLight<Space> light(space_, area_scene_, tree_, index);
+  const AreaLight<Space> light(space_, area_scene_, tree_, index, options_.mutation);
   LightResult result;
   result.light = index;
   result = run_light(light, std::move(result), from, to);

@@ -38,6 +38,9 @@ Expected<AreaOutcome> area_rational(const PreparedScene&, const ShadowOptions&, 
                                     const LightList&);
 Expected<AreaOutcome> area_plane(const PreparedScene&, const ShadowOptions&, const LightList&,
                                  const LightList&);
+/// The kernel double with a mistake.
+Expected<AreaOutcome> area_vertices_per_side(const PreparedScene&, const ShadowOptions&,
+                                             const LightList&, const LightList&);
 
 inline tl::unexpected<Error> interrupted() { return fail(ErrorCode::kInterrupted, "interrupted"); }
 inline tl::unexpected<Error> too_many_fragments(const ShadowOptions& options) {

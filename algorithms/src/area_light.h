@@ -44,7 +44,10 @@ struct Sight {
 /// them are those of the last one.
 template <VolumeSpaceModel Space>
 struct ReceiverScratch {
-  explicit ReceiverScratch(Space fork) : space(std::move(fork)), builder(space), cutter(space) {}
+  explicit ReceiverScratch(Space fork, Mutation mutation = Mutation::kNone)
+      : space(std::move(fork)),
+        builder(space, mutation),
+        cutter(space, mutation == Mutation::kOnSwapped) {}
   ReceiverScratch(const ReceiverScratch&) = delete;
   ReceiverScratch& operator=(const ReceiverScratch&) = delete;
 
@@ -69,8 +72,12 @@ class AreaLight {
 
   /// Adds the planes of all volumes to `space`, which must be forked afterwards. `tree` and `scene`
   /// must outlive it.
-  AreaLight(Space& space, const AreaScene& scene, const CasterTree& tree, std::uint32_t light)
-      : scene_(*scene.scene), light_(&scene.scene->lights[light]), tree_(&tree) {
+  AreaLight(Space& space, const AreaScene& scene, const CasterTree& tree, std::uint32_t light,
+            Mutation mutation = Mutation::kNone)
+      : scene_(*scene.scene),
+        light_(&scene.scene->lights[light]),
+        tree_(&tree),
+        mutation_(mutation) {
     const LightFace& face = scene.faces[light];
     for (std::size_t i = 0; i < face.loop.size(); ++i) {
       PlaneRef edge;
@@ -174,6 +181,7 @@ class AreaLight {
   const PreparedScene& scene_;
   const PreparedLight* light_;
   const CasterTree* tree_;
+  Mutation mutation_ = Mutation::kNone;
   LoopStore<Vertex> loop_;
   Box box_;
   PlaneId plane_id_ = kNoPlane;
@@ -196,7 +204,7 @@ void add_part_volumes(VolumeBuilder<Space>& builder, const SpaceOfLoops& space,
 
 template <VolumeSpaceModel Space>
 void AreaLight<Space>::make_volumes(Space& space) {
-  VolumeBuilder<Space> builder(space);
+  VolumeBuilder<Space> builder(space, mutation_);
   LoopStore<Vertex> loops;
   first_volume_.reserve(scene_.parts.size() + 1);
   for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
@@ -265,8 +273,8 @@ void AreaLight<Space>::prepare(Scratch& scratch, std::uint32_t index, Side side)
   scratch.own.clear();
   scratch.volumes.clear();
   LightShape<Vertex> light = shape();
-  const bool cut =
-      is_area() && scratch.record.decide(space, receiving, light.loop) == Placement::kSpanning;
+  const bool cut = is_area() && mutation_ != Mutation::kStraddlingLightFaces &&
+                   scratch.record.decide(space, receiving, light.loop) == Placement::kSpanning;
   if (cut) {
     scratch.light.clear();
     const SplitChildren children = make_children(space, receiving, light.loop, scratch.record,

@@ -20,6 +20,7 @@
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/kernel_concept.h"
 #include "receiver_cutter.h"
+#include "sliver.h"
 
 namespace gnomon {
 
@@ -117,6 +118,11 @@ SideResult FragmentSink<Space>::finish(const Space& space, const Loop& whole) {
     // The input polygon as it was (1989, sec. 6).
     pieces_.resize(1);
     pieces_.front().loop = loops_.append(whole);
+  }
+  if (options_->mutation == Mutation::kSliversDropped && pieces_.size() > 1) {
+    std::erase_if(pieces_, [&](const Piece& piece) {
+      return is_sliver(space, loops_.view(piece.loop, scene_->parts[part_].plane));
+    });
   }
   measure(space, whole, result);
   const PlaneId plane = scene_->parts[part_].plane;

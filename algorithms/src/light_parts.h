@@ -29,7 +29,9 @@ struct Facing {
   bool faces() const { return reason == ShadowReason::kNone; }
 };
 
-inline Facing facing_of(const Part& part, Sign plane_at_light) {
+/// `in_plane_faces`: Mutation::kLightInPlaneFaces.
+inline Facing facing_of(const Part& part, Sign plane_at_light, bool in_plane_faces = false) {
+  if (plane_at_light == Sign::kZero && in_plane_faces) return {};
   if (plane_at_light == Sign::kZero) return {Side::kFront, ShadowReason::kLightInPlane};
   const Sign at_light = part.flipped ? -plane_at_light : plane_at_light;
   if (at_light == Sign::kPositive) return {Side::kFront, ShadowReason::kNone};
@@ -45,7 +47,7 @@ struct FacingParts {
   std::uint64_t edges = 0;           // of those
 
   template <LightSpaceModel Space>
-  FacingParts(const PreparedScene& scene, const Space& space) {
+  FacingParts(const PreparedScene& scene, const Space& space, bool in_plane_faces = false) {
     plane_signs.reserve(scene.geometry.planes.size());
     for (PlaneId plane = 0; plane < scene.geometry.planes.size(); ++plane) {
       plane_signs.push_back(space.light_side(plane));
@@ -53,7 +55,7 @@ struct FacingParts {
     facing.reserve(scene.parts.size());
     for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
       const Part& part = scene.parts[i];
-      facing.push_back(facing_of(part, plane_signs[part.plane]));
+      facing.push_back(facing_of(part, plane_signs[part.plane], in_plane_faces));
       if (facing.back().faces()) {
         parts.push_back(i);
         edges += part.count;

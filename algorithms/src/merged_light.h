@@ -72,7 +72,9 @@ class MergedLight {
   /// Whether a side that sees the light can be filtered: its plane does not cut the light.
   bool takes(Space& space, SplitRecord& record, PlaneRef receiving) const {
     const auto placement = record.decide(space, receiving, light_->shape().loop);
-    return placement == Placement::kFront;
+    return placement == Placement::kFront ||
+           (placement == Placement::kSpanning &&
+            options_->mutation == Mutation::kStraddlingLightFaces);
   }
 
   /// As AreaLight::cut, for the whole loop of a side that takes() accepts.

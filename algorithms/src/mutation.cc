@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "gnomon/algorithms/shadows.h"
+
 namespace gnomon {
 
 namespace {
@@ -45,6 +47,76 @@ std::optional<Mutation> mutation_by_name(std::string_view name) {
     if (info.name == name) return info.mutation;
   }
   return std::nullopt;
+}
+
+namespace {
+
+bool has_thickness(KernelId kernel) {
+  return kernel == KernelId::kFloat || kernel == KernelId::kDouble ||
+         kernel == KernelId::kLongDouble;
+}
+
+/// Kernels that can go on with a polygon that the light sees edge-on, where light space has no area
+/// for it: those that keep the coordinates of their vertices.
+bool keeps_coordinates(KernelId kernel) {
+  return has_thickness(kernel) || kernel == KernelId::kRational;
+}
+
+}  // namespace
+
+bool applies_to(Mutation mutation, KernelId kernel, Algorithm algorithm) {
+  const bool svbsp = algorithm == Algorithm::kSvbsp, receiver = algorithm == Algorithm::kReceiver;
+  switch (mutation) {
+    case Mutation::kNone:
+      return true;
+    case Mutation::kPlanesFromFragments:
+      return svbsp && kernel == KernelId::kDouble;
+    case Mutation::kVerticesPerSide:
+      return kernel == KernelId::kDouble;
+    case Mutation::kCoplanarInSequence:
+      return svbsp;
+    case Mutation::kLightInPlaneFaces:
+      return receiver || (svbsp && keeps_coordinates(kernel));
+    case Mutation::kThicknessTooLarge:
+    case Mutation::kThicknessTooSmall:
+      return has_thickness(kernel);
+    case Mutation::kSliversDropped:
+      return true;
+    case Mutation::kOnSwapped:
+      return !receiver;
+    case Mutation::kUnionWithoutContinuedPlanes:
+    case Mutation::kTVerticesLeftIn:
+    case Mutation::kStraddlingLightFaces:
+      return false;
+  }
+  return false;
+}
+
+bool applies_to(Mutation mutation, KernelId kernel, AreaAlgorithm algorithm) {
+  if (mutation == Mutation::kNone) return true;
+  if (algorithm == AreaAlgorithm::kPieces) return false;
+  const bool merged = algorithm == AreaAlgorithm::kMerged;
+  switch (mutation) {
+    case Mutation::kVerticesPerSide:
+      return kernel == KernelId::kDouble;
+    case Mutation::kThicknessTooLarge:
+    case Mutation::kThicknessTooSmall:
+      return has_thickness(kernel);
+    case Mutation::kUnionWithoutContinuedPlanes:
+      return merged;
+    case Mutation::kStraddlingLightFaces:
+    case Mutation::kSliversDropped:
+      return true;
+    case Mutation::kOnSwapped:
+      return !merged;
+    case Mutation::kNone:
+    case Mutation::kPlanesFromFragments:
+    case Mutation::kCoplanarInSequence:
+    case Mutation::kLightInPlaneFaces:  // what holds an area light is in its plane, and behind it
+    case Mutation::kTVerticesLeftIn:
+      return false;
+  }
+  return false;
 }
 
 std::string_view name_of(Mutation mutation) {

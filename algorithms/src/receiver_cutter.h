@@ -52,7 +52,11 @@ class ReceiverCutter {
   using Vertex = typename Space::Vertex;
   using Loop = LoopView<Vertex>;
 
-  explicit ReceiverCutter(Space& space) : space_(&space) {}
+  /// `on_swapped`: Mutation::kOnSwapped.
+  explicit ReceiverCutter(Space& space, bool on_swapped = false)
+      : space_(&space),
+        penumbra_border_(on_swapped ? Border::kClosed : Border::kOpen),
+        umbra_border_(on_swapped ? Border::kOpen : Border::kClosed) {}
 
   Space& space() { return *space_; }
   std::uint64_t cells() const { return cells_; }
@@ -62,12 +66,14 @@ class ReceiverCutter {
   /// hidden from nothing on its border, but in an umbra, on whose border all of it is.
   enum class Border : std::uint8_t { kOpen, kClosed };
 
-  /// Is nothing of the loop in front of the plane, nor, if that counts, the loop in it?
-  bool is_outside(const Loop& loop, PlaneRef plane, Border border = Border::kOpen);
+  /// Is nothing of the loop in front of a plane of a penumbra?
+  bool is_outside(const Loop& loop, PlaneRef plane) {
+    return is_outside(loop, plane, penumbra_border_);
+  }
   /// Is all of it in front of all planes?
   bool is_inside(const Loop& loop, std::span<const PlaneRef> planes) {
     std::uint8_t hint = 0;
-    return relation(loop, planes, Border::kOpen, hint) == Relation::kInside;
+    return relation(loop, planes, penumbra_border_, hint) == Relation::kInside;
   }
 
   /// Cuts `loop` by volumes of `store` and calls emit(PieceClass, Loop) for each
@@ -109,6 +115,8 @@ class ReceiverCutter {
   enum class Relation : std::uint8_t { kOutside, kInside, kCrossing };
 
   Loop view(const LoopRange& range) const { return store_.view(range, support_); }
+  /// Is nothing of the loop in front of the plane, nor, if that counts, the loop in it?
+  bool is_outside(const Loop& loop, PlaneRef plane, Border border);
   Relation relation(const Loop& loop, std::span<const PlaneRef> planes, Border border,
                     std::uint8_t& hint);
   bool clip(const LoopRange& loop, std::span<const PlaneRef> planes, Border border,
@@ -118,6 +126,7 @@ class ReceiverCutter {
   void cut_out(const Frame& frame);
 
   Space* space_;
+  Border penumbra_border_, umbra_border_;
   const VolumeStore* volumes_ = nullptr;
   LightState in_shadow_ = LightState::kUmbra;
   PlaneId support_ = 0;
@@ -211,7 +220,7 @@ bool ReceiverCutter<Space>::decide(Frame& frame) {
       entry.penumbra = false;
     } else if (entry.penumbra) {
       const Relation penumbra =
-          relation(loop, volumes_->penumbra(volume), Border::kOpen, entry.penumbra_hint);
+          relation(loop, volumes_->penumbra(volume), penumbra_border_, entry.penumbra_hint);
       if (penumbra == Relation::kOutside) continue;
       if (penumbra == Relation::kInside) {
         frame.state = {LightState::kPenumbra, volume.caster, ShadowReason::kNone};
@@ -221,7 +230,7 @@ bool ReceiverCutter<Space>::decide(Frame& frame) {
     if (entry.umbra) {
       const Relation umbra = volume.umbra_count == 0 ? Relation::kOutside
                                                      : relation(loop, volumes_->umbra(volume),
-                                                                Border::kClosed, entry.umbra_hint);
+                                                                umbra_border_, entry.umbra_hint);
       if (umbra == Relation::kInside) {
         frame.state = {in_shadow_, volume.caster, ShadowReason::kNone};
         return true;
@@ -292,7 +301,7 @@ void ReceiverCutter<Space>::cut_out(const Frame& frame) {
       bool is_inside = true;
       if (piece.state.state == LightState::kLit && volume.penumbra_count != 0) {
         if (entry.penumbra) {
-          is_inside = clip(piece.loop, volumes_->penumbra(volume), Border::kOpen,
+          is_inside = clip(piece.loop, volumes_->penumbra(volume), penumbra_border_,
                            entry.penumbra_hint, inside);
           if (!is_inside) continue;
           for (const LoopRange& range : outside_) {
@@ -304,7 +313,7 @@ void ReceiverCutter<Space>::cut_out(const Frame& frame) {
       piece.loop = inside;
       piece.state = rest;
       if (!entry.umbra ||
-          !clip(piece.loop, volumes_->umbra(volume), Border::kClosed, entry.umbra_hint, inside))
+          !clip(piece.loop, volumes_->umbra(volume), umbra_border_, entry.umbra_hint, inside))
         continue;
       for (const LoopRange& range : outside_) pending_.push_back({range, rest, piece.next});
       piece.loop = inside;

@@ -22,7 +22,7 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
                                                  std::span<const std::uint32_t> parts,
                                                  std::uint64_t seed, bool identity,
                                                  const std::atomic<bool>* interrupted,
-                                                 std::uint64_t max_pieces) {
+                                                 std::uint64_t max_pieces, bool on_is_behind) {
   using Vertex = typename Space::Vertex;
   SceneBsp<Vertex> tree;
   BspBuilderState state;
@@ -83,14 +83,20 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
     const std::size_t begin = state.work.size() - task.count;
     const std::span<const std::uint32_t> here(state.work.data() + begin, task.count);
     const std::uint32_t root = here[chooser.choose(here, state.boxes, state.planes)];
-    const PlaneId plane = state.planes[root];
+    PlaneId plane = state.planes[root];
+    if constexpr (requires(LoopView<Vertex> loop) { space.add_plane_of(loop); }) {
+      // Mutation::kPlanesFromFragments: of a fragment, not of a whole part.
+      const LoopView<Vertex> loop = tree.loops.view(tree.pieces[root], plane);
+      if (root >= parts.size()) plane = space.add_plane_of(loop);
+    }
 
     state.front.clear();
     state.back.clear();
     state.on.clear();
+    std::vector<std::uint32_t>& coplanar = on_is_behind ? state.back : state.on;
     for (const std::uint32_t piece : here) {
       if (piece == root || (identity && state.planes[piece] == plane)) {
-        state.on.push_back(piece);
+        (piece == root ? state.on : coplanar).push_back(piece);
         continue;
       }
       const LoopRange range = tree.pieces[piece];
@@ -103,7 +109,7 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
           state.back.push_back(piece);
           break;
         case Placement::kOn:
-          state.on.push_back(piece);
+          coplanar.push_back(piece);
           break;
         case Placement::kSpanning: {
           ++tree.splits;

@@ -139,6 +139,7 @@ class SectorTree {
   void run(Task& task, const SectorTree& planner);
 
  private:
+  bool coplanar_is_behind() const { return context_->options.mutation == Mutation::kOnSwapped; }
   /// Cells of so many times the size of a leaf that no k-d plane splits are split by edges of their
   /// polygons.
   static constexpr std::uint32_t kLargeLeaf = 4;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sector_tree.h"
+#include "sliver.h"
 
 namespace gnomon {
 
@@ -233,7 +234,7 @@ bool SectorTree<Space>::any_nearer(const SectorItem& item, PlaneId plane, bool& 
 template <SectorSpaceModel Space>
 bool SectorTree<Space>::is_behind(const SectorItem& item, std::uint32_t part) {
   const PlaneId plane = context_->scene.parts[part].plane;
-  if (context_->scene.parts[item.part].plane == plane) return false;
+  if (context_->scene.parts[item.part].plane == plane) return coplanar_is_behind();
   const LoopView<Vertex> loop = view(item);
   const Side nearer =
       context_->facing.plane_signs[plane] == Sign::kPositive ? Side::kFront : Side::kBack;
@@ -256,7 +257,7 @@ typename SectorTree<Space>::Relation SectorTree<Space>::relation(const SectorIte
   if (receiver.z_high < caster.z_low) return Relation::kBehind;
   const PlaneId own = context_->scene.parts[receiver.part].plane;
   const PlaneId other = context_->scene.parts[caster.part].plane;
-  if (own == other) return Relation::kNone;
+  if (own == other) return coplanar_is_behind() ? Relation::kBehind : Relation::kNone;
   bool behind = false;
   const bool nearer = any_nearer(receiver, other, behind);
   if (!behind) return Relation::kNone;
@@ -668,6 +669,9 @@ void SectorTree<Space>::join(Range children) {
 
 template <SectorSpaceModel Space>
 void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
+  if (context_->options.mutation == Mutation::kSliversDropped && is_sliver(space_, view(loop))) {
+    return;
+  }
   if (++output_.piece_count % kPieceBatch == 0 &&
       context_->pieces.fetch_add(kPieceBatch, std::memory_order_relaxed) + kPieceBatch >
           context_->options.max_fragments) {

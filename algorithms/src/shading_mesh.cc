@@ -180,7 +180,7 @@ class MeshMaker {
     take_fragments();
     mesh_.stats.fragments = loops_.faces.size();
     if (is_interrupted()) return stopped();
-    loops_ = fit_edges(loops_, points_);
+    if (options_.mutation != Mutation::kTVerticesLeftIn) loops_ = fit_edges(loops_, points_);
     if (auto done = regular_grid(); !done) return tl::unexpected(std::move(done.error()));
     mesh_.stats.grid_seconds += seconds_since(start);
     if (options_.tolerance > 0) {

@@ -20,6 +20,11 @@ ShadowOutcome shadows_epick(const PreparedScene&, const ShadowOptions&, const Li
 ShadowOutcome shadows_epeck(const PreparedScene&, const ShadowOptions&, const LightList&);
 ShadowOutcome shadows_rational(const PreparedScene&, const ShadowOptions&, const LightList&);
 ShadowOutcome shadows_plane(const PreparedScene&, const ShadowOptions&, const LightList&);
+/// The kernel double with a mistake.
+ShadowOutcome shadows_planes_from_fragments(const PreparedScene&, const ShadowOptions&,
+                                            const LightList&);
+ShadowOutcome shadows_vertices_per_side(const PreparedScene&, const ShadowOptions&,
+                                        const LightList&);
 
 }  // namespace gnomon
 

@@ -29,6 +29,7 @@
 
 #include "area_scene.h"
 #include "gnomon/algorithms/loop_store.h"
+#include "gnomon/algorithms/mutation.h"
 #include "gnomon/algorithms/split.h"
 #include "gnomon/kernel/kernel_concept.h"
 
@@ -88,7 +89,10 @@ class VolumeBuilder {
   using Vertex = typename Space::Vertex;
   using Loop = LoopView<Vertex>;
 
-  explicit VolumeBuilder(Space& space) : space_(&space) {}
+  explicit VolumeBuilder(Space& space, Mutation mutation = Mutation::kNone)
+      : space_(&space),
+        in_plane_faces_(mutation == Mutation::kLightInPlaneFaces),
+        straddling_faces_(mutation == Mutation::kStraddlingLightFaces) {}
 
   /// Adds the volume of one side of a caster, in front of `side`, if it casts anything. `reversed`:
   /// the loop is clockwise seen from that side.
@@ -107,6 +111,7 @@ class VolumeBuilder {
 
   /// On which side of a support plane is the light: in front, all of it or some (area lights).
   bool is_in_front(PlaneRef plane, const LightShape<Vertex>& light) {
+    if (in_plane_faces_ && holds(plane, light)) return true;
     if (light.direction != nullptr) return direction_side(plane, *light.direction) == Side::kFront;
     for (std::uint32_t i = 0; i < light.loop.size(); ++i) {
       if (space_->side_of_plane(plane, light.loop.corner(i)) == Side::kFront) return true;
@@ -197,7 +202,11 @@ class VolumeBuilder {
     for (std::uint32_t i = 0; i < whole.size(); ++i) whole_sides_[i] = light_sides_.side(i);
     Loop front = whole;
     front_sides_ = whole_sides_;
-    if (placement == Placement::kSpanning) {
+    const bool straddles = placement == Placement::kSpanning;
+    if (straddles && straddling_faces_) {
+      whole_sides_.assign(whole.size(), Side::kFront);
+      front_sides_ = whole_sides_;
+    } else if (straddles) {
       cut_.clear();
       const SplitChildren children =
           make_children(*space_, side, whole, light_sides_, crossings_, cut_);
@@ -207,7 +216,7 @@ class VolumeBuilder {
       front_sides_.resize(front.size());
       for (std::uint32_t i = 0; i < front.size(); ++i) front_sides_[i] = light_sides_.side(i);
     }
-    bool umbra = placement == Placement::kFront;
+    bool umbra = !straddles || straddling_faces_;
     for (std::uint32_t i = 0; i < caster.size(); ++i) {
       const CornerOf a = to(caster, reversed, i), b = from(caster, reversed, i);
       const PlaneRef outer = extreme(a, b, front, Side::kFront, [&](std::uint32_t k) {
@@ -308,6 +317,7 @@ class VolumeBuilder {
   }
 
   Space* space_;
+  bool in_plane_faces_, straddling_faces_;
   std::vector<PlaneRef> penumbra_, umbra_;
   SplitRecord caster_sides_, light_sides_;
   std::vector<Side> whole_sides_, front_sides_;

@@ -41,6 +41,18 @@ KernelFunctions functions_of(KernelId kernel) {
   return {};
 }
 
+/// Mistakes that a wrapper of the kernel makes are in sources of their own.
+KernelFunctions functions_of(KernelId kernel, Mutation mutation) {
+  switch (mutation) {
+    case Mutation::kPlanesFromFragments:
+      return {shadows_planes_from_fragments, area_double};
+    case Mutation::kVerticesPerSide:
+      return {shadows_vertices_per_side, area_vertices_per_side};
+    default:
+      return functions_of(kernel);
+  }
+}
+
 /// Which lights are found receiver by receiver, and which by the algorithms of light space.
 struct LightsByWay {
   LightList light_space, by_receiver;
@@ -114,11 +126,39 @@ Expected<std::vector<std::uint32_t>> select_lights(const PreparedScene& scene,
   return lights;
 }
 
-Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options) {
-  const Expected<std::vector<std::uint32_t>> selected = select_lights(scene, options);
-  if (!selected) return tl::unexpected<Error>(selected.error());
-  const LightList& lights = *selected;
-  const KernelFunctions functions = functions_of(options.kernel);
+namespace {
+
+/// Refuses a mutation that would do nothing, or that nobody has thought about.
+Expected<void> check_mutation(const PreparedScene& scene, const ShadowOptions& options,
+                              const LightList& lights) {
+  const std::string name = "mutation " + std::string(name_of(options.mutation));
+  if (options.combined) return fail(ErrorCode::kUsage, name + " of lights together", "one by one");
+  if (options.mutation == Mutation::kThicknessTooSmall && options.thickness == 0) {
+    return fail(ErrorCode::kUsage, name + " of planes that have no thickness", "a thickness");
+  }
+  const Algorithm algorithm =
+      options.algorithm == Algorithm::kAutomatic ? Algorithm::kSectors : options.algorithm;
+  for (const std::uint32_t light : lights) {
+    const bool applies = scene.lights[light].type == LightType::kArea
+                             ? applies_to(options.mutation, options.kernel, options.area_algorithm)
+                             : applies_to(options.mutation, options.kernel, algorithm);
+    if (applies) return {};
+  }
+  return fail(ErrorCode::kUsage, name + " changes nothing",
+              "a kernel, an algorithm and a light that it applies to (docs/bug-zoo.md)");
+}
+
+/// The options under which planes are as thick as the mutation has them.
+ShadowOptions with_thickness_of(const ShadowOptions& options) {
+  ShadowOptions own = options;
+  if (options.mutation == Mutation::kThicknessTooLarge) own.thickness = kThicknessTooLarge;
+  if (options.mutation == Mutation::kThicknessTooSmall) own.thickness = 0;
+  return own;
+}
+
+Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowOptions& options,
+                                       const LightList& lights) {
+  const KernelFunctions functions = functions_of(options.kernel, options.mutation);
   if (functions.shadows == nullptr) return fail(ErrorCode::kUsage, "unknown kernel");
   const LightsByWay ways = split_by_way(scene, options, lights);
   if (ways.by_receiver.empty()) return functions.shadows(scene, options, lights);
@@ -159,6 +199,18 @@ Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowO
   join(result, std::move(*area), options, lights);
   result.shadow_seconds += cpu_seconds() - start;
   return result;
+}
+
+}  // namespace
+
+Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options) {
+  const Expected<std::vector<std::uint32_t>> lights = select_lights(scene, options);
+  if (!lights) return tl::unexpected<Error>(lights.error());
+  if (options.mutation == Mutation::kNone) return compute_checked(scene, options, *lights);
+  if (const auto checked = check_mutation(scene, options, *lights); !checked) {
+    return tl::unexpected<Error>(checked.error());
+  }
+  return compute_checked(scene, with_thickness_of(options), *lights);
 }
 
 }  // namespace gnomon

@@ -38,8 +38,8 @@ class LightRun {
         options_(options),
         scene_space_(scene_space),
         space_(scene_space, scene.lights[light].point, kernel_options),
-        facing_(scene, space_),
-        tree_(space_, options.merge) {
+        facing_(scene, space_, options.mutation == Mutation::kLightInPlaneFaces),
+        tree_(space_, options.merge, options.mutation == Mutation::kSliversDropped) {
     result_.light = light;
     result_.facing_parts = facing_.parts.size();
     result_.facing_edges = facing_.edges;
@@ -49,6 +49,10 @@ class LightRun {
 
   /// The tree is smaller than a fragment's loop; this keeps it from outgrowing them.
   static constexpr std::uint64_t kMostNodesAFragment = 8;
+  /// Mutation::kPlanesFromFragments.
+  static constexpr bool kFragmentPlanes = requires(const Space& space, LoopView<SceneVertex> loop) {
+    space.light_side_of_fragment(loop);
+  };
   enum class Outcome : std::uint8_t { kDone, kInterrupted, kTooManyFragments };
 
   /// `progress(done)` gets the number of nodes done; `before_node(piece, side)` is called for each
@@ -59,8 +63,13 @@ class LightRun {
     if (options_.prefix) {
       tree_.plant(plan_prefix(scene_, scene_.lights[result_.light].point, facing_.parts));
     }
-    const std::vector<std::uint32_t> order =
-        front_to_back(bsp.nodes, [&](PlaneId plane) { return facing_.plane_signs[plane]; });
+    const std::vector<std::uint32_t> order = front_to_back(bsp.nodes, [&](PlaneId plane) {
+      if constexpr (kFragmentPlanes) {
+        return space_.light_side(plane);
+      } else {
+        return facing_.plane_signs[plane];
+      }
+    });
     for (std::size_t i = 0; i < order.size(); ++i) {
       if ((i & 63) == 0) {
         if (options_.interrupted != nullptr &&
@@ -99,9 +108,13 @@ class LightRun {
     pieces_.clear();
     for (std::uint32_t i = 0; i < node.count; ++i) {
       const LoopRange& piece = bsp.pieces[bsp.node_pieces[node.first + i]];
-      if (facing_.facing[piece.part].faces()) pieces_.push_back(piece);
+      if (!facing_.facing[piece.part].faces()) continue;
+      if constexpr (kFragmentPlanes) {
+        if (!keeps_facing(bsp, piece)) continue;
+      }
+      pieces_.push_back(piece);
     }
-    const bool alone = pieces_.size() == 1;
+    const bool alone = pieces_.size() == 1 || options_.mutation == Mutation::kCoplanarInSequence;
     for (const LoopRange& piece : pieces_) {
       const Part& part = scene_.parts[piece.part];
       import(bsp.loops.view(piece, part.plane));
@@ -118,6 +131,21 @@ class LightRun {
     }
   }
 
+  /// A fragment of a part that faces the light, by its own plane; one that does not is dark.
+  bool keeps_facing(const SceneBsp<SceneVertex>& bsp,
+                    const LoopRange& piece) requires kFragmentPlanes {
+    const Part& part = scene_.parts[piece.part];
+    if (piece.count == part.count) return true;
+    const LoopView<SceneVertex> loop = bsp.loops.view(piece, part.plane);
+    const Sign at_light = space_.light_side_of_fragment(loop);
+    const Side side = facing_.facing[piece.part].side;
+    if (at_light == (side == Side::kFront ? Sign::kPositive : Sign::kNegative)) return true;
+    import(loop);
+    output_.fragments.push_back(
+        {output_.loops.append(imported_.view({0, imported_.size(), piece.part}, part.plane)),
+         LightState::kShadow, Fragment::kNoCaster});
+    return false;
+  }
   void import(const LoopView<SceneVertex>& loop) {
     imported_.resize(loop.size());
     import_loop(space_, loop, facing_.facing[loop.part].side == Side::kBack, imported_, 0);
@@ -271,20 +299,22 @@ Expected<ShadowResult> compute_by_sectors(const PreparedScene& scene, const Shad
       [&] { return compute_by_sectors_here<Space>(scene, options, lights, std::move(result)); });
 }
 
+/// A result without lights, of this kernel.
 template <LightSpaceModel Space>
-Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
-                                            const ShadowOptions& options,
-                                            const std::vector<std::uint32_t>& lights) {
-  using SceneSpace = typename Space::SceneSpace;
+ShadowResult empty_result(const ShadowOptions& options) {
   ShadowResult result;
   result.kernel = kernel_info(options.kernel).name;
   result.exact = Space::kExact;
   result.identity = options.identity || Space::kExact;
   result.thickness = Space::kExact ? 0 : options.thickness;
-  if (options.algorithm == Algorithm::kSectors ||
-      (options.algorithm == Algorithm::kAutomatic && !options.combined)) {
-    return compute_by_sectors<Space>(scene, options, lights, std::move(result));
-  }
+  return result;
+}
+
+template <LightSpaceModel Space>
+Expected<ShadowResult> compute_by_svbsp(const PreparedScene& scene, const ShadowOptions& options,
+                                        const std::vector<std::uint32_t>& lights) {
+  using SceneSpace = typename Space::SceneSpace;
+  ShadowResult result = empty_result<Space>(options);
   result.algorithm = "svbsp";
 
   const double start = cpu_seconds();
@@ -303,7 +333,7 @@ Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
   }
   const SceneBsp<typename SceneSpace::Vertex> bsp =
       build_scene_bsp(scene_space, scene, parts, options.seed, result.identity, options.interrupted,
-                      options.max_fragments);
+                      options.max_fragments, options.mutation == Mutation::kOnSwapped);
   if (bsp.interrupted) return interrupted();
   result.scene_bsp_seconds = cpu_seconds() - start;
   result.bsp_nodes = bsp.nodes.size();
@@ -361,6 +391,17 @@ Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
   result.stages += scene_space.stage_counts();
   result.shadow_seconds = cpu_seconds() - start - result.scene_bsp_seconds;
   return result;
+}
+
+template <LightSpaceModel Space>
+Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
+                                            const ShadowOptions& options,
+                                            const std::vector<std::uint32_t>& lights) {
+  if (options.algorithm == Algorithm::kSectors ||
+      (options.algorithm == Algorithm::kAutomatic && !options.combined)) {
+    return compute_by_sectors<Space>(scene, options, lights, empty_result<Space>(options));
+  }
+  return compute_by_svbsp<Space>(scene, options, lights);
 }
 
 }  // namespace gnomon

@@ -6,12 +6,13 @@
 #include <algorithm>
 
 #include "gnomon/algorithms/svbsp.h"
+#include "sliver.h"
 
 namespace gnomon {
 
 template <LightSpaceModel Space>
-SvbspTree<Space>::SvbspTree(Space& space, bool merge_siblings)
-    : space_(&space), merge_siblings_(merge_siblings), nodes_(1) {}
+SvbspTree<Space>::SvbspTree(Space& space, bool merge_siblings, bool drops_slivers)
+    : space_(&space), merge_siblings_(merge_siblings), drops_slivers_(drops_slivers), nodes_(1) {}
 
 template <LightSpaceModel Space>
 void SvbspTree<Space>::plant(const PrefixTree& prefix) {
@@ -66,12 +67,12 @@ void SvbspTree<Space>::filter(const LoopView<Vertex>& loop, FilterActions action
           const SplitChildren children = make_children(*space_, plane, parent_.view(copy, support),
                                                        record_, crossings_, work_);
           // The front child was appended last and is taken first, so that the loops are a stack.
-          if (children.back.count >= 3) {
+          if (is_kept(children.back, support)) {
             stack_.push_back({node, false, false, children.back, 0});
           } else {
             ++vanished_;
           }
-          if (children.front.count >= 3) {
+          if (is_kept(children.front, support)) {
             stack_.push_back({node, true, false, children.front, 0});
           } else {
             ++vanished_;
@@ -91,6 +92,12 @@ void SvbspTree<Space>::filter(const LoopView<Vertex>& loop, FilterActions action
     if (cell == kOut && actions.insert) insert(frame, fragment, loop);
     work_.truncate(frame.loop.first);
   }
+}
+
+template <LightSpaceModel Space>
+bool SvbspTree<Space>::is_kept(const LoopRange& child, PlaneId support) const {
+  if (child.count < 3) return false;
+  return !drops_slivers_ || !is_sliver(*space_, work_.view(child, support));
 }
 
 template <LightSpaceModel Space>

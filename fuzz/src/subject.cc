@@ -42,6 +42,26 @@ std::string names_in(const Table& table) {
   return names;
 }
 
+/// A mistake that its kernel and its algorithms cannot make would be looked for in vain.
+Expected<void> check_mutation(const Subject& subject, const std::string& whole) {
+  const std::string mutation(name_of(subject.mutation));
+  if (subject.mutation == Mutation::kTVerticesLeftIn) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': " + mutation + " is a mistake of meshes",
+                "a mistake of shadows; --zoo looks for this one");
+  }
+  if (subject.mutation == Mutation::kThicknessTooSmall && subject.kernel.thin) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': its planes have no thickness anyway",
+                "a kernel without +thin");
+  }
+  const KernelId kernel = subject.kernel.kernel;
+  if (!applies_to(subject.mutation, kernel, subject.algorithm) &&
+      !applies_to(subject.mutation, kernel, subject.area_algorithm)) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': " + mutation + " changes nothing there",
+                "a kernel and an algorithm that it applies to (docs/bug-zoo.md)");
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string name_of(const Subject& subject) {
@@ -107,6 +127,9 @@ Expected<Subject> parse_subject(std::string_view text) {
                   "one of: " + names_in(kAreaAlgorithms));
     }
     subject.area_algorithm = *algorithm;
+  }
+  if (const auto checked = check_mutation(subject, whole); !checked) {
+    return tl::unexpected(checked.error());
   }
   return subject;
 }

@@ -207,8 +207,7 @@ typename CoordinateLightSpace<T>::Chart CoordinateLightSpace<T>::make_chart(
 }
 
 template <class T>
-Sign CoordinateLightSpace<T>::light_side(PlaneId id) const {
-  const CoordinatePlane<T>& plane = this->scene().support(id);
+Sign CoordinateLightSpace<T>::light_side_of(const CoordinatePlane<T>& plane) const {
   const T value = coordinate_detail::dot(plane.n, light_);
   if (directional_) {
     // The thickness of a plane of the scene's size, as an angle to a direction.

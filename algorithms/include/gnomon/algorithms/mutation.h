@@ -27,6 +27,9 @@ enum class Mutation : std::uint8_t {
   kOnSwapped,                    // what lies on a plane put on the other side
 };
 
+/// What kThicknessTooLarge makes of ShadowOptions::thickness.
+inline constexpr double kThicknessTooLarge = 0x1p-7;
+
 struct MutationInfo {
   Mutation mutation = Mutation::kNone;
   std::string_view name;     // such as "coplanar-in-sequence"

@@ -58,8 +58,14 @@ struct ShadowOptions {
   const std::atomic<bool>* interrupted = nullptr;  // checked between polygons
 };
 
+/// Whether a mistake is one that this algorithm can make on this kernel, for point and directional
+/// lights, and for area lights. Of kNone it is true.
+bool applies_to(Mutation mutation, KernelId kernel, Algorithm algorithm);
+bool applies_to(Mutation mutation, KernelId kernel, AreaAlgorithm algorithm);
+
 /// Classifies every part for every light asked for. Errors: kUsage (no such light, a thickness
-/// outside [0, 1)), kInterrupted, kLimit (max_fragments; more than 64 lights with `combined`).
+/// outside [0, 1), a mutation that changes nothing for any of the lights), kInterrupted, kLimit
+/// (max_fragments; more than 64 lights with `combined`).
 Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options);
 
 }  // namespace gnomon

@@ -75,7 +75,9 @@ SplitChildren make_children(const Space& space, PlaneRef plane,
                             LoopStore<typename Space::Vertex>& store) {
   using Vertex = typename Space::Vertex;
   const std::uint32_t n = loop.size();
-  // Each crossing is constructed once and shared by both children.
+  // Each crossing is constructed once and shared by both children (but where a kernel is wrong on
+  // purpose: mutant_space.h).
+  constexpr bool kShared = !requires { Space::kVerticesPerSide; };
   crossings.clear();
   for (std::uint32_t i = 0; i < n; ++i) {
     const Side here = record.side(i), there = record.side(loop.next(i));
@@ -96,7 +98,14 @@ SplitChildren make_children(const Space& space, PlaneRef plane,
       }
       if (here != Side::kOn && there == opposite(here)) {
         const Vertex& vertex = crossings[crossing++];
-        store.push(vertex, here == kept ? cut : loop.edges[i]);
+        if constexpr (kShared) {
+          store.push(vertex, here == kept ? cut : loop.edges[i]);
+        } else {
+          const Corner<Vertex> from = loop.corner(i), to = loop.corner(loop.next(i));
+          store.push(here == kept ? space.crossing(plane, loop.edges[i], true, from, to)
+                                  : space.crossing(plane, loop.edges[i], true, to, from),
+                     here == kept ? cut : loop.edges[i]);
+        }
       }
     }
     range.count = store.size() - range.first;

@@ -50,7 +50,8 @@ class SvbspTree {
  public:
   using Vertex = typename Space::Vertex;
 
-  SvbspTree(Space& space, bool merge_siblings);
+  /// `drops_slivers`: Mutation::kSliversDropped.
+  SvbspTree(Space& space, bool merge_siblings, bool drops_slivers = false);
 
   /// Puts the balanced prefix at the top. Requires: nothing inserted yet.
   void plant(const PrefixTree& prefix);
@@ -86,12 +87,13 @@ class SvbspTree {
   std::int32_t& child(const Frame& frame) {
     return frame.front ? nodes_[frame.node].front : nodes_[frame.node].back;
   }
+  bool is_kept(const LoopRange& child, PlaneId support) const;
   void insert(const Frame& frame, const LoopView<Vertex>& fragment,
               const LoopView<Vertex>& original);
   void try_merge(const Frame& frame, PlaneId support, SvbspOutput<Vertex>& output);
 
   Space* space_;
-  bool merge_siblings_;
+  bool merge_siblings_, drops_slivers_;
   std::vector<Node> nodes_;  // 0 is a sentinel whose front child is the root
   std::uint64_t vanished_ = 0;
   // Scratch of filter(), kept to save allocations.

@@ -34,7 +34,8 @@ struct Subject {
 /// "plane/svbsp/merged" or "plane/svbsp~coplanar-in-sequence"; algorithms that are the default are
 /// left out. A foreign program's name is "command:" and its command line.
 std::string name_of(const Subject& subject);
-/// Errors: kUsage, with the names that there are.
+/// Errors: kUsage, with the names that there are; for a mutation that changes nothing of what that
+/// kernel and those algorithms do.
 Expected<Subject> parse_subject(std::string_view text);
 
 /// Options that run it: exact points kept, exact fractions if it has them, one thread.

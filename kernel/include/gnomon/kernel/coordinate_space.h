@@ -121,7 +121,8 @@ class CoordinateLightSpace
 
   CoordinateLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options);
 
-  Sign light_side(PlaneId plane) const;
+  Sign light_side(PlaneId plane) const { return light_side_of(this->scene().support(plane)); }
+  Sign light_side_of(const CoordinatePlane<T>& plane) const;
   PlaneRef add_prefix_plane(const PrefixPlane& plane);
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   /// Scene units.

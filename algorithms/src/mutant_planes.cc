@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "mutant_space.h"
+#include "shadow_kernels.h"
+#include "shadows_impl.h"
+
+namespace gnomon {
+
+ShadowOutcome shadows_planes_from_fragments(const PreparedScene& scene,
+                                            const ShadowOptions& options, const LightList& lights) {
+  ShadowOptions own = options;
+  own.identity = false;
+  return compute_by_svbsp<FragmentPlanesLightSpace<double>>(scene, own, lights);
+}
+
+}  // namespace gnomon

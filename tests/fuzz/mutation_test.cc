@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mutations by hand: small scenes with numbers that can be checked in the head, on which the mutant
+// fails in the way that is expected and the sound kernel does not; and no mutation that does
+// nothing in silence.
+#include "gnomon/algorithms/mutation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "gnomon/fuzz/check.h"
+#include "gnomon/fuzz/subject.h"
+#include "gnomon/scene/prepare.h"
+#include "scene_pen.h"
+#include "solve.h"
+
+namespace gnomon::fuzz {
+namespace {
+
+using test::ScenePen;
+using testing::HasSubstr;
+
+/// The class of the first failure of the oracle's regions; empty if there is none.
+std::string failure(const Scene& scene, const std::string& subject) {
+  CheckOptions options;
+  const auto parsed = parse_subject(subject);
+  EXPECT_TRUE(parsed) << to_string(parsed.error());
+  options.subjects = {*parsed};
+  options.properties = {Property::kOracle, Property::kRefusal, Property::kBudget};
+  const CaseReport report = check_scene(scene, options);
+  return report.failures.empty() ? "" : report.failures.front().disagreement;
+}
+
+void expect_shown(const Scene& scene, const std::string& sound, const std::string& mutation,
+                  const std::string& disagreement = "misclassified") {
+  SCOPED_TRACE(sound + '~' + mutation);
+  EXPECT_EQ(failure(scene, sound), "");
+  EXPECT_EQ(failure(scene, sound + '~' + mutation), disagreement);
+}
+
+/// Two tiles of one plane that overlap in [1, 2] x [0, 2].
+Scene tiles() {
+  ScenePen pen;
+  pen.polygon({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
+  pen.polygon({{1, 0, 0}, {3, 0, 0}, {3, 2, 0}, {1, 2, 0}});
+  return pen.lamp({1, 1, 4}).take();
+}
+
+TEST(Mutations, CoplanarInSequence) {
+  for (const char* sound : {"plane/svbsp", "rational/svbsp", "double/svbsp"}) {
+    expect_shown(tiles(), sound, "coplanar-in-sequence");
+  }
+}
+
+TEST(Mutations, OnSwapped) {
+  for (const char* sound : {"plane/svbsp", "plane", "rational", "double"}) {
+    expect_shown(tiles(), sound, "on-swapped");
+  }
+  expect_shown(test::regression_scene("y_receiver_in_umbra_plane"), "plane", "on-swapped");
+}
+
+TEST(Mutations, LightInPlaneFaces) {
+  ScenePen pen;
+  pen.polygon({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
+  const Scene scene = pen.lamp({4, 1, 0}).take();
+  for (const char* sound : {"rational/svbsp", "double/svbsp", "plane/receiver"}) {
+    expect_shown(scene, sound, "light-in-plane-faces");
+  }
+}
+
+TEST(Mutations, StraddlingLightFaces) {
+  for (const char* sound : {"plane", "rational", "plane/sectors/merged"}) {
+    expect_shown(test::regression_scene("y_light_cut_by_receiver"), sound,
+                 "straddling-light-faces");
+  }
+}
+
+/// A tile of 1 over a floor of 100, whose thickness is then more than 1.
+TEST(Mutations, ThicknessTooLarge) {
+  ScenePen pen;
+  pen.polygon({{0, 0, 0}, {100, 0, 0}, {100, 100, 0}, {0, 100, 0}});
+  pen.polygon({{50, 50, 8}, {51, 50, 8}, {51, 51, 8}, {50, 51, 8}});
+  const Scene scene = pen.lamp({50, 50, 100}).take();
+  for (const char* sound : {"double", "double/svbsp", "longdouble"}) {
+    expect_shown(scene, sound, "thickness-too-large");
+  }
+}
+
+/// A blade that casts a strip as thin as 1/100 of its length. The SVBSP tree loses fragments of the
+/// blade, too, and with them their shadow.
+TEST(Mutations, SliversDropped) {
+  ScenePen pen;
+  pen.polygon({{0, 0, 0}, {100, 0, 0}, {100, 100, 0}, {0, 100, 0}});
+  pen.polygon({{0, 50, 1}, {100, 50, 1}, {100, 51, 1}, {0, 51, 1}});
+  const Scene scene = pen.sun({0, 0, 1}).take();
+  expect_shown(scene, "plane/svbsp", "slivers-dropped");
+  for (const char* sound : {"plane", "plane/receiver", "double"}) {
+    expect_shown(scene, sound, "slivers-dropped", "uncovered");
+  }
+}
+
+TEST(Mutations, NoneDoesNothingInSilence) {
+  const auto message = [](const char* name) {
+    const auto subject = parse_subject(name);
+    return subject ? std::string("accepted") : to_string(subject.error());
+  };
+  EXPECT_THAT(message("plane~coplanar-in-sequence"), HasSubstr("changes nothing"));
+  EXPECT_THAT(message("plane/svbsp~planes-from-fragments"), HasSubstr("changes nothing"));
+  EXPECT_THAT(message("plane~union-without-continued-planes"), HasSubstr("changes nothing"));
+  EXPECT_THAT(message("double+thin~thickness-too-small"), HasSubstr("no thickness anyway"));
+  EXPECT_THAT(message("plane~t-vertices-left-in"), HasSubstr("mistake of meshes"));
+  // The subject is one, but not of this scene's lights.
+  ScenePen pen;
+  pen.polygon({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
+  const auto scene = prepare(pen.lamp({1, 1, 4}).take()).value();
+  const auto subject = parse_subject("plane~straddling-light-faces");
+  ASSERT_TRUE(subject);
+  const auto result = compute_shadows(scene, shadow_options(*subject));
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::kUsage);
+}
+
+/// Each changes something for some kernel, and kNone is accepted everywhere.
+TEST(Mutations, ApplySomewhere) {
+  for (const MutationInfo& info : mutations()) {
+    bool applies = info.mutation == Mutation::kTVerticesLeftIn;
+    for (const KernelInfo& kernel : kernel_list()) {
+      for (const Algorithm algorithm :
+           {Algorithm::kSvbsp, Algorithm::kSectors, Algorithm::kReceiver}) {
+        applies = applies || applies_to(info.mutation, kernel.id, algorithm);
+        EXPECT_TRUE(applies_to(Mutation::kNone, kernel.id, algorithm));
+      }
+      for (const AreaAlgorithm algorithm : {AreaAlgorithm::kReceiver, AreaAlgorithm::kMerged}) {
+        applies = applies || applies_to(info.mutation, kernel.id, algorithm);
+      }
+      EXPECT_FALSE(applies_to(info.mutation, kernel.id, AreaAlgorithm::kPieces));
+    }
+    EXPECT_TRUE(applies) << info.name;
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::fuzz
