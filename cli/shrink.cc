@@ -19,6 +19,7 @@
 
 #include "commands.h"
 #include "gnomon/fuzz/check.h"
+#include "gnomon/fuzz/finding.h"
 #include "gnomon/fuzz/still_fails.h"
 #include "gnomon/report/json_writer.h"
 #include "gnomon/scene/read.h"
@@ -48,6 +49,7 @@ struct ShrinkCommand {
   std::uint64_t seed = 1;
   double seconds = 0;
   std::string output;
+  std::string findings;
 };
 
 /// Tried in this order where no subject is named.
@@ -216,6 +218,9 @@ class ShrinkRun {
     } else {
       say("stopped before it was locally minimal\n");
     }
+    if (!options_.findings.empty() && !interrupted()) {
+      if (auto done = keep(result); !done) return report_error(done.error());
+    }
     return interrupted() ? kInterruptedStatus : kDone;
   }
 
@@ -239,6 +244,19 @@ class ShrinkRun {
     if (!options_.property.empty()) text += "; property " + options_.property;
     if (!options_.disagreement.empty()) text += "; class " + options_.disagreement;
     return text;
+  }
+
+  Expected<void> keep(const fuzz::ShrinkResult& result) const {
+    fuzz::Finding finding;
+    finding.scene = result.scene;
+    finding.original = origin_;
+    finding.failure = failure_;
+    finding.check = check_;
+    finding.locally_minimal = result.locally_minimal;
+    const auto place = fuzz::write_finding(options_.findings, finding);
+    if (!place) return tl::unexpected(place.error());
+    say("finding: " + place->string() + "\n");
+    return {};
   }
 
   Expected<void> write(const Scene& best) const {
@@ -335,6 +353,11 @@ void add_shrink_command(CLI::App& app, Action& action) {
       .add_option("-o,--output", options->output,
                   "Scene file, written after every improvement; standard output if absent")
       ->type_name("FILE");
+  command
+      .add_option("--findings", options->findings,
+                  "Also write it as a finding, a folder below DIR: pictures, verdict, first "
+                  "differing decision")
+      ->type_name("DIR");
   command.callback([options, &action] { action = [options] { return run_shrink(*options); }; });
 }
 

@@ -16,6 +16,7 @@
 #include "gnomon/scene/write.h"
 #include "scene_coordinates.h"
 #include "scene_steps.h"
+#include "text_hash.h"
 
 namespace gnomon::fuzz {
 
@@ -29,12 +30,6 @@ constexpr std::array kSmallValues = {0, 1, 2, 3, 4, -1, -2};
 /// Other coordinates of the same axis that a coordinate is set to, the nearest first.
 constexpr std::size_t kMostNeighbours = 8;
 constexpr std::size_t kAxes = 3;
-
-std::uint64_t fingerprint(std::string_view text) {  // FNV-1a
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
 
 std::uint64_t repairs_of(const PreparedScene& prepared) {
   return static_cast<std::uint64_t>(
@@ -136,7 +131,7 @@ class Shrinker {
     if (!any_size && !(size < size_)) return false;
     const auto text = scene_to_text(candidate, SceneFormat::kJson);
     if (!text) return false;  // a decimal of too many digits
-    if (!tried_.insert(fingerprint(text->text)).second) {
+    if (!tried_.insert(text_hash(text->text)).second) {
       ++result_.repeated;
       return false;
     }
@@ -632,7 +627,7 @@ std::string fingerprint_of(const Scene& scene) {
   plain.name.clear();
   plain.extra.clear();
   const auto text = scene_to_text(plain, SceneFormat::kJson);
-  return fmt::format("{:016x}", text ? fingerprint(text->text) : 0);
+  return fmt::format("{:016x}", text ? text_hash(text->text) : 0);
 }
 
 ShrinkResult shrink(Scene scene, const StillFails& fails, const ShrinkOptions& options) {

@@ -59,6 +59,19 @@ TEST(Shrink, WithoutAFileTheSceneIsStandardOutput) {
   EXPECT_THAT(run.err, AllOf(HasSubstr(" fails: "), HasSubstr("locally minimal")));
 }
 
+TEST(Shrink, AFindingIsAFolder) {
+  const TestDirectory directory;
+  const RunResult run = run_gnomon({"shrink", kRoom, "--kernel", "float", "--findings",
+                                    directory.file("found"), "-o", directory.file("small.json")});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const std::size_t at = run.out.find("finding: ");
+  ASSERT_NE(at, std::string::npos) << run.out;
+  std::string place = run.out.substr(at + 9);
+  place.resize(place.find('\n'));
+  EXPECT_THAT(read_text(place + "/README.md"), HasSubstr("gnomon replay oracle-"));
+  EXPECT_EQ(run_gnomon({"certify", place + "/scene.json", "--kernel", "float"}).status, 1);
+}
+
 TEST(Shrink, WhatDoesNotFailIsAnAnswer) {
   const RunResult run = run_gnomon({"shrink", kRoom, "--kernel", "plane"});
   EXPECT_EQ(run.status, 0);

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "finding_text.h"
+
+#include <fmt/format.h>
+#include <rapidjson/document.h>
+#include <rapidjson/error/en.h>
+
+#include <string_view>
+#include <utility>
+
+#include "gnomon/fuzz/shrink.h"
+#include "gnomon/fuzz/still_fails.h"
+#include "gnomon/report/certificate.h"
+#include "gnomon/report/json_writer.h"
+#include "gnomon/report/number_text.h"
+#include "gnomon/report/text_sink.h"
+#include "gnomon/scene/text_file.h"
+
+namespace gnomon::fuzz {
+
+namespace {
+
+using report::JsonLayout;
+using report::JsonWriter;
+
+constexpr std::string_view kFormatName = "gnomon-finding";
+constexpr int kVersion = 1;
+
+const Subject* subject_of(const Finding& finding) {
+  for (const Subject& subject : finding.check.subjects) {
+    if (name_of(subject) == finding.failure.subject) return &subject;
+  }
+  return nullptr;
+}
+
+void write_witness(JsonWriter& json, const oracle::Witness& witness) {
+  json.begin_object(JsonLayout::kInline);
+  json.member("light", witness.light);
+  json.member("polygon", witness.polygon);
+  json.member("side", std::string_view(name_of(witness.side)));
+  json.member("kind", std::string_view(name_of(witness.kind)));
+  json.key("point");
+  json.begin_array(JsonLayout::kInline);
+  for (const mpq_class& coordinate : witness.point) json.value(coordinate.get_str());
+  json.end_array();
+  json.key("nearest");
+  json.begin_array(JsonLayout::kInline);
+  for (const double coordinate : witness.nearest) json.value(coordinate);
+  json.end_array();
+  json.key("found");
+  if (witness.found) {
+    json.value(std::string_view(name_of(*witness.found)));
+  } else {
+    json.null();
+  }
+  json.key("true");
+  if (witness.truth) {
+    json.value(std::string_view(name_of(*witness.truth)));
+  } else {
+    json.null();
+  }
+  json.member("caster", witness.caster);
+  json.member("width", witness.width.upper);
+  json.end_object();
+}
+
+void write_size(JsonWriter& json, std::string_view key, const Scene& scene) {
+  const SceneSize size = size_of(scene);
+  json.key(key);
+  json.begin_object(JsonLayout::kInline);
+  json.member("polygons", size.polygons);
+  json.member("lights", size.lights);
+  json.member("vertices", size.vertices);
+  json.member("bits", size.bits);
+  json.member("fingerprint", fingerprint_of(scene));
+  json.end_object();
+}
+
+}  // namespace
+
+std::string short_verdict(const Finding& finding) {
+  report::StringSink sink;
+  {
+    JsonWriter json(sink);
+    json.begin_object(JsonLayout::kInline);
+    json.member("fails", finding.failure.signature());
+    json.member("text", finding.failure.text);
+    json.end_object();
+  }
+  return sink.text();
+}
+
+std::string verdict_text(const Finding& finding, const Evidence& evidence) {
+  report::StringSink sink;
+  JsonWriter json(sink);
+  const Failure& failure = evidence.failure;
+  json.begin_object();
+  json.member("format", kFormatName);
+  json.member("version", kVersion);
+  json.member("gnomon", GNOMON_VERSION);
+  json.key("failure");
+  json.begin_object();
+  json.member("property", id_of(failure.property));
+  json.member("class", failure.disagreement);
+  json.member("subject", failure.subject);
+  json.member("light", failure.light);
+  json.member("polygon", failure.polygon);
+  json.member("text", failure.text);
+  json.member("width", failure.width);
+  json.member("share", failure.share);
+  json.member("shown_again", evidence.shown_again);
+  json.end_object();
+  json.key("check");
+  json.begin_object();
+  json.key("subjects");
+  json.begin_array(JsonLayout::kInline);
+  for (const Subject& subject : finding.check.subjects) json.value(name_of(subject));
+  json.end_array();
+  json.member("tolerance", finding.check.tolerance);
+  json.key("width");
+  if (finding.check.width) {
+    json.value(*finding.check.width);
+  } else {
+    json.null();
+  }
+  json.member("strict", finding.check.strict);
+  json.member("seed", finding.check.seed);
+  json.member("max_fragments", finding.check.max_fragments);
+  json.member("command_seconds", finding.check.command_seconds);
+  json.member("command_megabytes", finding.check.command_megabytes);
+  json.member("seconds", finding.seconds);
+  json.member("megabytes", finding.megabytes);
+  json.end_object();
+  json.key("origin");
+  json.begin_object(JsonLayout::kInline);
+  json.member("generator", finding.generator);
+  json.member("recipe", finding.recipe);
+  json.member("campaign_seed", finding.campaign_seed);
+  json.member("case_index", finding.case_index);
+  json.member("case_seed", finding.case_seed);
+  json.end_object();
+  json.member("locally_minimal", finding.locally_minimal);
+  write_size(json, "scene", finding.scene);
+  write_size(json, "original", finding.original);
+  json.key("witness");
+  if (evidence.witness) {
+    write_witness(json, *evidence.witness);
+  } else {
+    json.null();
+  }
+  json.member("first_decision", evidence.decision);
+  json.member("note", evidence.decision_note);
+  json.end_object();
+  json.finish();
+  return sink.text();
+}
+
+std::string readme_text(const Finding& finding, const Evidence& evidence, const std::string& name) {
+  const Failure& failure = evidence.failure;
+  const Subject* subject = subject_of(finding);
+  const PropertyInfo& property = properties()[static_cast<std::size_t>(failure.property)];
+  std::string text = fmt::format("# {}: {}\n\n{}\n\n| | |\n|---|---|\n", failure.subject,
+                                 failure.disagreement, failure.text);
+  const auto row = [&](std::string_view key, const std::string& value) {
+    text += fmt::format("| {} | {} |\n", key, value);
+  };
+  row("property", fmt::format("`{}`: {}", property.id, property.meaning));
+  row("class", failure.disagreement);
+  row("subject", fmt::format("`{}`", failure.subject));
+  if (evidence.witness) {
+    row("worst place", report::place_in_words(*evidence.witness));
+  } else if (!failure.light.empty() || !failure.polygon.empty()) {
+    row("where", fmt::format("light {}, polygon {}", failure.light, failure.polygon));
+  }
+  if (failure.share > 0) {
+    row("wrong", fmt::format("{} of the polygon; widest region of error {} scene units",
+                             report::percent(failure.share), report::rounded(failure.width)));
+  }
+  row("scene",
+      fmt::format("[scene.json](scene.json): {}{}", size_in_words(size_of(finding.scene)),
+                  finding.locally_minimal ? "; locally minimal" : "; not yet locally minimal"));
+  row("found as",
+      fmt::format("[original.json](original.json): {}", size_in_words(size_of(finding.original))));
+  if (!finding.generator.empty()) {
+    row("made by",
+        fmt::format("generator `{}`, recipe `{}`; campaign seed {}, case {}, its seed {}",
+                    finding.generator, finding.recipe, finding.campaign_seed, finding.case_index,
+                    finding.case_seed));
+  }
+  row("checked with", fmt::format("gnomon {}; tolerance {}, width {}{}", GNOMON_VERSION,
+                                  report::shortest(finding.check.tolerance),
+                                  finding.check.width ? report::shortest(*finding.check.width)
+                                                      : "1e-9 of the scene's diagonal",
+                                  finding.check.strict ? ", strict" : ""));
+  if (!evidence.shown_again && subject != nullptr && evidence.no_candidate.empty()) {
+    text += "\nIt did not show again when this was written.\n";
+  }
+
+  text += "\n## What it says, and what is true\n\n";
+  if (!evidence.candidate_svg.empty()) {
+    text += fmt::format("![The answer of {}](candidate.svg)\n", failure.subject);
+  } else if (!evidence.no_candidate.empty()) {
+    text += fmt::format("There is no picture of its answer: {}.\n\n", evidence.no_candidate);
+  }
+  if (!evidence.exact_svg.empty()) text += "![The exact answer](exact.svg)\n";
+  if (evidence.witness) {
+    text +=
+        "\nThe ring marks the worst place; what is wrong is in the signal colour where it is wide "
+        "enough to be seen.\n";
+  }
+
+  text += "\n## The first decision that differs\n\n";
+  if (!evidence.decision.empty()) text += evidence.decision + "\n";
+  if (!evidence.decision_note.empty()) {
+    text += (evidence.decision.empty() ? "" : "\n") + evidence.decision_note + "\n";
+  }
+
+  text += fmt::format("\n## Again\n\n```\ngnomon replay {}\n", name);
+  if (failure.property == Property::kOracle && subject != nullptr) {
+    if (subject->foreign()) {
+      text += fmt::format("gnomon certify {}/scene.json --candidate {}/result.json\n", name, name);
+    } else if (subject->mutation == Mutation::kNone) {
+      text +=
+          fmt::format("gnomon certify {}/scene.json --kernel {}{}\n", name, subject->kernel.name(),
+                      subject->algorithm == Algorithm::kSvbsp ? " --algorithm svbsp" : "");
+    }
+  }
+  text += "```\n";
+  if (!evidence.fixture.empty()) {
+    text +=
+        "\n[fixture.json](fixture.json) is the scene with the exact fractions of every polygon "
+        "side, for a corpus.\n";
+  } else if (!evidence.no_fixture.empty()) {
+    text += fmt::format("\nThere is no fixture: {}.\n", evidence.no_fixture);
+  }
+  return text;
+}
+
+namespace {
+
+/// Reads members by name; what is missing or of another type is an error with its pointer.
+class Members {
+ public:
+  Members(const rapidjson::Value& object, std::string file, std::string pointer)
+      : object_(object), file_(std::move(file)), pointer_(std::move(pointer)) {}
+
+  template <class Value>
+  bool read(const char* key, Value& value) {
+    const auto place = object_.FindMember(key);
+    if (place == object_.MemberEnd() || !get(place->value, value)) {
+      if (!error_)
+        error_ = Error{ErrorCode::kFormat,
+                       {file_, 0, 0, pointer_ + "/" + key},
+                       fmt::format("\"{}\" is missing, or not what it should be", key),
+                       "a verdict as `gnomon fuzz` writes it"};
+      return false;
+    }
+    return true;
+  }
+  const rapidjson::Value* object(const char* key) {
+    const auto place = object_.FindMember(key);
+    return place != object_.MemberEnd() && place->value.IsObject() ? &place->value : nullptr;
+  }
+  const std::optional<Error>& error() const { return error_; }
+
+ private:
+  static bool get(const rapidjson::Value& json, std::string& value) {
+    if (!json.IsString()) return false;
+    value.assign(json.GetString(), json.GetStringLength());
+    return true;
+  }
+  static bool get(const rapidjson::Value& json, bool& value) {
+    if (!json.IsBool()) return false;
+    value = json.GetBool();
+    return true;
+  }
+  static bool get(const rapidjson::Value& json, double& value) {
+    if (!json.IsNumber()) return false;
+    value = json.GetDouble();
+    return true;
+  }
+  static bool get(const rapidjson::Value& json, std::optional<double>& value) {
+    if (json.IsNull()) return true;
+    if (!json.IsNumber()) return false;
+    value = json.GetDouble();
+    return true;
+  }
+  static bool get(const rapidjson::Value& json, std::uint64_t& value) {
+    if (!json.IsUint64()) return false;
+    value = json.GetUint64();
+    return true;
+  }
+  static bool get(const rapidjson::Value& json, std::vector<std::string>& value) {
+    if (!json.IsArray()) return false;
+    for (const auto& element : json.GetArray()) {
+      std::string text;
+      if (!get(element, text)) return false;
+      value.push_back(std::move(text));
+    }
+    return true;
+  }
+
+  const rapidjson::Value& object_;
+  std::string file_, pointer_;
+  std::optional<Error> error_;
+};
+
+}  // namespace
+
+Expected<Finding> parse_verdict(const std::string& text, const std::string& file) {
+  const auto wrong = [&](std::string what, std::string expected) {
+    return fail(ErrorCode::kFormat, std::move(what), std::move(expected), {file, 0, 0, {}});
+  };
+  rapidjson::Document document;
+  document.Parse<rapidjson::kParseIterativeFlag | rapidjson::kParseFullPrecisionFlag>(text.data(),
+                                                                                      text.size());
+  if (document.HasParseError()) {
+    return fail(ErrorCode::kSyntax, rapidjson::GetParseError_En(document.GetParseError()), {},
+                place_in_text(file, text, document.GetErrorOffset()));
+  }
+  if (!document.IsObject()) return wrong("not an object", "a verdict");
+  Members root(document, file, "");
+  std::string format;
+  std::uint64_t version = 0;
+  if (!root.read("format", format) || !root.read("version", version)) {
+    return tl::unexpected(*root.error());
+  }
+  if (format != kFormatName || version != kVersion) {
+    return wrong("not a finding of version 1", "\"format\": \"gnomon-finding\", \"version\": 1");
+  }
+  const auto* failure = root.object("failure");
+  const auto* check = root.object("check");
+  const auto* origin = root.object("origin");
+  if (failure == nullptr || check == nullptr || origin == nullptr) {
+    return wrong("\"failure\", \"check\" or \"origin\" is missing", "three objects");
+  }
+
+  Finding finding;
+  std::string property;
+  Members f(*failure, file, "/failure");
+  f.read("property", property);
+  f.read("class", finding.failure.disagreement);
+  f.read("subject", finding.failure.subject);
+  f.read("light", finding.failure.light);
+  f.read("polygon", finding.failure.polygon);
+  f.read("text", finding.failure.text);
+  f.read("width", finding.failure.width);
+  f.read("share", finding.failure.share);
+  std::vector<std::string> subjects;
+  Members c(*check, file, "/check");
+  c.read("subjects", subjects);
+  c.read("tolerance", finding.check.tolerance);
+  c.read("width", finding.check.width);
+  c.read("strict", finding.check.strict);
+  c.read("seed", finding.check.seed);
+  c.read("max_fragments", finding.check.max_fragments);
+  c.read("command_seconds", finding.check.command_seconds);
+  c.read("command_megabytes", finding.check.command_megabytes);
+  c.read("seconds", finding.seconds);
+  c.read("megabytes", finding.megabytes);
+  Members o(*origin, file, "/origin");
+  o.read("generator", finding.generator);
+  o.read("recipe", finding.recipe);
+  o.read("campaign_seed", finding.campaign_seed);
+  o.read("case_index", finding.case_index);
+  o.read("case_seed", finding.case_seed);
+  root.read("locally_minimal", finding.locally_minimal);
+  for (const Members* members : {&root, &f, &c, &o}) {
+    if (members->error()) return tl::unexpected(*members->error());
+  }
+  const auto known = property_by_id(property);
+  if (!known) return wrong("no such property: " + property, "an id of a property");
+  finding.failure.property = *known;
+  finding.check.properties = {*known};
+  for (const std::string& name : subjects) {
+    auto subject = parse_subject(name);
+    if (!subject) return tl::unexpected(subject.error());
+    finding.check.subjects.push_back(std::move(*subject));
+  }
+  return finding;
+}
+
+}  // namespace gnomon::fuzz
