@@ -9,7 +9,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "area_check.h"
@@ -119,6 +121,75 @@ TEST_P(RejectedFile, IsRejectedAsRecorded) {
 
 INSTANTIATE_TEST_SUITE_P(Corpus, RejectedFile, testing::ValuesIn(fixtures_of(true)), test_name);
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(RejectedFile);
+
+/// A scene up to names, and up to where its loops and lists begin: what prepare() makes of it, on
+/// the grid that starts at the box's corner.
+std::string shape_of(const Fixture& fixture) {
+  const auto prepared = prepare(fixture.scene);
+  if (!prepared) return fixture.name;
+  const GridPositions& grid = prepared->geometry.grid;
+  std::vector<std::string> polygons;
+  for (const Part& part : prepared->parts) {
+    std::vector<std::string> corners;
+    for (const VertexId vertex : prepared->loop(part)) {
+      corners.push_back(grid.at(vertex, 0).get_str() + ' ' + grid.at(vertex, 1).get_str() + ' ' +
+                        grid.at(vertex, 2).get_str());
+    }
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::string text;
+    for (const std::string& corner : corners) text += '(' + corner + ')';
+    polygons.push_back(text);
+  }
+  std::ranges::sort(polygons);
+  std::string text = prepared->geometry.step.get_str();
+  for (const std::string& polygon : polygons) text += '\n' + polygon;
+  for (const PreparedLight& light : prepared->lights) {
+    text += "\nlight";
+    for (const auto& component : light.point.grid) text += ' ' + component.get_str();
+    for (const auto& corner : light.area_loop) {
+      for (const auto& component : corner) text += ' ' + component.get_str();
+    }
+  }
+  return text;
+}
+
+TEST(Corpus, HoldsNoSceneTwice) {
+  std::map<std::string, std::string> known;
+  for (const Fixture* fixture : fixtures_of(false)) {
+    const auto [place, is_new] = known.emplace(shape_of(*fixture), fixture->name);
+    EXPECT_TRUE(is_new) << fixture->name << " is " << place->second;
+  }
+  std::set<std::string> sentences;
+  for (const Fixture& fixture : corpus()) {
+    EXPECT_TRUE(sentences.insert(fixture.shows).second) << fixture.name << ": a known sentence";
+  }
+}
+
+TEST(Corpus, IsLargeEnough) {
+  std::size_t scenes = 0, informing = 0, rejected = 0;
+  std::set<std::string> kinds, names;
+  for (const Fixture& fixture : corpus()) {
+    ++(fixture.expectation == Expectation::kReject ? rejected : scenes);
+    informing += fixture.expectation == Expectation::kInform ? 1 : 0;
+    kinds.insert(fixture.kind);
+    names.insert(fixture.name);
+  }
+  EXPECT_GE(scenes, 160u);
+  EXPECT_GE(informing, 70u);
+  EXPECT_GE(rejected, 40u);
+  EXPECT_GE(kinds.size(), 45u);
+  EXPECT_EQ(names.size(), corpus().size());
+}
+
+TEST(Corpus, RejectsForEveryReason) {
+  std::set<ErrorCode> codes;
+  for (const Fixture* fixture : fixtures_of(true)) codes.insert(fixture->error.code);
+  for (const ErrorCode code :
+       {ErrorCode::kSyntax, ErrorCode::kFormat, ErrorCode::kNumber, ErrorCode::kIndex,
+        ErrorCode::kId, ErrorCode::kGeometry, ErrorCode::kLimit}) {
+    EXPECT_TRUE(codes.contains(code)) << error_code_name(code);
+  }
+}
 
 TEST(Corpus, JudgesAllKernels) {
   CorpusOptions options;
