@@ -252,6 +252,7 @@ class CorpusJudge {
 
 std::vector<Subject> subjects_by_name(const std::vector<std::string>& names) {
   std::vector<Subject> subjects;
+  subjects.reserve(names.size());
   for (const std::string& name : names) subjects.push_back(*parse_subject(name));
   return subjects;
 }
