@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "area_check.h"
-#include "area_families.h"
+#include "gnomon/fuzz/area_families.h"
 #include "gnomon/scene/read.h"
 
 namespace gnomon::test {
 namespace {
+
+using namespace fuzz;  // families and pens
 
 struct Block {
   const Family* family;

@@ -8,14 +8,16 @@
 #include <limits>
 #include <vector>
 
-#include "families.h"
+#include "gnomon/fuzz/families.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
-#include "scene_pen.h"
+#include "gnomon/fuzz/scene_pen.h"
 #include "solve.h"
 
 namespace gnomon::test {
 namespace {
+
+using namespace fuzz;  // families and pens
 
 std::unique_ptr<Case> box_on_floor() {
   ScenePen pen;

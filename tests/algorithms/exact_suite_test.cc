@@ -7,10 +7,12 @@
 #include <string>
 
 #include "exact_check.h"
-#include "families.h"
+#include "gnomon/fuzz/families.h"
 
 namespace gnomon::test {
 namespace {
+
+using namespace fuzz;  // families and pens
 
 struct Block {
   const Family* family;

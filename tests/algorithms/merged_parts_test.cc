@@ -18,10 +18,12 @@
 #include "merged_box.h"
 #include "merged_prefix.h"
 #include "merged_tree.h"
-#include "scene_pen.h"
+#include "gnomon/fuzz/scene_pen.h"
 
 namespace gnomon::test {
 namespace {
+
+using namespace fuzz;  // families and pens
 
 using Space = CoordinateVolumeSpace<mpq_class>;
 using SceneSpace = Space::SceneSpace;

@@ -13,11 +13,13 @@
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/random.h"
-#include "scene_pen.h"
+#include "gnomon/fuzz/scene_pen.h"
 #include "solve.h"
 
 namespace gnomon::test {
 namespace {
+
+using namespace fuzz;  // families and pens
 
 Scene with_lamp(ScenePen& pen, const std::vector<Triple>& loop) {
   Light light;

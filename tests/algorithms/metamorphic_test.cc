@@ -14,12 +14,14 @@
 #include <vector>
 
 #include "exact_check.h"
-#include "families.h"
+#include "gnomon/fuzz/families.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/random.h"
 
 namespace gnomon::test {
 namespace {
+
+using namespace fuzz;  // families and pens
 
 /// Per light and polygon, the lit fractions of its parts, sorted.
 using Answer = std::map<std::string, std::vector<mpq_class>>;

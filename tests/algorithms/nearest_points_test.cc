@@ -2,12 +2,14 @@
 // Points put out as doubles are the nearest to the exact ones, however they were found.
 #include <gtest/gtest.h>
 
-#include "families.h"
+#include "gnomon/fuzz/families.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/nearest_double.h"
 
 namespace gnomon::test {
 namespace {
+
+using namespace fuzz;  // families and pens
 
 /// `compared` counts points.
 void expect_nearest(const Scene& scene, const std::string& what, std::size_t& compared) {

@@ -11,11 +11,13 @@
 #include "exact_check.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/random.h"
-#include "scene_pen.h"
+#include "gnomon/fuzz/scene_pen.h"
 #include "witness_check.h"
 
 namespace gnomon::test {
 namespace {
+
+using namespace fuzz;  // families and pens
 
 /// Sectors with several sizes of cells against SVBSP, exactly; witnesses of the first.
 void expect_agreement(Scene made) {

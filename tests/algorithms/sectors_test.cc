@@ -14,12 +14,14 @@
 #include <vector>
 
 #include "exact_check.h"
-#include "families.h"
+#include "gnomon/fuzz/families.h"
 #include "gnomon/scene/generate.h"
-#include "scene_pen.h"
+#include "gnomon/fuzz/scene_pen.h"
 
 namespace gnomon::test {
 namespace {
+
+using namespace fuzz;  // families and pens
 
 struct Generated {
   std::string generator;

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "area_families.h"
-#include "families.h"
+#include "gnomon/fuzz/area_families.h"
+#include "gnomon/fuzz/families.h"
 #include "gnomon/fuzz/metamorphic.h"
 #include "gnomon/scene/generate.h"
 #include "solve.h"
@@ -19,7 +19,6 @@
 namespace gnomon::fuzz {
 namespace {
 
-using test::Family;
 using testing::Contains;
 using testing::Not;
 
@@ -48,8 +47,8 @@ TEST_P(ExactKernels, KeepEveryProperty) {
 }
 
 std::string family_name(const testing::TestParamInfo<Family>& info) { return info.param.name; }
-INSTANTIATE_TEST_SUITE_P(Point, ExactKernels, testing::ValuesIn(test::families()), family_name);
-INSTANTIATE_TEST_SUITE_P(Area, ExactKernels, testing::ValuesIn(test::area_families()), family_name);
+INSTANTIATE_TEST_SUITE_P(Point, ExactKernels, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(Area, ExactKernels, testing::ValuesIn(area_families()), family_name);
 
 std::vector<std::string> signatures(const CaseReport& report) {
   std::vector<std::string> all;
@@ -69,7 +68,7 @@ TEST(Check, RoundedKernelsFailOnHardScenes) {
   options.subjects = {*parse_subject("float+thin"), *parse_subject("double+thin")};
   std::size_t failed = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    const CaseReport report = check_scene(test::family_by_name("Needles").make(seed), options);
+    const CaseReport report = check_scene(family_by_name("Needles").make(seed), options);
     failed += report.failures.empty() ? 0 : 1;
     for (const Failure& failure : report.failures) {
       EXPECT_TRUE(failure.property == Property::kOracle || failure.property == Property::kClaims ||
@@ -104,7 +103,7 @@ TEST(Check, OnlyWantedPropertiesAreChecked) {
   options.subjects = {*parse_subject("float+thin")};
   options.properties = {Property::kRoundTrip};
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    EXPECT_EQ(signatures(check_scene(test::family_by_name("Needles").make(seed), options)),
+    EXPECT_EQ(signatures(check_scene(family_by_name("Needles").make(seed), options)),
               std::vector<std::string>());
   }
 }
@@ -124,7 +123,7 @@ TEST(Relations, EachHoldsOnExactKernels) {
   for (std::size_t relation = 0; relation < relations().size(); ++relation) {
     for (const char* family : {"Lattice", "CoplanarTiles", "Decimals", "Repaired"}) {
       for (std::uint64_t seed = 0; seed < 12; ++seed) {
-        const Scene scene = test::family_by_name(family).make(seed);
+        const Scene scene = family_by_name(family).make(seed);
         const auto prepared = prepare(scene);
         ASSERT_TRUE(prepared);
         const auto broken = check_relation(relation, scene, *prepared, sound, seed);

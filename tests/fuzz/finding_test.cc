@@ -13,8 +13,8 @@
 #include <sstream>
 #include <string>
 
-#include "area_families.h"
-#include "families.h"
+#include "gnomon/fuzz/area_families.h"
+#include "gnomon/fuzz/families.h"
 #include "gnomon/fuzz/shrink.h"
 #include "gnomon/fuzz/still_fails.h"
 #include "gnomon/scene/generate.h"
@@ -24,7 +24,6 @@ namespace gnomon::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
-using test::Family;
 using test::text_of;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -79,8 +78,7 @@ class Findings : public testing::Test {
 };
 
 TEST_F(Findings, SayAllThereIsToSay) {
-  Finding finding =
-      shrunken(found(test::family_by_name("Needles"), "double+thin", Property::kOracle));
+  Finding finding = shrunken(found(family_by_name("Needles"), "double+thin", Property::kOracle));
   finding.generator = "mix";
   finding.recipe = "needles+sliver";
   finding.campaign_seed = 7;
@@ -109,7 +107,7 @@ TEST_F(Findings, SayAllThereIsToSay) {
 }
 
 TEST_F(Findings, ReadBackAndFailAgain) {
-  Finding finding = shrunken(found(test::family_by_name("Decimals"), "epick", Property::kClaims));
+  Finding finding = shrunken(found(family_by_name("Decimals"), "epick", Property::kClaims));
   finding.check.seed = 0xffffffffffffffffu;
   finding.check.tolerance = 1.0 / 3e9;
   finding.check.width = 1e-300;
@@ -133,8 +131,7 @@ TEST_F(Findings, ReadBackAndFailAgain) {
 }
 
 TEST_F(Findings, AreTheSameBytesEveryTimeAndOneFolder) {
-  const Finding finding =
-      shrunken(found(test::family_by_name("Grazing"), "float", Property::kOracle));
+  const Finding finding = shrunken(found(family_by_name("Grazing"), "float", Property::kOracle));
   const fs::path one = written(finding, "one"), two = written(finding, "two");
   EXPECT_EQ(files(one), files(two));
   // Found again by another seed: still one, and as it was.
@@ -152,8 +149,7 @@ TEST_F(Findings, AreTheSameBytesEveryTimeAndOneFolder) {
 }
 
 TEST_F(Findings, AreaLightsHaveAPlaceInsteadOfADecision) {
-  const Finding finding =
-      shrunken(found(test::area_families().front(), "float", Property::kOracle));
+  const Finding finding = shrunken(found(area_families().front(), "float", Property::kOracle));
   auto texts = files(written(finding));
   EXPECT_THAT(texts["README.md"],
               AllOf(HasSubstr("Decisions are compared for point and directional lights"),
@@ -195,7 +191,7 @@ TEST_F(Findings, NamesAreFitForEveryFileSystem) {
 TEST_F(Findings, BrokenOnesAreErrorsWithAPlace) {
   EXPECT_EQ(read_finding(folder_ / "none").error().code, ErrorCode::kFile);
   const fs::path place =
-      written(shrunken(found(test::family_by_name("Grazing"), "float", Property::kOracle)));
+      written(shrunken(found(family_by_name("Grazing"), "float", Property::kOracle)));
   const std::string good = files(place)["verdict.json"];
   const auto with = [&](const std::string& text) {
     std::ofstream(place / "verdict.json") << text;

@@ -10,15 +10,14 @@
 #include <string>
 
 #include "gnomon/fuzz/check.h"
+#include "gnomon/fuzz/scene_pen.h"
 #include "gnomon/fuzz/subject.h"
 #include "gnomon/scene/prepare.h"
-#include "scene_pen.h"
 #include "solve.h"
 
 namespace gnomon::fuzz {
 namespace {
 
-using test::ScenePen;
 using testing::HasSubstr;
 
 /// The class of the first failure of the oracle's regions; empty if there is none.

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "area_families.h"
-#include "families.h"
+#include "gnomon/fuzz/area_families.h"
 #include "gnomon/fuzz/check.h"
+#include "gnomon/fuzz/families.h"
 #include "gnomon/fuzz/still_fails.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
@@ -117,7 +117,7 @@ TEST(Shrink, DecimalsBecomeDoublesAndCoordinatesGetShort) {
 }
 
 TEST(Shrink, WhatNeedsAllDigitsKeepsThem) {
-  const Scene scene = test::family_by_name("Needles").make(3);
+  const Scene scene = family_by_name("Needles").make(3);
   // A coordinate of many bits is what "fails": everything else goes.
   const auto most_bits = [](const Scene& tried) {
     std::size_t most = 0;
@@ -141,7 +141,7 @@ TEST(Shrink, WhatNeedsAllDigitsKeepsThem) {
 
 TEST(Shrink, SimplerScenesComeFirst) {
   const Scene scene = made("table-chair");
-  Scene without_sharing = test::family_by_name("Needles").make(1);
+  Scene without_sharing = family_by_name("Needles").make(1);
   std::vector<Scene> simpler = {without_sharing, made("figure-4f"), made("figure-6")};
   const bool first = has_a_shared_edge(simpler[0]);
   ASSERT_FALSE(first);
@@ -225,7 +225,7 @@ TEST(Shrink, FailuresOfRoundedKernelsGetSmall) {
     options.subjects = {*parse_subject(subject)};
     options.properties = {Property::kOracle};
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
-      const Scene scene = test::family_by_name(family).make(seed);
+      const Scene scene = family_by_name(family).make(seed);
       const CaseReport report = check_scene(scene, options);
       if (report.failures.empty()) continue;
       const Failure& failure = report.failures.front();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "area_families.h"
+#include "gnomon/fuzz/area_families.h"
 
 #include <gmpxx.h>
 
@@ -7,9 +7,9 @@
 #include <array>
 #include <optional>
 
-#include "random_shapes.h"
+#include "gnomon/fuzz/random_shapes.h"
 
-namespace gnomon::test {
+namespace gnomon::fuzz {
 namespace {
 
 bool are_collinear(const std::array<Position, 3>& p) {
@@ -200,4 +200,4 @@ const std::vector<Family>& area_families() {
   return all;
 }
 
-}  // namespace gnomon::test
+}  // namespace gnomon::fuzz

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes scenes for tests: integer coordinates in, and one rule that says what an integer means (a
+// Writes small scenes: integer coordinates in, and one rule that says what an integer means (a
 // power of two, or a decimal), so that one shape can be had at every scale and as either kind of
 // number.
-#ifndef GNOMON_TESTS_SUPPORT_SCENE_PEN_H
-#define GNOMON_TESTS_SUPPORT_SCENE_PEN_H
+#ifndef GNOMON_FUZZ_SCENE_PEN_H
+#define GNOMON_FUZZ_SCENE_PEN_H
 
 #include <array>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 #include "gnomon/scene/scene.h"
 
-namespace gnomon::test {
+namespace gnomon::fuzz {
 
 using Triple = std::array<std::int64_t, 3>;
 
@@ -63,6 +63,6 @@ class ScenePen {
   bool two_sided_ = false, casts_ = true;
 };
 
-}  // namespace gnomon::test
+}  // namespace gnomon::fuzz
 
-#endif  // GNOMON_TESTS_SUPPORT_SCENE_PEN_H
+#endif  // GNOMON_FUZZ_SCENE_PEN_H

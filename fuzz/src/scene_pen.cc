@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "scene_pen.h"
+#include "gnomon/fuzz/scene_pen.h"
 
 #include <utility>
 
-namespace gnomon::test {
+namespace gnomon::fuzz {
 
 Triple operator+(const Triple& a, const Triple& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
@@ -100,4 +100,4 @@ ScenePen& ScenePen::panel(const std::vector<Triple>& loop) {
   return *this;
 }
 
-}  // namespace gnomon::test
+}  // namespace gnomon::fuzz

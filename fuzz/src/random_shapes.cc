@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "random_shapes.h"
+#include "gnomon/fuzz/random_shapes.h"
 
 #include <algorithm>
 
-namespace gnomon::test {
+namespace gnomon::fuzz {
 
 Triple point_in(Random& random, std::int64_t low, std::int64_t high) {
   return {random.between(low, high), random.between(low, high), random.between(low, high)};
@@ -66,4 +66,4 @@ void add_lattice(ScenePen& pen, Random& random, std::int64_t count, std::int64_t
   if (pen.scene().polygons.empty()) pen.polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
 }
 
-}  // namespace gnomon::test
+}  // namespace gnomon::fuzz

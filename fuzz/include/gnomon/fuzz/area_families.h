@@ -2,17 +2,17 @@
 // Families of small random scenes under area lights: those of families.h with a light put through
 // their own vertices, and lattices in which lights and polygons share vertices, edges and planes,
 // cut each other and stand behind each other.
-#ifndef GNOMON_TESTS_SUPPORT_AREA_FAMILIES_H
-#define GNOMON_TESTS_SUPPORT_AREA_FAMILIES_H
+#ifndef GNOMON_FUZZ_AREA_FAMILIES_H
+#define GNOMON_FUZZ_AREA_FAMILIES_H
 
 #include <vector>
 
-#include "families.h"
+#include "gnomon/fuzz/families.h"
 
-namespace gnomon::test {
+namespace gnomon::fuzz {
 
 const std::vector<Family>& area_families();
 
-}  // namespace gnomon::test
+}  // namespace gnomon::fuzz
 
-#endif  // GNOMON_TESTS_SUPPORT_AREA_FAMILIES_H
+#endif  // GNOMON_FUZZ_AREA_FAMILIES_H

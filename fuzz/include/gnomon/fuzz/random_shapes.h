@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Small random shapes on a lattice, for families of scenes in which exact degeneracy is the rule.
-#ifndef GNOMON_TESTS_SUPPORT_RANDOM_SHAPES_H
-#define GNOMON_TESTS_SUPPORT_RANDOM_SHAPES_H
+#ifndef GNOMON_FUZZ_RANDOM_SHAPES_H
+#define GNOMON_FUZZ_RANDOM_SHAPES_H
 
 #include <cstdint>
 #include <vector>
 
 #include "gnomon/scene/random.h"
-#include "scene_pen.h"
+#include "gnomon/fuzz/scene_pen.h"
 
-namespace gnomon::test {
+namespace gnomon::fuzz {
 
 /// Coordinates in [low, high].
 Triple point_in(Random& random, std::int64_t low, std::int64_t high);
@@ -23,6 +23,6 @@ std::vector<Triple> shape(Random& random, std::int64_t low, std::int64_t high);
 /// the one before; at least one polygon.
 void add_lattice(ScenePen& pen, Random& random, std::int64_t count, std::int64_t size);
 
-}  // namespace gnomon::test
+}  // namespace gnomon::fuzz
 
-#endif  // GNOMON_TESTS_SUPPORT_RANDOM_SHAPES_H
+#endif  // GNOMON_FUZZ_RANDOM_SHAPES_H

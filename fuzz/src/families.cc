@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "families.h"
+#include "gnomon/fuzz/families.h"
 
 #include <algorithm>
 #include <stdexcept>
 
+#include "gnomon/fuzz/random_shapes.h"
+#include "gnomon/fuzz/scene_pen.h"
 #include "gnomon/scene/random.h"
-#include "random_shapes.h"
-#include "scene_pen.h"
 
-namespace gnomon::test {
+namespace gnomon::fuzz {
 namespace {
 
 void lattice_lights(ScenePen& pen, Random& random, std::int64_t size) {
@@ -377,4 +377,4 @@ Scene scaled(const Scene& scene, int exponent) {
   return result;
 }
 
-}  // namespace gnomon::test
+}  // namespace gnomon::fuzz

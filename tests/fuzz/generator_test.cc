@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Generators: the same seed gives the same scene, every scene can be prepared, every kind expected
+// appears, and what a scene is said to hold is there.
+#include "gnomon/fuzz/generator.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "gnomon/fuzz/kind_check.h"
+#include "gnomon/fuzz/moves.h"
+#include "gnomon/scene/prepare.h"
+#include "gnomon/scene/write.h"
+
+namespace gnomon::fuzz {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Generator generator(const std::string& text) {
+  auto parsed = Generator::parse(text);
+  EXPECT_TRUE(parsed) << text << ": " << (parsed ? "" : to_string(parsed.error()));
+  return *parsed;
+}
+
+std::string text_of(const Scene& scene) {
+  const auto written = scene_to_text(scene, SceneFormat::kJson);
+  EXPECT_TRUE(written) << to_string(written.error());
+  return written ? written->text : "";
+}
+
+class Mix : public testing::TestWithParam<const char*> {};
+
+TEST_P(Mix, EveryExpectedKindAppearsAndIsThere) {
+  const Generator made_by = generator(GetParam());
+  std::set<std::uint16_t> seen;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    const MadeScene made = made_by.make(seed);
+    const auto prepared = prepare(made.scene);
+    ASSERT_TRUE(prepared) << seed << " " << made.recipe << ": " << to_string(prepared.error());
+    ASSERT_FALSE(prepared->parts.empty()) << seed;
+    ASSERT_FALSE(prepared->lights.empty()) << seed;
+    ASSERT_TRUE(std::ranges::is_sorted(made.kinds)) << seed;
+    ASSERT_TRUE(scene_to_text(made.scene, SceneFormat::kJson)) << seed << " " << made.recipe;
+    const KindChecker checker(made.scene);
+    for (const std::uint16_t kind : made.kinds) {
+      EXPECT_TRUE(checker.holds(static_cast<Kind>(kind)))
+          << seed << " " << made.recipe << ": " << kinds()[kind].name << '\n'
+          << text_of(made.scene);
+    }
+    seen.insert(made.kinds.begin(), made.kinds.end());
+  }
+  for (const std::uint16_t kind : made_by.expected_kinds()) {
+    EXPECT_TRUE(seen.contains(kind)) << kinds()[kind].name;
+  }
+}
+
+TEST_P(Mix, ARecipeIsAGeneratorThatGivesTheSameScene) {
+  const Generator made_by = generator(GetParam());
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const MadeScene made = made_by.make(seed);
+    EXPECT_EQ(text_of(generator(made.recipe).make(seed).scene), text_of(made.scene))
+        << seed << " " << made.recipe;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Generator, Mix, testing::Values("mix", "area-mix"), [](const auto& test) {
+  return std::string(test.param) == "mix" ? "Mix" : "AreaMix";
+});
+
+TEST(Generator, UndoesMoves) {
+  const Generator made_by = generator("soup-lattice+duplicate+light-at-vertex");
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const MadeScene made = made_by.make(seed);
+    const std::vector<Scene> fewer = made_by.with_fewer_moves(seed);
+    ASSERT_EQ(fewer.size(), 3u);
+    EXPECT_EQ(text_of(fewer[0]), text_of(generator("soup-lattice").make(seed).scene));
+    EXPECT_EQ(text_of(fewer[1]), text_of(generator("soup-lattice+duplicate").make(seed).scene));
+    EXPECT_EQ(fewer[2].polygons.size() + 1, made.scene.polygons.size());
+  }
+  EXPECT_THAT(generator("soup-lattice").with_fewer_moves(1), IsEmpty());
+}
+
+TEST(Generator, ErrorsNameWhatThereIs) {
+  const auto message = [](const char* text) { return to_string(Generator::parse(text).error()); };
+  EXPECT_THAT(message("soup"), HasSubstr("soup-lattice"));
+  EXPECT_THAT(message("soup-lattice+twist"), HasSubstr("t-junction"));
+  EXPECT_THAT(message("scene:nowhere"), HasSubstr("generate --list"));
+  EXPECT_THAT(message("file:nowhere.json"), HasSubstr("nowhere.json"));
+}
+
+}  // namespace
+}  // namespace gnomon::fuzz
