@@ -7,9 +7,7 @@ namespace gnomon {
 
 ShadowOutcome shadows_planes_from_fragments(const PreparedScene& scene,
                                             const ShadowOptions& options, const LightList& lights) {
-  ShadowOptions own = options;
-  own.identity = false;
-  return compute_by_svbsp<FragmentPlanesLightSpace<double>>(scene, own, lights);
+  return compute_by_svbsp<FragmentPlanesLightSpace<double>>(scene, options, lights);
 }
 
 }  // namespace gnomon

@@ -17,9 +17,8 @@ namespace gnomon {
 
 /// "As polygon fragments get progressively smaller [...], the plane equation that would be
 /// calculated for each will also get progressively more inaccurate" (1989, sec. 7): it is
-/// calculated all the same. Planes [0, planes + edges) are named as by the sound kernel, those of
-/// fragments follow. Without identity alone: with it, a fragment is on its own plane whatever the
-/// numbers say.
+/// calculated all the same, and fragments of one plane are no longer known to be coplanar. Planes
+/// [0, planes + edges) are named as by the sound kernel, those of fragments follow.
 template <class T>
 class FragmentPlanesSceneSpace : public CoordinateSceneSpace<T> {
   using Base = CoordinateSceneSpace<T>;
@@ -27,8 +26,8 @@ class FragmentPlanesSceneSpace : public CoordinateSceneSpace<T> {
  public:
   using Vertex = typename Base::Vertex;
 
-  FragmentPlanesSceneSpace(const Geometry& geometry, KernelOptions options)
-      : Base(geometry, without_identity(options)),
+  FragmentPlanesSceneSpace(const Geometry& geometry, const KernelOptions& options)
+      : Base(geometry, options),
         first_own_(static_cast<std::uint32_t>(geometry.planes.size() + geometry.edges.size())) {}
 
   /// Through the first three vertices, as they are.
@@ -39,11 +38,16 @@ class FragmentPlanesSceneSpace : public CoordinateSceneSpace<T> {
     own_.push_back(plane_of(loop));
     return first_own_ + static_cast<std::uint32_t>(own_.size() - 1);
   }
+  bool is_own(PlaneId id) const { return id >= first_own_; }
   const CoordinatePlane<T>& plane(PlaneId id) const {
-    return id < first_own_ ? Base::support(id) : own_[id - first_own_];
+    return is_own(id) ? own_[id - first_own_] : Base::support(id);
   }
   Side side_of_plane(PlaneRef ref, const Corner<Vertex>& corner) const {
-    if (ref.index() < first_own_) return Base::side_of_plane(ref, corner);
+    if (!is_own(ref.index())) return Base::side_of_plane(ref, corner);
+    if (this->arithmetic().identity() &&
+        (ref.same_plane(corner.before) || ref.same_plane(corner.after))) {
+      return Side::kOn;
+    }
     const Side side = this->arithmetic().side(plane(ref.index()), corner.vertex);
     return ref.flipped() ? opposite(side) : side;
   }
@@ -53,10 +57,6 @@ class FragmentPlanesSceneSpace : public CoordinateSceneSpace<T> {
   }
 
  private:
-  static KernelOptions without_identity(KernelOptions options) {
-    options.identity = false;
-    return options;
-  }
   std::uint32_t first_own_;
   std::vector<CoordinatePlane<T>> own_;
 };
@@ -67,11 +67,18 @@ class FragmentPlanesLightSpace : public CoordinateLightSpace<T> {
 
  public:
   using SceneSpace = FragmentPlanesSceneSpace<T>;
+  using Vertex = typename Base::Vertex;
 
   FragmentPlanesLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options)
       : Base(scene, light, options), fragments_(&scene) {}
 
   FragmentPlanesLightSpace fork() const { return *this; }
+  PlaneRef import_edge(PlaneRef edge, PlaneId support, bool reversed, const Vertex& from,
+                       const Vertex& to) {
+    // Any support plane's name says that the edge is no input edge.
+    return Base::import_edge(fragments_->is_own(edge.index()) ? PlaneRef(0) : edge, support,
+                             reversed, from, to);
+  }
   Sign light_side(PlaneId plane) const { return Base::light_side_of(fragments_->plane(plane)); }
   /// On which side of a fragment, as its own vertices have it, is the light?
   Sign light_side_of_fragment(const LoopView<typename SceneSpace::Vertex>& loop) const {

@@ -88,6 +88,7 @@ class WitnessChecker {
   Loop inside(const Piece& piece, const AreaSolids::Volume& volume, bool closed) const;
   /// Without area if parts of a caster hold all of a piece that is in front of the light.
   mpq_class not_hidden_by(const Piece& piece, std::uint32_t caster, PolygonSide side, bool all);
+  bool are_coplanar(std::uint32_t a, std::uint32_t b) const;
   mpq_class shadowed_by(const Piece& piece, std::uint32_t part) const;
 
   const Scene& scene_;
@@ -297,9 +298,17 @@ void WitnessChecker::check_area_shade(const CandidatePolygon& polygon, const Pie
   }
 }
 
+/// Then neither shadows the other, and what rounding puts behind the other is not there.
+bool WitnessChecker::are_coplanar(std::uint32_t a, std::uint32_t b) const {
+  const Solid& one = solids_[a];
+  return std::ranges::all_of(solids_[b].loop, [&](const ExactPoint& vertex) {
+    return dot(one.normal, minus(vertex, one.loop[0])) == 0;
+  });
+}
+
 mpq_class WitnessChecker::shadowed_by(const Piece& piece, std::uint32_t part) const {
   const Solid& caster = solids_[part];
-  if (!caster.casts || part == piece.part) return 0;
+  if (!caster.casts || part == piece.part || are_coplanar(part, piece.part)) return 0;
   Loop rest = piece.loop;
   for (const HalfSpace& half : caster.shadow) {
     rest = cut(rest, half);
@@ -364,7 +373,7 @@ void WitnessChecker::check_shade(const CandidatePolygon& polygon, const Piece& p
   std::vector<Loop> rest{piece.loop};
   for (std::uint32_t part = prepared_.first_part[caster->second];
        part < prepared_.first_part[caster->second + 1]; ++part) {
-    if (!solids_[part].casts || part == piece.part) continue;
+    if (!solids_[part].casts || part == piece.part || are_coplanar(part, piece.part)) continue;
     std::vector<Loop> left;
     for (Loop& loop : rest) {
       for (const HalfSpace& half : solids_[part].shadow) {

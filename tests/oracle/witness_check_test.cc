@@ -50,6 +50,34 @@ TEST_F(WitnessCheck, RightIsAccepted) {
   EXPECT_GE(report.witnesses, 3u);
 }
 
+/// Neither of two coplanar polygons shadows the other: what lies in the plane of a caster is on no
+/// side of it, also where rounding has put it behind.
+TEST(WitnessCheckCoplanar, ACasterInThePlaneShadowsNothing) {
+  const BuiltScene built = SceneBuilder()
+                               .polygon("a", {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}})
+                               .polygon("b", {{1, 1, 0}, {3, 1, 0}, {3, 3, 0}, {1, 3, 0}})
+                               .sun("sun", {0, 0, 1})
+                               .build();
+  const ExactAnswer answer(built.scene, built.prepared);
+  const Candidate good = exact_candidate(answer);
+  const auto first_finding = [&](const Candidate& candidate) {
+    const WitnessReport report = check_witnesses(built.scene, built.prepared, candidate);
+    return report.findings.empty() ? "" : report.findings[0].text;
+  };
+  EXPECT_EQ(first_finding(good), "");
+  Candidate wrong = good;
+  CandidateFragment& fragment = wrong.lights[0].polygons[1].fragments[0];
+  fragment.shade = ShadeClass::kShadow;
+  fragment.caster = "a";
+  EXPECT_THAT(first_finding(wrong), HasSubstr("'a' does not shadow all"));
+  Candidate rounded = good;
+  for (CandidateFragment& own : rounded.lights[0].polygons[1].fragments) {
+    own.exact = false;
+    for (ExactPoint& point : own.loop) point[2] = mpq_class(-1, mpz_class(1) << 50);
+  }
+  EXPECT_EQ(first_finding(rounded), "");
+}
+
 TEST_F(WitnessCheck, EveryLieIsNamed) {
   Candidate wrong = good_;
   fragment(wrong, ShadeClass::kShadow).caster = "upright";
