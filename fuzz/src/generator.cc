@@ -143,11 +143,11 @@ Expected<FileScene> read_file_scene(const std::string& path) {
   return with_middles(std::move(read->scene));
 }
 
-/// A polygon and those nearest to it, two to six in all, with what lights of the file are of use.
+/// A polygon and those nearest to it, two to five in all, with what lights of the file are of use.
 Scene cut_from(const FileScene& file, bool area, Random& random) {
   const Scene& whole = file.scene;
   const std::size_t count =
-      std::min<std::size_t>(whole.polygons.size(), 2 + random.below(random.chance(1, 40) ? 11 : 5));
+      std::min<std::size_t>(whole.polygons.size(), 2 + random.below(random.chance(1, 40) ? 11 : 4));
   const auto& middle = file.middles[random.below(file.middles.size())];
   std::vector<std::pair<double, std::uint32_t>> nearest;
   for (std::uint32_t i = 0; i < file.middles.size(); ++i) {
@@ -208,7 +208,7 @@ Scene scene_of_generator(const Base& base, Random& random) {
   std::map<std::string, std::int64_t> values;
   for (const GeneratorParameter& parameter : info.parameters) {
     if (info.small && parameter.name == "n") {
-      values["n"] = std::min(parameter.default_value, random.between(1, 5));
+      values["n"] = std::min(parameter.default_value, random.between(1, 4));
     }
     if (parameter.name == "light") values["light"] = random.between(0, 2);
     if (parameter.name == "area") values["area"] = base.area ? 1 : 0;
@@ -329,6 +329,7 @@ MadeScene GeneratorRecipe::build(const Plan& plan, std::uint64_t seed, std::uint
   } else {
     made.kinds.push_back(plan.base.kind);
   }
+  std::optional<Kind> last;  // that was put in, and looked for already
   for (std::size_t i = 0; i < plan.moves.size(); ++i) {
     if ((mask >> i & 1) == 0) continue;
     const Move& move = *plan.moves[i];
@@ -343,13 +344,14 @@ MadeScene GeneratorRecipe::build(const Plan& plan, std::uint64_t seed, std::uint
       made.scene = std::move(next);
       made.recipe += "+";
       made.recipe += move.name();
+      last = move.kind;
       break;
     }
   }
   // A later move may have undone what an earlier one did.
   const KindChecker checker(made.scene);
   for (const Kind kind : claims) {
-    if (checker.holds(kind)) made.kinds.push_back(id_of(kind));
+    if (kind == last || checker.holds(kind)) made.kinds.push_back(id_of(kind));
   }
   std::ranges::sort(made.kinds);
   const auto repeated = std::ranges::unique(made.kinds);

@@ -419,19 +419,23 @@ struct KindChecker::View {
   bool cyclic_overlap() const {
     for (const Apex& apex : apexes) {
       const std::size_t n = faces.size();
-      std::vector<int> order(n * n);
+      std::vector<bool> before(n * n);
       for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t k = 0; k < i; ++k) {
-          order[i * n + k] = nearer(apex, faces[i], faces[k]);
-          order[k * n + i] = -order[i * n + k];
+          const int order = nearer(apex, faces[i], faces[k]);
+          before[i * n + k] = order > 0;
+          before[k * n + i] = order < 0;
+        }
+      }
+      for (std::size_t by = 0; by < n; ++by) {
+        for (std::size_t i = 0; i < n; ++i) {
+          for (std::size_t k = 0; k < n; ++k) {
+            if (before[i * n + by] && before[by * n + k]) before[i * n + k] = true;
+          }
         }
       }
       for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t k = 0; k < n; ++k) {
-          for (std::size_t l = 0; l < n; ++l) {
-            if (order[i * n + k] > 0 && order[k * n + l] > 0 && order[l * n + i] > 0) return true;
-          }
-        }
+        if (before[i * n + i]) return true;
       }
     }
     return false;
@@ -606,10 +610,13 @@ bool KindChecker::View::holds(Kind kind) const {
     case Kind::kShadowEdges:
       return std::ranges::any_of(apexes, [&](const Apex& apex) {
         return any_pair([&](const Face& a, const Face& b) {
-          return any_edges(a, b, [&](const Z3& p, const Z3& q, const Z3& r, const Z3& s) {
+          return any_edge(a, [&](const Z3& p, const Z3& q) {
             const Z3 m = apex.plane(p, q);
-            return !is_zero(m) && sgn(dot(m, minus(r, p))) == 0 && sgn(dot(m, minus(s, p))) == 0 &&
-                   !(collinear(p, q, r) && collinear(p, q, s));
+            if (is_zero(m)) return false;
+            return any_edge(b, [&](const Z3& r, const Z3& s) {
+              return sgn(dot(m, minus(r, p))) == 0 && sgn(dot(m, minus(s, p))) == 0 &&
+                     !(collinear(p, q, r) && collinear(p, q, s));
+            });
           });
         });
       });

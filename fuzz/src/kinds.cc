@@ -54,7 +54,7 @@ constexpr KindInfo kInfos[] = {
     {"shadow-edges", "edges of two polygons, not on one line, in one plane through the light"},
     {"shadow-vertex-on-edge", "a vertex exactly in front of or behind another polygon's edge"},
     {"shadow-vertices", "vertices of two polygons on one line through the light"},
-    {"cyclic-overlap", "three polygons each in front of the next, seen from the light"},
+    {"cyclic-overlap", "polygons each in front of the next in a circle, seen from a light"},
     {"area-vertex", "an area light and a polygon share a vertex", true},
     {"area-edge", "an area light and a polygon share an edge", true},
     {"area-edge-overlap", "edges of light and polygon on one line share a part, but not both ends",

@@ -99,7 +99,8 @@ Vector inner_point(const Corner& corner, Random& random) {
 
 Vector plane_point(const Corner& corner, Random& random) {
   const int bits = static_cast<int>(random.below(2));
-  return corner.at(dyadic(random, -2, 4, bits), dyadic(random, -2, 4, bits));
+  const mpq_class s = dyadic(random, -2, 4, bits), t = dyadic(random, -2, 4, bits);
+  return corner.at(s, t);
 }
 
 Vector edge_point(const Corner& corner, Random& random) {
@@ -150,7 +151,8 @@ Vector free_vector(const Scene& scene, Random& random) {
 }
 
 Vector hair(const Scene& scene, Random& random, int low, int high) {
-  return power_of_two(-static_cast<int>(random.between(low, high))) * free_vector(scene, random);
+  const int shift = static_cast<int>(random.between(low, high));
+  return power_of_two(-shift) * free_vector(scene, random);
 }
 
 std::vector<Vector> completed(const Scene& scene, Random& random, std::vector<Vector> first) {

@@ -98,7 +98,10 @@ bool area_parallel_edge(Scene& scene, Random& random) {
 
 bool area_grazing(Scene& scene, Random& random) {
   const Corner corner = random_corner(scene, random);
-  const auto near = [&]() { return plane_point(corner, random) + hair(scene, random, 31, 50); };
+  const auto near = [&]() -> Vector {
+    const Vector at = plane_point(corner, random);
+    return at + hair(scene, random, 31, 50);
+  };
   const Vector p = near();
   const Vector q = random.chance(1, 2) ? near() : free_point(scene, random);
   const Vector r = random.chance(1, 4) ? near() : free_point(scene, random);

@@ -72,8 +72,8 @@ bool grazing_light(Scene& scene, Random& random) {
 }
 
 std::optional<Vector> direction_in_plane(const Corner& corner, Random& random) {
-  const Vector direction =
-      dyadic(random, -3, 3, 0) * corner.u + dyadic(random, -3, 3, 0) * corner.v;
+  const mpq_class s = dyadic(random, -3, 3, 0), t = dyadic(random, -3, 3, 0);
+  const Vector direction = s * corner.u + t * corner.v;
   if (is_zero(direction)) return std::nullopt;
   return direction;
 }
@@ -150,7 +150,8 @@ bool shadow_edges(Scene& scene, Random& random) {
   const Corner corner = random_corner(scene, random);
   // Two points of the plane through the eye and the edge, at different depths mostly.
   const auto point = [&]() {
-    return eye->along(corner.at(dyadic(random, -2, 6, 2), 0), share_of_way(random));
+    const mpq_class s = dyadic(random, -2, 6, 2);
+    return eye->along(corner.at(s, 0), share_of_way(random));
   };
   const Vector p = point(), q = point();
   return add_polygon(scene, random, completed(scene, random, {p, q}));
@@ -160,9 +161,9 @@ bool shadow_vertex_on_edge(Scene& scene, Random& random) {
   const auto eye = eye_of(scene, random);
   if (!eye) return false;
   const Corner corner = random_corner(scene, random);
-  return add_polygon(
-      scene, random,
-      completed(scene, random, {eye->along(edge_point(corner, random), share_of_way(random))}));
+  const Vector on_edge = edge_point(corner, random);
+  return add_polygon(scene, random,
+                     completed(scene, random, {eye->along(on_edge, share_of_way(random))}));
 }
 
 bool shadow_vertices(Scene& scene, Random& random) {

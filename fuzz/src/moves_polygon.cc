@@ -87,7 +87,8 @@ bool sliver(Scene& scene, Random& random) {
   const Corner corner = random_corner(scene, random);
   const Vector a = random.chance(1, 2) ? corner.a : free_point(scene, random);
   const Vector b = random.chance(1, 2) ? corner.next() : free_point(scene, random);
-  const Vector c = a + dyadic(random, 2, 6, 3) * (b - a) + hair(scene, random, 20, 50);
+  const mpq_class share = dyadic(random, 2, 6, 3);
+  const Vector c = a + share * (b - a) + hair(scene, random, 20, 50);
   return add_rounded_triangle(scene, random, {a, b, c});
 }
 
@@ -109,7 +110,7 @@ bool non_convex(Scene& scene, Random& random) {
   const Vector a = in_plane ? corner.a : free_point(scene, random);
   const Vector u = in_plane ? corner.u : free_vector(scene, random);
   const Vector v = in_plane ? corner.v : free_vector(scene, random);
-  const auto at = [&](int s, int t) { return a + mpq_class(s, 2) * u + mpq_class(t, 2) * v; };
+  const auto at = [&](int s, int t) { return a + mpq_class(s) / 2 * u + mpq_class(t) / 2 * v; };
   if (random.chance(1, 2)) {  // an L
     return add_polygon(scene, random, {at(0, 0), at(4, 0), at(4, 1), at(1, 1), at(1, 4), at(0, 4)});
   }
@@ -119,7 +120,7 @@ bool non_convex(Scene& scene, Random& random) {
 bool holes(Scene& scene, Random& random) {
   const Vector a = free_point(scene, random), u = free_vector(scene, random),
                v = free_vector(scene, random);
-  const auto at = [&](int s, int t) { return a + mpq_class(s, 2) * u + mpq_class(t, 2) * v; };
+  const auto at = [&](int s, int t) { return a + mpq_class(s) / 2 * u + mpq_class(t) / 2 * v; };
   if (!add_polygon(scene, random, {at(0, 0), at(4, 0), at(4, 4), at(0, 4)})) return false;
   std::vector<VertexId> hole;
   const Points loop = random.chance(1, 2) ? Points{at(1, 1), at(2, 1), at(1, 2)}

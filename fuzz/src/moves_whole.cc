@@ -71,7 +71,9 @@ bool decimals(Scene& scene, Random& random) {
   if (scene.numbers == NumberMeaning::kDecimal) return false;
   scene.numbers = NumberMeaning::kDecimal;
   static constexpr int kDenominators[] = {10, 100, 1000, 5};
-  const mpq_class unit(static_cast<int>(random.between(1, 9)), kDenominators[random.below(4)]);
+  const int tenths = static_cast<int>(random.between(1, 9));
+  mpq_class unit(tenths, kDenominators[random.below(4)]);
+  unit.canonicalize();
   const std::size_t x = random.below(3), y = (x + 1) % 3;
   const bool turn = random.chance(1, 2);
   for (Position* position : points_of(scene)) {

@@ -84,7 +84,9 @@ void add_lights(ScenePen& pen, bool area, std::int64_t one, Random& random) {
 }  // namespace
 
 Scene make_soup(Soup soup, bool area, Random& random) {
-  const std::int64_t count = random.chance(1, 40) ? random.between(7, 12) : random.between(2, 6);
+  static constexpr std::int64_t kCounts[] = {2, 2, 3, 3, 4, 5};
+  const std::int64_t count =
+      random.chance(1, 40) ? random.between(6, 12) : kCounts[random.below(std::size(kCounts))];
   const auto sides = static_cast<Sides>(random.below(3));
   if (soup == Soup::kLattice) {
     ScenePen pen;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "gnomon/fuzz/families.h"
+#include "gnomon/fuzz/scene_pen.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
-#include "gnomon/fuzz/scene_pen.h"
 #include "solve.h"
 
 namespace gnomon::test {

@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/fuzz/scene_pen.h"
 #include "gnomon/kernel/coordinate_volume_space.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/random.h"
 #include "merged_box.h"
 #include "merged_prefix.h"
 #include "merged_tree.h"
-#include "gnomon/fuzz/scene_pen.h"
 
 namespace gnomon::test {
 namespace {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "gnomon/algorithms/shadows.h"
+#include "gnomon/fuzz/scene_pen.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/random.h"
-#include "gnomon/fuzz/scene_pen.h"
 #include "solve.h"
 
 namespace gnomon::test {

@@ -15,8 +15,8 @@
 
 #include "exact_check.h"
 #include "gnomon/fuzz/families.h"
-#include "gnomon/scene/generate.h"
 #include "gnomon/fuzz/scene_pen.h"
+#include "gnomon/scene/generate.h"
 
 namespace gnomon::test {
 namespace {

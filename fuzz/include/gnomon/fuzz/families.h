@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Families of small random scenes: few polygons, much degeneracy, every magnitude. The exact suites
-// and campaigns draw from them, and regressions name them by seed: the same family and seed give the
-// same scene everywhere and always.
+// and campaigns draw from them, and regressions name them by seed: the same family and seed give
+// the same scene everywhere and always.
 #ifndef GNOMON_FUZZ_FAMILIES_H
 #define GNOMON_FUZZ_FAMILIES_H
 

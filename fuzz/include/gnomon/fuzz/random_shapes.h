@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "gnomon/scene/random.h"
 #include "gnomon/fuzz/scene_pen.h"
+#include "gnomon/scene/random.h"
 
 namespace gnomon::fuzz {
 

@@ -17,7 +17,7 @@ enum class Soup : std::uint8_t {
   kMixedSizes,  // sizes from 1 to 2^-30 of the box
 };
 
-/// Two to six polygons, seldom up to twelve; one or two lights, area lights if `area`. All
+/// Two to five polygons, seldom up to twelve; one or two lights, area lights if `area`. All
 /// polygons one-sided, all two-sided, or either. All loops are exactly planar.
 Scene make_soup(Soup soup, bool area, Random& random);
 
