@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidjson/document.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -67,6 +68,21 @@ TEST(CorpusOfTheTree, IsWhatRecordWrites) {
   const RunResult run = certify(directory.path().string(), {"--record"});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_NE(run.out.find(" 0 changed"), std::string::npos) << run.out;
+}
+
+TEST(CorpusOfTheTree, IsPassedByAProgramInAnotherLanguage) {
+  // Exact arithmetic that shares no line with ours.
+  if (std::system("python3 -c ''") != 0) GTEST_SKIP() << "no python3";
+  const std::string program = std::string("python3 ") + GNOMON_EXAMPLES + "/shadows.py";
+  for (const std::string group :
+       {"coplanar", "needles", "light-in-plane", "t-junction", "rejected"}) {
+    const RunResult run = certify(
+        kCorpus + "/" + group, {"--candidate-command", program, "--json", "-", "--seconds", "60"});
+    EXPECT_EQ(run.status, 0) << run.out << run.err;
+    EXPECT_EQ(count_of(run.out, "differ"), 0) << group;
+    EXPECT_EQ(count_of(run.out, "rejected"), 0) << group;
+    EXPECT_GE(count_of(run.out, "pass"), 4) << group;
+  }
 }
 
 TEST_F(CorpusCommand, JudgesAProgramByItsFragments) {
