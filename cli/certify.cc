@@ -372,17 +372,19 @@ CorpusOptionRules add_corpus_options(CLI::App& command, CertifyCommandOptions& o
           ->type_name("CMD"),
       command
           .add_option("--seconds", options.corpus.seconds,
-                      "With --corpus: time that a program has for each scene")
+                      "With --corpus: time that a program or kernel has for each scene")
           ->check(not_negative())
           ->type_name("S")
           ->default_str("10"),
       command
           .add_option("--megabytes", options.corpus.megabytes,
-                      "With --corpus: address space that a program has; 0: no limit")
+                      "With --corpus: address space that it has; 0: no limit")
           ->type_name("M")
           ->default_str("2048"),
       command.add_flag("--by-scene", options.corpus.by_scene,
                        "With --corpus: a row a scene instead of a row a kind"),
+      command.add_flag("--in-process", options.corpus.in_process,
+                       "With --corpus: kernels in this process, not each scene in its own"),
       command.add_flag("--record", options.corpus.record,
                        "With --corpus: judge nothing, write the exact fractions into its scenes,\n"
                        "and into i_ ones which kernels differ"),

@@ -2,6 +2,8 @@
 #include "certify_corpus.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "exit_status.h"
 #include "gnomon/fuzz/corpus.h"
@@ -30,6 +32,13 @@ Expected<std::vector<fuzz::Subject>> chosen_subjects(const CorpusCommandOptions&
   }
   if (subjects.empty()) return fuzz::default_corpus_subjects();
   return subjects;
+}
+
+/// Empty if the system does not tell.
+std::string own_program() {
+  std::error_code failure;
+  const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", failure);
+  return failure ? std::string() : path.string();
 }
 
 /// Writes every scene of the corpus anew, where that changes it.
@@ -67,6 +76,7 @@ int run_certify_corpus(const CorpusCommandOptions& options) {
   judging.tolerance = options.tolerance;
   judging.seconds = options.seconds;
   judging.megabytes = options.megabytes;
+  if (!options.in_process) judging.program = own_program();
   judging.progress = progress.callback();
   judging.interrupted = &interrupted();
   const auto report = fuzz::judge_corpus(*fixtures, judging);

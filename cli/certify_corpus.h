@@ -19,6 +19,7 @@ struct CorpusCommandOptions {
   std::uint64_t megabytes = 2048;
   unsigned jobs = 0;
   bool by_scene = false;
+  bool in_process = false;  // kernels too
   bool record = false;
   std::string json;
 };

@@ -111,6 +111,7 @@ Expected<pid_t> start(const std::string& command, const CommandOptions& options,
   std::vector<std::string> words = {"sh", "-c", script, "sh"};
   words.insert(words.end(), options.arguments.begin(), options.arguments.end());
   std::vector<char*> argv;
+  argv.reserve(words.size() + 1);
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
 

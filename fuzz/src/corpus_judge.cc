@@ -13,6 +13,7 @@
 #include <optional>
 #include <utility>
 
+#include "corpus_process.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/fuzz/claimed_shares.h"
 #include "gnomon/fuzz/command.h"
@@ -221,6 +222,11 @@ class CorpusJudge {
 
   void judge_scene(const Fixture& fixture, std::size_t i) {
     std::vector<Judgement>& judgements = report_.judgements[i];
+    const auto is_foreign = [](const Subject& subject) { return subject.foreign(); };
+    const bool apart =
+        !options_.program.empty() && !std::ranges::all_of(report_.subjects, is_foreign);
+    if (apart) judge_apart(fixture, i);
+    if (apart && std::ranges::none_of(report_.subjects, is_foreign)) return;
     const auto prepared = prepare(fixture.scene);
     if (!prepared) {
       report_.oracle_findings[i] = "it cannot be prepared: " + to_string(prepared.error());
@@ -228,12 +234,14 @@ class CorpusJudge {
       return;
     }
     const SceneJudge judge(fixture.scene, *prepared, options_.tolerance);
-    report_.oracle_findings[i] = difference_from_oracle(judge.answer(), fixture.fractions);
+    if (!apart) {
+      report_.oracle_findings[i] = difference_from_oracle(judge.answer(), fixture.fractions);
+    }
     for (std::size_t s = 0; s < judgements.size(); ++s) {
       if (stopped()) return;
       const Subject& subject = report_.subjects[s];
       if (!subject.foreign()) {
-        judgements[s] = judge.judge(subject, &fixture.fractions);
+        if (!apart) judgements[s] = judge.judge(subject, &fixture.fractions);
         continue;
       }
       std::string out;
@@ -241,6 +249,22 @@ class CorpusJudge {
       if (judgements[s].outcome == Outcome::kPass) {
         judgements[s] = judge.judge_text(subject, out, fixture.fractions);
       }
+    }
+  }
+
+  /// The kernels in a process of their own.
+  void judge_apart(const Fixture& fixture, std::size_t i) {
+    std::vector<std::string> names;
+    std::vector<std::size_t> places;
+    for (std::size_t s = 0; s < report_.subjects.size(); ++s) {
+      if (report_.subjects[s].foreign()) continue;
+      names.push_back(report_.names[s]);
+      places.push_back(s);
+    }
+    ProcessVerdict verdict = judge_in_process(fixture, names, options_);
+    report_.oracle_findings[i] = std::move(verdict.oracle);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      report_.judgements[i][places[k]] = std::move(verdict.judgements[k]);
     }
   }
 
@@ -252,6 +276,7 @@ class CorpusJudge {
 
 std::vector<Subject> subjects_by_name(const std::vector<std::string>& names) {
   std::vector<Subject> subjects;
+  subjects.reserve(names.size());
   for (const std::string& name : names) subjects.push_back(*parse_subject(name));
   return subjects;
 }

@@ -135,7 +135,7 @@ std::string shape_of(const Fixture& fixture) {
       corners.push_back(grid.at(vertex, 0).get_str() + ' ' + grid.at(vertex, 1).get_str() + ' ' +
                         grid.at(vertex, 2).get_str());
     }
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     std::string text;
     for (const std::string& corner : corners) text += '(' + corner + ')';
     polygons.push_back(text);

@@ -40,8 +40,11 @@ struct CorpusOptions {
   /// Of rounded kernels and foreign programs: a share of each polygon, and a width as a share of
   /// the scene's diagonal. The kernel `float` has at least kFloatTolerance.
   double tolerance = 1e-9;
-  double seconds = 10;  // of each run of a foreign program
+  double seconds = 10;  // of each run of a foreign program, or of a kernel in its process
   std::uint64_t megabytes = 2048;
+  /// The gnomon command itself, which judges the kernels on each scene in a process of its own, so
+  /// that a crash, a hang and too much memory are outcomes too; empty: they run in this process.
+  std::string program;
   std::function<void(double)> progress;            // 0..1
   const std::atomic<bool>* interrupted = nullptr;  // checked between fixtures
 };
