@@ -61,8 +61,8 @@ std::string to_sentence(const FirstDifference& difference, const PreparedScene& 
   }
   std::string sentence =
       "Decision " + std::to_string(decision.decisions + 1) + " (" + where + "): " + decision.vertex;
-  if (decision.vertex != "the light") sentence += ", at " + text(decision.position);
-  sentence += ", is asked against " + decision.plane + ". " + kernel + " says " +
+  if (decision.vertex != "the light") sentence += ", at " + text(decision.position) + ",";
+  sentence += " is asked against " + decision.plane + ". " + kernel + " says " +
               name(decision.tested) + ", exact says " + name(decision.exact) + ".";
   if (decision.vertex != "the light" && decision.tested_position != decision.position) {
     sentence += " " + kernel + " has the vertex at " + text(decision.tested_position) + ".";

@@ -96,19 +96,23 @@ Expected<fs::path> write_finding(const fs::path& folder, const Finding& given) {
 
   Scene scene = finding.scene;
   scene.name = finding.failure.subject + ": " + finding.failure.disagreement;
-  scene.extra = short_verdict(finding);
-  const auto scene_text = scene_to_text(scene, SceneFormat::kJson);
-  if (!scene_text) return tl::unexpected(scene_text.error());
+  scene.extra.clear();
+  const auto plain_text = scene_to_text(scene, SceneFormat::kJson);
+  if (!plain_text) return tl::unexpected(plain_text.error());
   const auto original_text = scene_to_text(finding.original, SceneFormat::kJson);
   if (!original_text) return tl::unexpected(original_text.error());
   // First, since a foreign program reads it.
   const fs::path scene_file = temporary.path() / "scene.json";
-  if (auto done = write_file(scene_file, scene_text->text); !done) {
+  if (auto done = write_file(scene_file, plain_text->text); !done) {
     return tl::unexpected(done.error());
   }
   const Evidence evidence = gather_evidence(finding, scene, scene_file);
+  scene.extra = short_verdict(evidence.failure);
+  const auto scene_text = scene_to_text(scene, SceneFormat::kJson);
+  if (!scene_text) return tl::unexpected(scene_text.error());
   for (const auto& [file, text] :
        {std::pair<const char*, std::string>("original.json", original_text->text),
+        {"scene.json", scene_text->text},
         {"verdict.json", verdict_text(finding, evidence)},
         {"README.md", readme_text(finding, evidence, name)},
         {"candidate.svg", evidence.candidate_svg},

@@ -78,13 +78,13 @@ void write_size(JsonWriter& json, std::string_view key, const Scene& scene) {
 
 }  // namespace
 
-std::string short_verdict(const Finding& finding) {
+std::string short_verdict(const Failure& failure) {
   report::StringSink sink;
   {
     JsonWriter json(sink);
     json.begin_object(JsonLayout::kInline);
-    json.member("fails", finding.failure.signature());
-    json.member("text", finding.failure.text);
+    json.member("fails", failure.signature());
+    json.member("text", failure.text);
     json.end_object();
   }
   return sink.text();

@@ -19,7 +19,7 @@ Expected<Finding> parse_verdict(const std::string& text, const std::string& file
 std::string readme_text(const Finding& finding, const Evidence& evidence, const std::string& name);
 
 /// The verdict in short, for the "extra" of scene.json.
-std::string short_verdict(const Finding& finding);
+std::string short_verdict(const Failure& failure);
 
 }  // namespace gnomon::fuzz
 
