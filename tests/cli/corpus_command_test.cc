@@ -77,8 +77,7 @@ TEST(CorpusOfTheTree, IsPassedByAProgramInAnotherLanguage) {
   // Exact arithmetic that shares no line with ours.
   if (std::system("python3 -c ''") != 0) GTEST_SKIP() << "no python3";
   const std::string program = std::string("python3 ") + GNOMON_EXAMPLES + "/shadows.py";
-  for (const std::string group :
-       {"coplanar", "needles", "light-in-plane", "t-junction", "rejected"}) {
+  for (const std::string group : {"coplanar", "needles", "rejected"}) {
     const RunResult run = certify(
         kCorpus + "/" + group, {"--candidate-command", program, "--json", "-", "--seconds", "60"});
     EXPECT_EQ(run.status, 0) << run.out << run.err;
