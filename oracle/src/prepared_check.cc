@@ -171,7 +171,10 @@ void PreparedChecker::check_tiling(std::uint32_t index) {
     if (begin != end) report(polygon.id, "a loop without area has parts");
     return;
   }
-  if (begin == end) return report(polygon.id, "a polygon with an area has no parts");
+  // Holes may fill a polygon; the overlay below shows whether they do.
+  if (begin == end && polygon.holes.empty()) {
+    return report(polygon.id, "a polygon with an area has no parts");
+  }
   // A loop that is not planar is cut in its projection along its area vector's largest component:
   // the chart of any plane with this normal.
   const Chart chart(along);

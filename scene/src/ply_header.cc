@@ -119,14 +119,14 @@ class HeaderReader {
       return error(ErrorCode::kSyntax, quoted_text(words_[2].text) + " is not a count",
                    "an integer that is not negative", words_[2].offset);
     }
-    for (const PlyElement& other : header_.elements) {
-      if (other.name == words_[1].text && (other.name == "vertex" || other.name == "face")) {
-        return error(ErrorCode::kFormat, "a second element " + quoted_text(other.name),
-                     "each element once", words_[1].offset);
-      }
+    const std::string_view name = words_[1].text;
+    // Others may be as many as they like.
+    if ((name == "vertex" || name == "face") &&
+        std::ranges::find(header_.elements, name, &PlyElement::name) != header_.elements.end()) {
+      return error(ErrorCode::kFormat, "a second element " + quoted_text(name), "each element once",
+                   words_[1].offset);
     }
-    header_.elements.push_back(
-        {words_[1].text, static_cast<std::uint64_t>(*count), words_[2].offset, {}});
+    header_.elements.push_back({name, static_cast<std::uint64_t>(*count), words_[2].offset, {}});
     return {};
   }
 

@@ -57,7 +57,7 @@ class PlyReader {
 
   tl::unexpected<Error> ends_early() const {
     return mesh_.error(ErrorCode::kSyntax,
-                       "the file ends too early: " + std::string(element_name_) + " " +
+                       "the file ends too early: " + element_name_ + " " +
                            std::to_string(element_index_) + " is not complete",
                        "all elements that the header announces", text_.size());
   }
@@ -249,7 +249,7 @@ class PlyReader {
   }
 
   Expected<void> others(const PlyElement& element) {
-    element_name_ = element.name;
+    element_name_ = "element " + quoted_text(element.name);
     if (element.properties.empty()) return {};
     if (element.name == "tristrips" && element.count > 0) {
       mesh_.warn("triangle strips (tristrips) ignored");
@@ -269,7 +269,7 @@ class PlyReader {
   Tokens tokens_;   // of a text file
   std::size_t at_;  // in a binary file
   std::size_t offset_ = 0;
-  std::string_view element_name_;
+  std::string element_name_;  // for messages
   std::uint64_t element_index_ = 0;
 };
 

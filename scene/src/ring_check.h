@@ -43,7 +43,26 @@ class RingCheck {
     return fmt::format("{}-{}", chart_.key(a), chart_.key(b));
   }
 
+  /// The loop runs along an edge oftener than back. That is found without the square of what
+  /// follows: a small file may go round a few vertices a hundred thousand times.
+  std::optional<CutProblem> check_repeated_edges(std::size_t r) {
+    const Ring& ring = input_.rings[r];
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges(ring.size());
+    for (std::size_t i = 0; i < ring.size(); ++i) edges[i] = {ring[i], ring[after(ring, i)]};
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+      while (end < edges.size() && edges[end] == edges[i]) ++end;
+      if (end - i < 2) continue;
+      const auto [a, b] = edges[i];
+      const auto back = std::equal_range(edges.begin(), edges.end(), std::pair{b, a});
+      if (end - i < 2 + static_cast<std::size_t>(back.second - back.first)) continue;
+      return CutProblem{r, fmt::format("runs along the edge {} twice", edge_name(a, b))};
+    }
+    return std::nullopt;
+  }
+
   std::optional<CutProblem> check_simple(std::size_t r) {
+    if (auto problem = check_repeated_edges(r)) return problem;
     const Ring& ring = input_.rings[r];
     const std::size_t n = ring.size();
     // Edges sorted by their left end; only edges whose x ranges overlap are compared.

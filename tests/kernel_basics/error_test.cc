@@ -24,6 +24,17 @@ TEST(ErrorText, LeavesOutWhatIsNotKnown) {
             "a.obj:7: ends early");
 }
 
+TEST(ErrorText, AKeyOfAFileIsNoMatterForATerminal) {
+  const auto shown = [](std::string pointer) {
+    return to_string(Error{ErrorCode::kFormat, {"a", 1, 2, std::move(pointer)}, "no", ""});
+  };
+  EXPECT_EQ(shown(std::string("/a\n\x1b[2J\0b\x7f", 10)),
+            "a:1:2: no (at /a\\x0A\\x1B[2J\\x00b\\x7F)");
+  EXPECT_EQ(shown("/\xC3\xA4\xC2\x9B\xC2\xA7"), "a:1:2: no (at /\xC3\xA4\\x9B\xC2\xA7)");
+  EXPECT_EQ(shown("/\xC2"), "a:1:2: no (at /\xC2)");
+  EXPECT_EQ(shown(std::string(5000, 'k')), "a:1:2: no (at " + std::string(200, 'k') + "...)");
+}
+
 TEST(ErrorText, FailMakesTheValue) {
   const Expected<int> answer = fail(ErrorCode::kNumber, "not a number", "digits", {"a", 1, 2, ""});
   ASSERT_FALSE(answer.has_value());

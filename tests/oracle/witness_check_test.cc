@@ -212,5 +212,24 @@ TEST(PreparedCheck, FindsWhatIsWrong) {
   EXPECT_FALSE(check_prepared(scene, wrong).empty());
 }
 
+// Found by the fuzzer `prepare`: such a polygon is dropped, and was called missing.
+TEST(PreparedCheck, HolesMayFillAPolygon) {
+  Scene scene = SceneBuilder()
+                    .polygon("full", {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}})
+                    .sun("sun", {0, 0, 1})
+                    .build()
+                    .scene;
+  scene.polygons[0].holes = {{3, 2, 1, 0}};
+  const PreparedScene prepared = *prepare(scene);
+  EXPECT_TRUE(prepared.parts.empty());
+  EXPECT_TRUE(check_prepared(scene, prepared).empty());
+
+  // A hole that leaves some of it does not explain that it is gone.
+  scene.polygons[0].holes = {{2, 1, 0}};
+  const std::vector<PreparedFinding> found = check_prepared(scene, prepared);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].text, "the parts do not tile the polygon");
+}
+
 }  // namespace
 }  // namespace gnomon::oracle

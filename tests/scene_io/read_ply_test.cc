@@ -206,5 +206,20 @@ TEST(ReadPly, ElementsWithoutPropertiesTakeNoTime) {
   EXPECT_EQ(scene_of(text, "m.ply").polygons.size(), 1u);
 }
 
+TEST(ReadPly, NamesOfTheFileAreQuotedInMessages) {
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement e\x1b[2J 2\nproperty list uchar int a\nend_header\n0\n2 7\n";
+  EXPECT_EQ(error_of(text, "m.ply"),
+            "8:1: the file ends too early: element 'e\\x1B[2J' 1 is not complete");
+}
+
+// Comparing each with all before it took a minute.
+TEST(ReadPly, ManyElements) {
+  std::string text = "ply\nformat ascii 1.0\n";
+  for (int i = 0; i < 200'000; ++i) text += "element a 0\n";
+  text += kHeader.substr(kHeader.find("element"));
+  EXPECT_EQ(scene_of(text + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "m.ply").polygons.size(), 1u);
+}
+
 }  // namespace
 }  // namespace gnomon

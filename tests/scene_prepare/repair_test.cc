@@ -249,6 +249,19 @@ TEST(Errors, NameTheirPlace) {
   EXPECT_EQ(b.prepare().error().code, ErrorCode::kIndex);
 }
 
+// A file of 600 KB: comparing its edges pair by pair would take many minutes.
+TEST(Errors, AHundredThousandTimesRoundATriangle) {
+  Builder b;
+  b.polygon({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}});
+  auto& loop = b.scene().polygons[0].loop;
+  for (VertexId i = 3; i < 300'000; ++i) loop.push_back(i % 3);
+  const auto prepared = b.prepare();
+  ASSERT_FALSE(prepared);
+  EXPECT_EQ(prepared.error().code, ErrorCode::kGeometry);
+  EXPECT_NE(prepared.error().what.find("runs along the edge 0-1 twice"), std::string::npos)
+      << prepared.error().what;
+}
+
 TEST(NotPlanar, IsTriangulatedByTheRule) {
   Builder b;
   b.polygon({{0, 0, 0}, {4, 0, 0}, {4, 4, 1}, {0, 4, 0}});
