@@ -282,16 +282,21 @@ std::array<mpq_class, 3> CoordinateLightSpace<T>::exact_position(
 }
 
 // The differences are exact: enclosing the coordinates first would lose what is near the light.
+// Clang before 16 instantiates the body even where the constraint does not hold.
 template <class T>
 ChartPoint CoordinateLightSpace<T>::enclosed_chart_point(
-    const LightChart& chart, const Vertex& vertex) const requires kExact {
-  const Geometry& geometry = this->scene().geometry();
-  std::array<Ball, 3> from;
-  for (int k = 0; k < 3; ++k) {
-    from[k] = directional_ ? enclose(mpq_class(vertex.x[k] - geometry.origin[k]))
-                           : enclose(mpq_class(light_[k] - vertex.x[k]));
+    const LightChart& chart, const Vertex& vertex) const requires std::is_same_v<T, mpq_class> {
+  if constexpr (kExact) {
+    const Geometry& geometry = this->scene().geometry();
+    std::array<Ball, 3> from;
+    for (int k = 0; k < 3; ++k) {
+      from[k] = directional_ ? enclose(mpq_class(vertex.x[k] - geometry.origin[k]))
+                             : enclose(mpq_class(light_[k] - vertex.x[k]));
+    }
+    return chart_(chart, from);
+  } else {
+    return {};
   }
-  return chart_(chart, from);
 }
 
 }  // namespace gnomon

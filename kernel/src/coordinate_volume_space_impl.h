@@ -107,13 +107,17 @@ std::array<Ball, 3> CoordinateVolumeSpace<T>::position(const Corner<Vertex>& cor
 
 template <class T>
 std::array<Ball, 3> CoordinateVolumeSpace<T>::offset(
-    VertexId origin, const Corner<Vertex>& corner) const requires kExact {
-  const Vertex from = planes_.input_vertex(origin);
-  std::array<Ball, 3> step;
-  for (int k = 0; k < 3; ++k) {
-    step[k] = enclose(mpq_class((corner.vertex.x[k] - from.x[k]) * inverse_extent_));
+    VertexId origin, const Corner<Vertex>& corner) const requires std::is_same_v<T, mpq_class> {
+  if constexpr (kExact) {  // as in coordinate_space_impl.h
+    const Vertex from = planes_.input_vertex(origin);
+    std::array<Ball, 3> step;
+    for (int k = 0; k < 3; ++k) {
+      step[k] = enclose(mpq_class((corner.vertex.x[k] - from.x[k]) * inverse_extent_));
+    }
+    return step;
+  } else {
+    return {};
   }
-  return step;
 }
 
 template <class T>

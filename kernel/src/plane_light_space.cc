@@ -622,7 +622,8 @@ PlanarPoint PlaneLightSpace<Stats>::accurate_planar_point(const Corner<Vertex>& 
   point.error = kInfinity;
   const auto [u, v] = kept_axes(shared.depths[corner.support]);
   // The corner's ray r, its plane's normal n and value h at the light, up to one common factor.
-  const auto place = [&]<class Normal, class Int, class Ray>(const Vector3<Ray>& r) {
+  // Clang 14 captures structured bindings by name alone.
+  const auto place = [&, u = u, v = v]<class Normal, class Int, class Ray>(const Vector3<Ray>& r) {
     std::array<double, 4> value;
     long power;  // of two; unbounded integers may be beyond doubles, and give theirs away first
     if (shared.light.directional) {

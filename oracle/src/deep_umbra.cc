@@ -115,9 +115,9 @@ void DeepUmbra::certify_in_part(const std::vector<ChartPoint>& loop, std::uint32
   while (!open.empty() && tests_ < kTests) {
     auto [piece, depth] = std::move(open.back());
     open.pop_back();
-    const bool umbra =
-        std::any_of(shade.umbra.begin(), shade.umbra.end(),
-                    [&](const ShadowPiece& own) { return holds(own.loop, piece.vertices); });
+    const bool umbra = std::any_of(
+        shade.umbra.begin(), shade.umbra.end(),
+        [&, &piece = piece](const ShadowPiece& own) { return holds(own.loop, piece.vertices); });
     if (umbra) continue;
     ++tests_;
     std::vector<ExactPoint> corners;

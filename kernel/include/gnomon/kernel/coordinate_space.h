@@ -151,7 +151,7 @@ class CoordinateLightSpace
     return planes_.crossing(plane, from, to);
   }
   ChartPoint enclosed_chart_point(const LightChart& chart,
-                                  const Vertex& vertex) const requires kExact;
+                                  const Vertex& vertex) const requires std::is_same_v<T, mpq_class>;
 
   CoordinatePlanes<T> planes_;  // the scene space's
   bool directional_;

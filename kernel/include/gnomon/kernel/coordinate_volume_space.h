@@ -46,7 +46,8 @@ class CoordinateVolumeSpace
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   /// The same as seen from vertex `origin`, with errors that are small against the distances from
   /// it: areas of small polygons are then not measured on the scale of the scene.
-  std::array<Ball, 3> offset(VertexId origin, const Corner<Vertex>& corner) const requires kExact;
+  std::array<Ball, 3> offset(
+      VertexId origin, const Corner<Vertex>& corner) const requires std::is_same_v<T, mpq_class>;
   /// Scene units: the kernel's own numbers, exactly.
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
   /// Scene units: the doubles nearest to the kernel's own numbers.
