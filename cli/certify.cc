@@ -71,6 +71,7 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
     kernels.push_back({.kernel = KernelId::kRational});
   }
   kernels.push_back({.kernel = KernelId::kPlane});
+  std::erase_if(kernels, [](const KernelChoice& choice) { return !has_kernel(choice.kernel); });
   return kernels;
 }
 

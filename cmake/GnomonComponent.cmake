@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # gnomon_add_component(<name>
 #   SOURCES src/a.cc ...                       compiled as they are
-#   CGAL_SOURCES src/b.cc ...                  compiled with CGAL's headers and its -frounding-math
+#   CGAL_SOURCES src/b.cc ...                  compiled with CGAL's headers and its -frounding-math;
+#                                              left out without GNOMON_CGAL_KERNELS
 #   HEADERS include/gnomon/<name>/a.h ...      installed
 #   LINK gnomon::kernel GMP::GMPXX ...         public: named by the headers
 #   LINK_PRIVATE fmt::fmt ...                  used inside only; header-only helpers of the build are
@@ -20,6 +21,9 @@ function(gnomon_add_component name)
     message(FATAL_ERROR "gnomon_add_component(${name}): unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
   set(target gnomon_${name})
+  if(NOT GNOMON_CGAL_KERNELS)
+    set(arg_CGAL_SOURCES "")
+  endif()
 
   if(arg_SOURCES OR arg_CGAL_SOURCES)
     set(scope PUBLIC)

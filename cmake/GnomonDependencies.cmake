@@ -13,15 +13,21 @@ find_package(tl-expected REQUIRED)
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
 
-set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
-set(CGAL_DATA_DIR "${PROJECT_SOURCE_DIR}" CACHE INTERNAL "CGAL asks for it; not used")
-find_package(CGAL REQUIRED QUIET)
+if(GNOMON_CGAL_KERNELS)
+  set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
+  set(CGAL_DATA_DIR "${PROJECT_SOURCE_DIR}" CACHE INTERNAL "CGAL asks for it; not used")
+  find_package(CGAL REQUIRED QUIET)
+endif()
 
 # Debian's RapidJSON configuration has no target in older versions.
 find_package(RapidJSON REQUIRED)
 if(NOT TARGET gnomon_rapidjson)
   add_library(gnomon_rapidjson INTERFACE)
   target_include_directories(gnomon_rapidjson SYSTEM INTERFACE ${RAPIDJSON_INCLUDE_DIRS})
+endif()
+if(GNOMON_BUILD_FUZZERS)
+  target_compile_options(gnomon_rapidjson INTERFACE
+    "-fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/tests/fuzzers/ignorelist.txt")
 endif()
 
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)

@@ -28,6 +28,13 @@ function(gnomon_set_flags target)
                                              -fno-omit-frame-pointer -Wno-maybe-uninitialized)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
   endif()
+  if(GNOMON_BUILD_FUZZERS)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link,address,undefined
+                                             -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    # Overflow checks of 128-bit products call a function that only compiler-rt has.
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined --rtlib=compiler-rt
+                                         --unwindlib=libgcc)
+  endif()
   if(GNOMON_COVERAGE)
     target_compile_options(${target} PRIVATE --coverage)
     target_link_options(${target} PUBLIC --coverage)

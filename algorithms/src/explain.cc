@@ -48,8 +48,13 @@ Expected<std::optional<FirstDifference>> explain(const PreparedScene& scene,
   std::erase_if(*lights,
                 [&](std::uint32_t light) { return scene.lights[light].type == LightType::kArea; });
   if (lights->empty()) return std::nullopt;
-  return options.kernel == KernelId::kEpick ? explain_epick(scene, options, *lights)
-                                            : explain_coordinates(scene, options, *lights);
+  if (options.kernel != KernelId::kEpick) return explain_coordinates(scene, options, *lights);
+#ifndef GNOMON_NO_CGAL_KERNELS
+  return explain_epick(scene, options, *lights);
+#else
+  return fail(ErrorCode::kUsage, "kernel epick was not built",
+              "another kernel, or a build with GNOMON_CGAL_KERNELS");
+#endif
 }
 
 std::string to_sentence(const FirstDifference& difference, const PreparedScene& scene,

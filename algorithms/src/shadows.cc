@@ -29,10 +29,16 @@ KernelFunctions functions_of(KernelId kernel) {
       return {shadows_double, area_double};
     case KernelId::kLongDouble:
       return {shadows_long_double, area_long_double};
+#ifndef GNOMON_NO_CGAL_KERNELS
     case KernelId::kEpick:
       return {shadows_epick, area_epick};
     case KernelId::kEpeck:
       return {shadows_epeck, area_epeck};
+#else
+    case KernelId::kEpick:
+    case KernelId::kEpeck:
+      break;
+#endif
     case KernelId::kRational:
       return {shadows_rational, area_rational};
     case KernelId::kPlane:
@@ -104,6 +110,8 @@ void join(ShadowResult& result, AreaOutcome area, const ShadowOptions& options,
 
 }  // namespace
 
+bool has_kernel(KernelId kernel) { return functions_of(kernel).shadows != nullptr; }
+
 Expected<std::vector<std::uint32_t>> select_lights(const PreparedScene& scene,
                                                    const ShadowOptions& options) {
   if (const auto environment = check_fp_environment(); !environment) {
@@ -159,7 +167,11 @@ ShadowOptions with_thickness_of(const ShadowOptions& options) {
 Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowOptions& options,
                                        const LightList& lights) {
   const KernelFunctions functions = functions_of(options.kernel, options.mutation);
-  if (functions.shadows == nullptr) return fail(ErrorCode::kUsage, "unknown kernel");
+  if (functions.shadows == nullptr) {
+    return fail(ErrorCode::kUsage,
+                "kernel " + std::string(kernel_info(options.kernel).name) + " was not built",
+                "another kernel, or a build with GNOMON_CGAL_KERNELS");
+  }
   const LightsByWay ways = split_by_way(scene, options, lights);
   if (ways.by_receiver.empty()) return functions.shadows(scene, options, lights);
   if (options.combined && options.area_algorithm == AreaAlgorithm::kPieces) {

@@ -63,9 +63,12 @@ struct ShadowOptions {
 bool applies_to(Mutation mutation, KernelId kernel, Algorithm algorithm);
 bool applies_to(Mutation mutation, KernelId kernel, AreaAlgorithm algorithm);
 
+/// False for kernels that were left out of the build (GNOMON_CGAL_KERNELS).
+bool has_kernel(KernelId kernel);
+
 /// Classifies every part for every light asked for. Errors: kUsage (no such light, a thickness
-/// outside [0, 1), a mutation that changes nothing for any of the lights), kInterrupted, kLimit
-/// (max_fragments; more than 64 lights with `combined`).
+/// outside [0, 1), a mutation that changes nothing for any of the lights, a kernel that was not
+/// built), kInterrupted, kLimit (max_fragments; more than 64 lights with `combined`).
 Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options);
 
 }  // namespace gnomon
