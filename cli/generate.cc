@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// gnomon generate: scenes made by rule.
+// gnomon generate: scenes made by rule, and single scenes of campaigns.
 #include "gnomon/scene/generate.h"
 
 #include <charconv>
 #include <memory>
 
 #include "commands.h"
+#include "gnomon/fuzz/generator.h"
 #include "gnomon/report/table.h"
 #include "gnomon/scene/write.h"
 #include "messages.h"
@@ -38,6 +39,10 @@ std::string listing() {
                       kWidth, 6, 8);
     }
   }
+  std::string names;
+  for (const std::string& name : fuzz::generator_names()) names += " " + name;
+  text += "Small degenerate scenes of campaigns (docs/generators.md), by --seed:\n";
+  text += report::wrapped(names.substr(1), report::TextTable::kWidth, 4, 4);
   return text;
 }
 
@@ -60,6 +65,31 @@ Expected<std::map<std::string, std::int64_t>> parse_parameters(
   return parameters;
 }
 
+/// One of the scenes that --list describes, or one that a campaign's generator makes of the seed.
+Expected<Scene> scene_by_name(const GenerateOptions& options) {
+  if (generator_by_name(options.name) != nullptr) {
+    const auto parameters = parse_parameters(options.parameters);
+    if (!parameters) return tl::unexpected(parameters.error());
+    return generate(options.name, *parameters, options.seed);
+  }
+  const auto generator = fuzz::Generator::parse(options.name);
+  if (!generator) {
+    // What has no part of a generator's text was meant as a scene's name.
+    if (options.name.find_first_of("+:") != std::string::npos) {
+      return tl::unexpected(generator.error());
+    }
+    return fail(ErrorCode::kUsage, "generate: there is no scene '" + options.name + "'",
+                "one of those that 'gnomon generate --list' names");
+  }
+  if (!options.parameters.empty()) {
+    return fail(
+        ErrorCode::kUsage,
+        "--param " + options.parameters.front() + ": '" + options.name + "' has no parameters",
+        "--seed alone");
+  }
+  return generator->make(options.seed).scene;
+}
+
 int run_generate(const GenerateOptions& options) {
   if (options.list) {
     const auto done = write_output(options.output, listing());
@@ -69,12 +99,6 @@ int run_generate(const GenerateOptions& options) {
     return report_usage("generate: no NAME",
                         "the name of a scene; 'gnomon generate --list' names them");
   }
-  if (generator_by_name(options.name) == nullptr) {
-    return report_usage("generate: there is no scene '" + options.name + "'",
-                        "one of those that 'gnomon generate --list' names");
-  }
-  const auto parameters = parse_parameters(options.parameters);
-  if (!parameters) return report_error(parameters.error());
   SceneFormat format = SceneFormat::kJson;
   if (!options.output.empty() && options.output != "-") {
     const auto by_extension = format_by_extension(options.output);
@@ -84,7 +108,7 @@ int run_generate(const GenerateOptions& options) {
     }
     format = *by_extension;
   }
-  const auto scene = generate(options.name, *parameters, options.seed);
+  const auto scene = scene_by_name(options);
   if (!scene) return report_error(scene.error());
   const auto written = scene_to_text(*scene, format);
   if (!written) return report_error(written.error());
@@ -103,8 +127,10 @@ void add_generate_command(CLI::App& app, Action& action) {
       "The same name, parameters and seed give the same scene on every machine.\n\n"
       "Examples:\n"
       "  gnomon generate --list\n"
-      "  gnomon generate city --param n=1000 --seed 7 -o city.json");
-  command.add_option("NAME", options->name, "Which scene; --list names them");
+      "  gnomon generate city --param n=1000 --seed 7 -o city.json\n"
+      "  gnomon generate soup-lattice+duplicate --seed 7 -o case.json");
+  command.add_option("NAME", options->name,
+                     "Which scene, or which generator of campaigns; --list names them");
   repeatable(command.add_option("--param", options->parameters, "A parameter (repeatable)"))
       ->type_name("NAME=N");
   command.add_option("--seed", options->seed, "Seed of what is random")

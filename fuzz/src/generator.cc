@@ -356,7 +356,7 @@ MadeScene GeneratorRecipe::build(const Plan& plan, std::uint64_t seed, std::uint
   std::ranges::sort(made.kinds);
   const auto repeated = std::ranges::unique(made.kinds);
   made.kinds.erase(repeated.begin(), repeated.end());
-  if (made.scene.name.empty()) made.scene.name = plan.base.name;
+  made.scene.name = made.recipe;
   return made;
 }
 

@@ -85,6 +85,8 @@ TEST_F(CommandLine, WrongUsageIsStatusTwoAndOneLine) {
   expect_one_line_error(run_gnomon({"info", table_, "--numbers", "roman"}), 2, "roman");
   expect_one_line_error(run_gnomon({"generate", "nothing-of-the-kind"}), 2, "--list");
   expect_one_line_error(run_gnomon({"generate", "room", "--param", "size"}), 2, "NAME=");
+  expect_one_line_error(run_gnomon({"generate", "mix+twist"}), 2, "no move 'twist'");
+  expect_one_line_error(run_gnomon({"generate", "mix", "--param", "n=4"}), 2, "--seed alone");
   expect_one_line_error(run_gnomon({"convert", table_, directory_.file("table.xyz")}), 2, ".json");
   expect_one_line_error(run_gnomon({"render", table_, "--eye", "1,2"}), 2, "--eye");
 }
@@ -228,6 +230,10 @@ TEST_F(CommandLine, ConvertAndGenerateReadBack) {
   EXPECT_THAT(converted.err, HasSubstr("light"));  // a mesh holds none, and the user is told
   EXPECT_EQ(run_gnomon({"info", mesh}).status, 0);
   EXPECT_THAT(run_gnomon({"generate", "--list"}).out, HasSubstr("room"));
+  EXPECT_THAT(run_gnomon({"generate", "--list"}).out, HasSubstr("area-soup-lattice"));
+  const std::string text = run_gnomon({"generate", "soup-lattice+duplicate", "--seed", "7"}).out;
+  EXPECT_THAT(text, HasSubstr("\"soup-lattice+duplicate\""));
+  EXPECT_NE(run_gnomon({"generate", "soup-lattice+duplicate", "--seed", "8"}).out, text);
 }
 
 TEST_F(CommandLine, StandardInputIsAScene) {

@@ -238,7 +238,7 @@ class Moves : public testing::TestWithParam<std::size_t> {};
 TEST_P(Moves, DoWhatTheirNameSays) {
   const Move& move = moves()[GetParam()];
   int before = 0, done = 0, after = 0, prepared = 0;
-  constexpr int kSeeds = 200;
+  constexpr int kSeeds = 120;
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     Random random(seed);
     const auto soup = static_cast<Soup>(seed % 3);

@@ -22,7 +22,7 @@
 namespace gnomon::fuzz {
 
 struct MadeScene {
-  Scene scene;
+  Scene scene;                       // its name is the recipe
   std::string recipe;                // what was done: "soup-lattice+duplicate+light-in-plane"
   std::vector<std::uint16_t> kinds;  // sorted, distinct: base and moves, where they hold
 };
