@@ -15,7 +15,9 @@ namespace fs = std::filesystem;
 std::vector<fs::path> files_in(const fs::path& directory) {
   std::vector<fs::path> result;
   for (const auto& entry : fs::directory_iterator(directory)) {
-    if (entry.path().extension() != ".md") result.push_back(entry.path());
+    // Beside the scenes there are a page and programs.
+    const fs::path extension = entry.path().extension();
+    if (extension != ".md" && extension != ".py") result.push_back(entry.path());
   }
   std::sort(result.begin(), result.end());
   return result;
