@@ -354,8 +354,7 @@ MadeScene GeneratorRecipe::build(const Plan& plan, std::uint64_t seed, std::uint
     if (kind == last || checker.holds(kind)) made.kinds.push_back(id_of(kind));
   }
   std::ranges::sort(made.kinds);
-  const auto repeated = std::ranges::unique(made.kinds);
-  made.kinds.erase(repeated.begin(), repeated.end());
+  made.kinds.erase(std::unique(made.kinds.begin(), made.kinds.end()), made.kinds.end());
   made.scene.name = made.recipe;
   return made;
 }
@@ -460,8 +459,7 @@ Expected<Generator> Generator::parse(std::string_view text) {
     expected.push_back(recipe->base.kind);
   }
   std::ranges::sort(expected);
-  const auto repeated = std::ranges::unique(expected);
-  expected.erase(repeated.begin(), repeated.end());
+  expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
   return Generator(std::move(recipe));
 }
 

@@ -24,8 +24,7 @@ oracle::CertifyOptions certify_options() {
 }  // namespace
 
 ZooCase::ZooCase(const ZooEntry& entry, const Scene& scene, PreparedScene prepared)
-    : entry_(entry),
-      scene_(scene),
+    : scene_(scene),
       prepared_(std::move(prepared)),
       answer_(scene_, prepared_),
       sound_(*parse_subject(entry.sound)) {}

@@ -21,7 +21,7 @@ namespace gnomon::fuzz {
 
 class ZooCase {
  public:
-  /// Keeps references to entry and scene.
+  /// Keeps a reference to the scene.
   ZooCase(const ZooEntry& entry, const Scene& scene, PreparedScene prepared);
   ZooCase(const ZooCase&) = delete;
   ZooCase& operator=(const ZooCase&) = delete;
@@ -41,7 +41,6 @@ class ZooCase {
   oracle::MeshReport check(const ShadingMesh& mesh) const;
 
  private:
-  const ZooEntry& entry_;
   const Scene& scene_;
   PreparedScene prepared_;
   oracle::ExactAnswer answer_;
