@@ -19,6 +19,9 @@ void add_generate_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
 void add_shrink_command(CLI::App& app, Action& action);
+void add_replay_command(CLI::App& app, Action& action);
+void add_fuzz_command(CLI::App& app, Action& action);
+void add_worker_command(CLI::App& app, Action& action);
 
 /// A finite number, 0 or more.
 CLI::Validator not_negative();

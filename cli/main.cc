@@ -70,6 +70,9 @@ int run(int argc, char** argv) {
   add_generate_command(app, action);
   add_convert_command(app, action);
   add_shrink_command(app, action);
+  add_fuzz_command(app, action);
+  add_replay_command(app, action);
+  add_worker_command(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForAllHelp&) {

@@ -2,15 +2,20 @@
 #include "gnomon/fuzz/check.h"
 
 #include <fmt/format.h>
+#include <stdlib.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "gnomon/algorithms/shadows.h"
+#include "gnomon/fuzz/command.h"
 #include "gnomon/fuzz/metamorphic.h"
 #include "gnomon/oracle/exact_answer.h"
 #include "gnomon/oracle/prepared_check.h"
@@ -82,6 +87,33 @@ std::string fragment_difference(const oracle::CandidatePolygon& a,
   return {};
 }
 
+/// A scene's file for a foreign program, gone with this object.
+class TemporaryScene {
+ public:
+  explicit TemporaryScene(const std::string& text) {
+    std::string name = (std::filesystem::temp_directory_path() / "gnomon-XXXXXX.json").string();
+    const int descriptor = ::mkstemps(name.data(), 5);
+    if (descriptor < 0) throw std::runtime_error("no temporary file: " + name);
+    path_ = std::move(name);
+    std::FILE* file = ::fdopen(descriptor, "wb");
+    const bool whole = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    if (std::fclose(file) != 0 || !whole) {
+      std::filesystem::remove(path_);
+      throw std::runtime_error("cannot write " + path_);
+    }
+  }
+  TemporaryScene(const TemporaryScene&) = delete;
+  TemporaryScene& operator=(const TemporaryScene&) = delete;
+  ~TemporaryScene() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
 class SceneCheck {
  public:
   SceneCheck(const Scene& scene, const CheckOptions& options) : scene_(scene), options_(options) {}
@@ -122,7 +154,12 @@ class SceneCheck {
   void tell(std::string_view stage) const {
     if (options_.stage) options_.stage(stage);
   }
+  bool is_left_out(Property property) const {
+    return property == Property::kClaims || property == Property::kRoundTrip ||
+           (property == Property::kMetamorphic && (options_.seed >> 48) % 2 != 0);
+  }
   bool wanted(Property property) const {
+    if (options_.brief && is_left_out(property)) return false;
     return options_.properties.empty() ||
            std::ranges::find(options_.properties, property) != options_.properties.end();
   }
@@ -158,7 +195,13 @@ class SceneCheck {
     if (!written) return;
     const Expected<ReadResult> read = parse_scene(written->text, "scene.json");
     if (!read) {
-      add({Property::kRoundTrip, "scene", "refused", {}, {}, to_string(read.error())});
+      const bool limit = read.error().code == ErrorCode::kLimit;
+      add({limit ? Property::kBudget : Property::kRoundTrip,
+           "scene",
+           limit ? "memory" : "refused",
+           {},
+           {},
+           to_string(read.error())});
       return;
     }
     const std::string difference = scene_difference(scene_, read->scene);
@@ -168,6 +211,7 @@ class SceneCheck {
   }
 
   void check_subject(const Subject& subject, const std::string& name) {
+    if (subject.foreign()) return check_foreign(subject, name);
     ShadowOptions options = shadow_options(subject);
     options.max_fragments = options_.max_fragments;
     Expected<ShadowResult> result = compute_shadows(*prepared_, options);
@@ -181,12 +225,49 @@ class SceneCheck {
       digest(*result);
     } else if (subject.exact() && wanted(Property::kAgreement)) {
       compare_with_first(*result, name);
+      if (options_.brief) return;
     }
     const oracle::Candidate candidate =
         report::candidate_from_result(scene_, *prepared_, *result, name, subject.kernel.exact());
     judge(subject, candidate, name);
     if (is_first && wanted(Property::kRoundTrip)) check_result_text(*result, candidate, name);
     if (is_first) first_ = std::move(*result);
+  }
+
+  void check_foreign(const Subject& subject, const std::string& name) {
+    const Expected<WrittenScene> written = scene_to_text(scene_, SceneFormat::kJson);
+    if (!written) return;
+    const TemporaryScene file(written->text);
+    CommandOptions options;
+    options.arguments = {file.path()};
+    options.seconds = options_.command_seconds;
+    options.megabytes = options_.command_megabytes;
+    const Expected<CommandResult> result = run_command(subject.command, options);
+    if (!result) return add_error(result.error(), name);
+    const auto ended = [&](Property property, std::string disagreement) {
+      add({property, name, std::move(disagreement), {}, {}, how_it_ended(*result)});
+    };
+    switch (result->end) {
+      case CommandEnd::kExited:
+        break;
+      case CommandEnd::kSignal:
+        return ended(Property::kCrash, fmt::format("signal {}", result->status));
+      case CommandEnd::kTimeout:
+        return ended(Property::kBudget, "time");
+      case CommandEnd::kTooLong:
+        return ended(Property::kBudget, "output");
+      case CommandEnd::kNotFound:
+        return ended(Property::kCrash, "not started");
+    }
+    if (result->status != 0) {
+      return ended(Property::kRefusal, fmt::format("status {}", result->status));
+    }
+    const Expected<oracle::Candidate> candidate =
+        oracle::parse_candidate(result->out, "result", scene_);
+    if (!candidate) {
+      return add({Property::kRoundTrip, name, "unreadable", {}, {}, to_string(candidate.error())});
+    }
+    judge(subject, *candidate, name);
   }
 
   void judge(const Subject& subject, const oracle::Candidate& candidate, const std::string& name) {
@@ -210,6 +291,7 @@ class SceneCheck {
     }
     // Foreign results need not name casters, and have no claims then.
     if (subject.foreign() || !wanted(Property::kClaims)) return;
+    ++report_.claims_checked;
     tell("claims of " + name);
     oracle::WitnessOptions options;
     options.tolerance = must_be_exact ? 0 : options_.tolerance;

@@ -56,9 +56,10 @@ class WitnessChecker {
   struct Piece {
     const CandidateFragment* fragment = nullptr;
     std::size_t index = 0;
-    std::uint32_t part = 0;  // a part of the family whose plane it lies in
-    Loop loop;               // oriented like that part
-    mpq_class area;          // along the part's normal
+    std::uint32_t part = 0;          // a part of the family whose plane it lies in
+    Loop loop;                       // oriented like that part
+    mpq_class area;                  // along the part's normal
+    std::vector<HalfSpace> walls{};  // of its edges, made when first asked for: walls_of()
     std::array<double, 3> low{}, high{};
   };
 
@@ -78,6 +79,8 @@ class WitnessChecker {
   void check_polygon(const CandidatePolygon& polygon);
   void check_family(const CandidatePolygon& polygon, const std::vector<std::uint32_t>& parts,
                     std::vector<Piece>& pieces);
+  /// In the plane with that normal, inside of the piece; none for an edge without length.
+  static const std::vector<HalfSpace>& walls_of(Piece& piece, const ExactPoint& normal);
   void check_shade(const CandidatePolygon& polygon, const Piece& piece, const mpq_class& slack);
   void check_fractions(const CandidatePolygon& polygon, const std::vector<Piece>& pieces,
                        const std::vector<std::uint32_t>& parts);
@@ -306,6 +309,16 @@ bool WitnessChecker::are_coplanar(std::uint32_t a, std::uint32_t b) const {
   });
 }
 
+const std::vector<HalfSpace>& WitnessChecker::walls_of(Piece& piece, const ExactPoint& normal) {
+  if (!piece.walls.empty()) return piece.walls;
+  for (std::size_t i = 0; i < piece.loop.size(); ++i) {
+    const ExactPoint &a = piece.loop[i], &b = piece.loop[(i + 1) % piece.loop.size()];
+    ExactPoint inward = cross(normal, minus(b, a));
+    if (dot(inward, inward) != 0) piece.walls.emplace_back(std::move(inward), a);
+  }
+  return piece.walls;
+}
+
 mpq_class WitnessChecker::shadowed_by(const Piece& piece, std::uint32_t part) const {
   const Solid& caster = solids_[part];
   if (!caster.casts || part == piece.part || are_coplanar(part, piece.part)) return 0;
@@ -434,13 +447,10 @@ void WitnessChecker::check_family(const CandidatePolygon& polygon,
             apart || pieces[i].high[k] < pieces[j].low[k] || pieces[j].high[k] < pieces[i].low[k];
       }
       if (apart) continue;
-      const Loop& other = pieces[j].loop;
       Loop rest = pieces[i].loop;
-      for (std::size_t e = 0; e < other.size() && !rest.empty(); ++e) {
-        const ExactPoint &a = other[e], &b = other[(e + 1) % other.size()];
-        const ExactPoint inward = cross(normal, minus(b, a));
-        if (dot(inward, inward) == 0) continue;
-        rest = cut(rest, HalfSpace(inward, a));
+      for (const HalfSpace& wall : walls_of(pieces[j], normal)) {
+        rest = cut(rest, wall);
+        if (rest.empty()) break;
       }
       const bool both = pieces[i].fragment->exact && pieces[j].fragment->exact;
       if (!rest.empty() && area_along(normal, rest) > slack_of(both)) {
@@ -607,8 +617,17 @@ void WitnessChecker::check_polygon(const CandidatePolygon& polygon) {
       violation(polygon.id, "a fragment does not lie in the polygon's plane", i);
       continue;
     }
-    Piece piece{&fragment, i, best->front(), fragment.loop, {}, {}, {}};
+    Piece piece{&fragment, i, best->front(), fragment.loop, {}, {}, {}, {}};
     const ExactPoint& normal = solids_[piece.part].normal;
+    // Rounded vertices are off the plane by a hair, which must not put them behind a caster that
+    // lies in it: what is judged is the fragment on its polygon.
+    if (best_distance != 0) {
+      const mpq_class square = dot(normal, normal);
+      for (ExactPoint& point : piece.loop) {
+        const mpq_class height = dot(normal, minus(point, solids_[piece.part].loop[0])) / square;
+        for (int k = 0; k < 3; ++k) point[k] -= height * normal[k];
+      }
+    }
     piece.area = area_along(normal, piece.loop);
     if (piece.area < 0) {
       std::reverse(piece.loop.begin(), piece.loop.end());

@@ -90,6 +90,7 @@ oracle::Candidate candidate_from_result(const Scene& scene, const PreparedScene&
             const Fragment& fragment = light.fragments[part.result->first_fragment + f];
             oracle::CandidateFragment judged_fragment;
             judged_fragment.shade = shade_of(fragment.state);
+            judged_fragment.exact = result.exact && !light.exact_points.empty();
             if (!copy_loop(light, fragment, judged_fragment.loop)) continue;
             if (fragment.caster != Fragment::kNoCaster) {
               judged_fragment.caster = scene.polygons[prepared.parts[fragment.caster].polygon].id;

@@ -14,6 +14,7 @@
 #include "gnomon/fuzz/families.h"
 #include "gnomon/fuzz/metamorphic.h"
 #include "gnomon/scene/generate.h"
+#include "gnomon/scene/read.h"
 #include "solve.h"
 
 namespace gnomon::fuzz {
@@ -77,6 +78,15 @@ TEST(Check, RoundedKernelsFailOnHardScenes) {
     }
   }
   EXPECT_GE(failed, 10u);
+}
+
+TEST(Check, ClaimsOfRoundedLoopsAreJudgedOnTheirPolygon) {
+  // Panels lie in a wall's plane: a vertex that rounding moved behind them is still on the wall.
+  const auto read = read_scene(std::string(GNOMON_EXAMPLES) + "/hair.json");
+  ASSERT_TRUE(read) << to_string(read.error());
+  CheckOptions options;
+  options.subjects = {*parse_subject("double"), *parse_subject("epick")};
+  EXPECT_EQ(failures_text(check_scene(read->scene, options)), "");
 }
 
 TEST(Check, ASceneThatCannotBePreparedIsRefused) {

@@ -20,10 +20,13 @@ namespace gnomon::fuzz {
 struct CheckOptions {
   std::vector<Subject> subjects;
   std::vector<Property> properties;  // to be checked; empty: all. Crashes always count
-  double tolerance = 1e-9;           // of rounded and foreign results: fraction of each polygon
-  std::optional<double> width;       // scene units; default 1e-9 of the scene's diagonal
-  bool strict = false;               // tolerance and width 0
-  std::uint64_t seed = 1;            // of the metamorphic relation
+  /// No claims, no files written and read back, a relation on every other scene only; of the exact
+  /// subjects the oracle judges the first alone: the others must have the same fractions.
+  bool brief = false;
+  double tolerance = 1e-9;      // of rounded and foreign results: fraction of each polygon
+  std::optional<double> width;  // scene units; default 1e-9 of the scene's diagonal
+  bool strict = false;          // tolerance and width 0
+  std::uint64_t seed = 1;       // of the metamorphic relation
   std::uint64_t max_fragments = 200'000;
   double command_seconds = 10;  // for each run of a foreign program
   std::uint64_t command_megabytes = 2048;

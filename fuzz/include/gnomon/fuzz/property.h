@@ -64,6 +64,7 @@ struct CaseReport {
   std::uint32_t polygons = 0, lights = 0;
   std::uint64_t fragments = 0;  // of the first subject
   std::uint64_t area_lights = 0;
+  std::uint64_t claims_checked = 0;  // results whose claims were checked one by one
 
   const Failure* find(const Failure& wanted) const;
 };
