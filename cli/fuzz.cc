@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "campaign_findings.h"
 #include "check_options.h"
 #include "commands.h"
 #include "failures.h"
@@ -37,6 +38,7 @@ struct FuzzOptions {
   std::vector<std::string> merge, fail_on;
   unsigned jobs = 0;
   bool every_kernel = false, times = false;
+  std::string findings;
 };
 
 /// One line on a terminal, at most four times a second.
@@ -63,6 +65,12 @@ class CampaignLine {
   void say(const std::string& text) {
     clear();
     std::fprintf(stderr, "%s\n", text.c_str());
+  }
+  void show(const std::string& text) {
+    if (!terminal_) return;
+    std::fprintf(stderr, "\r%s\033[K", text.substr(0, 110).c_str());
+    std::fflush(stderr);
+    shown_ = true;
   }
   void clear() {
     if (shown_) std::fputs("\r\033[K", stderr);
@@ -176,9 +184,23 @@ int run_fuzz(const FuzzOptions& options) {
              " (" + finding.recipe + "): " + finding.failure.text);
   };
   run.interrupted = &interrupted();
-  const auto outcome = fuzz::run_campaign(plan, run);
+  auto outcome = fuzz::run_campaign(plan, run);
   line.clear();
   if (!outcome) return report_error(outcome.error());
+  if (!options.findings.empty() && !outcome->interrupted) {
+    FindingsOptions findings;
+    findings.folder = options.findings;
+    findings.program = run.program;
+    findings.database = options.database;
+    findings.say = [&](const std::string& text) { line.say(text); };
+    findings.progress = [&](const std::string& text) { line.show(text); };
+    const auto written = write_campaign_findings(plan, *outcome, findings);
+    line.clear();
+    if (!written && written.error().code != ErrorCode::kInterrupted) {
+      return report_error(written.error());
+    }
+    outcome->interrupted = !written;
+  }
   return finish(options, plan.text(), *outcome);
 }
 
@@ -224,6 +246,10 @@ void add_fuzz_command(CLI::App& app, Action& action) {
   command.add_option("--keep", options->keep, "Findings kept of each kind of failure")
       ->type_name("N")
       ->capture_default_str();
+  command
+      .add_option("--findings", options->findings,
+                  "Shrink what is kept, and write each as a folder below DIR")
+      ->type_name("DIR");
   command.add_flag("--every-kernel", options->every_kernel,
                    "Without --kernel: all exact kernels and algorithms on every scene");
   add_check_options(command, options->check);

@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "failures.h"
 #include "gnomon/fuzz/campaign.h"
+#include "gnomon/fuzz/finding.h"
 #include "gnomon/fuzz/generator.h"
 #include "gnomon/fuzz/isolated.h"
 #include "gnomon/report/table.h"
@@ -35,7 +36,8 @@ struct ReplayOptions {
 struct ReplayedCase {
   Scene scene;
   std::uint64_t seed = 1;
-  std::string name;  // for the first line
+  std::string name;                         // for the first line
+  std::optional<fuzz::CheckOptions> check;  // of a finding: what it failed under
 };
 
 /// The scene of a case that a database kept.
@@ -48,7 +50,7 @@ Expected<ReplayedCase> case_of_campaign(const ReplayOptions& options) {
       const auto generator = fuzz::Generator::parse(finding.generator);
       if (!generator) return tl::unexpected(generator.error());
       fuzz::MadeScene made = generator->make(finding.seed);
-      return ReplayedCase{std::move(made.scene), finding.seed, made.recipe};
+      return ReplayedCase{std::move(made.scene), finding.seed, made.recipe, {}};
     }
     kept += (kept.empty() ? "" : ", ") + std::to_string(finding.case_index);
   }
@@ -67,18 +69,24 @@ Expected<ReplayedCase> chosen_case(const ReplayOptions& options) {
     const auto generator = fuzz::Generator::parse(options.generator);
     if (!generator) return tl::unexpected(generator.error());
     fuzz::MadeScene made = generator->make(*options.case_seed);
-    return ReplayedCase{std::move(made.scene), *options.case_seed, made.recipe};
+    return ReplayedCase{std::move(made.scene), *options.case_seed, made.recipe, {}};
   }
   if (options.what.empty()) {
     return fail(ErrorCode::kUsage, "nothing to replay",
                 "a scene, a finding's folder, a campaign's database with --case, or --seed with "
                 "--generator");
   }
+  if (std::filesystem::is_directory(options.what)) {
+    auto finding = fuzz::read_finding(options.what);
+    if (!finding) return tl::unexpected(finding.error());
+    const std::uint64_t seed = finding->check.seed;
+    return ReplayedCase{std::move(finding->scene), seed, options.what, std::move(finding->check)};
+  }
   if (fuzz::is_campaign(options.what)) return case_of_campaign(options);
   auto read = read_scene(options.what);
   if (!read) return tl::unexpected(read.error());
   for (const std::string& warning : read->warnings) warn(options.what + ": " + warning);
-  return ReplayedCase{std::move(read->scene), options.relation_seed, options.what};
+  return ReplayedCase{std::move(read->scene), options.relation_seed, options.what, {}};
 }
 
 int run_replay(const ReplayOptions& options) {
@@ -92,6 +100,12 @@ int run_replay(const ReplayOptions& options) {
   }
   auto program = own_program();
   if (!program) return report_error(program.error());
+  if (chosen->check && options.check.kernels.empty() && options.check.commands.empty()) {
+    // As it was found; only what was asked for is otherwise.
+    fuzz::CheckOptions own = std::move(*chosen->check);
+    if (!options.check.properties.empty()) own.properties = worker->check.properties;
+    worker->check = std::move(own);
+  }
   worker->check.seed = chosen->seed;
   fuzz::IsolatedChecker checker(std::move(*program), worker->check, worker->limits);
   const auto report = checker.check(chosen->scene, &interrupted());

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "check_options.h"
 #include "commands.h"
 #include "gnomon/fuzz/check.h"
 #include "gnomon/fuzz/finding.h"
@@ -25,6 +26,7 @@
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/write.h"
 #include "interrupt.h"
+#include "isolated_check.h"
 #include "messages.h"
 #include "output.h"
 #include "scene_options.h"
@@ -35,19 +37,14 @@ namespace {
 
 using fuzz::CheckOptions;
 using fuzz::Failure;
-using fuzz::Property;
 using fuzz::Subject;
 
 struct ShrinkCommand {
   SceneOptions scene;
-  std::vector<std::string> kernels;
-  std::vector<std::string> commands;
-  std::string property, disagreement;
-  double tolerance = 1e-9;
-  std::optional<double> width;
-  bool strict = false;
+  CheckCommandOptions check;
+  std::string disagreement;
   std::uint64_t seed = 1;
-  double seconds = 0;
+  std::string time;
   std::string output;
   std::string findings;
 };
@@ -57,56 +54,36 @@ constexpr std::array kUsualSubjects = {"double",       "double+thin", "double+id
                                        "float",        "longdouble",  "epick",
                                        "double/svbsp", "float/svbsp", "epick/svbsp"};
 
-Expected<CheckOptions> check_options(const ShrinkCommand& options) {
-  CheckOptions check;
-  for (const std::string& name : options.kernels) {
-    auto subject = fuzz::parse_subject(name);
-    if (!subject) return tl::unexpected(subject.error());
-    check.subjects.push_back(std::move(*subject));
-  }
-  for (const std::string& command : options.commands) {
-    check.subjects.push_back({});
-    check.subjects.back().command = command;
-  }
-  if (check.subjects.empty()) {
-    for (const char* name : kUsualSubjects) check.subjects.push_back(*fuzz::parse_subject(name));
-    for (Subject& subject : fuzz::exact_subjects()) check.subjects.push_back(std::move(subject));
-  }
-  if (!options.property.empty()) {
-    const auto property = fuzz::property_by_id(options.property);
-    if (!property) {
-      std::string ids;
-      for (const fuzz::PropertyInfo& info : fuzz::properties()) {
-        ids += (ids.empty() ? "" : ", ") + std::string(info.id);
-      }
-      return fail(ErrorCode::kUsage, "--property " + options.property + ": no such property",
-                  "one of: " + ids);
-    }
-    check.properties = {*property};
-  }
-  check.tolerance = options.tolerance;
-  check.width = options.width;
-  check.strict = options.strict;
-  check.seed = options.seed;
-  return check;
+std::vector<Subject> usual_subjects() {
+  std::vector<Subject> subjects;
+  for (const char* name : kUsualSubjects) subjects.push_back(*fuzz::parse_subject(name));
+  for (Subject& subject : fuzz::exact_subjects()) subjects.push_back(std::move(subject));
+  return subjects;
 }
 
 /// The first failure that is asked for, subject by subject: the next one need not run then.
-std::optional<Failure> first_failure(const Scene& scene, const CheckOptions& all,
-                                     const std::string& disagreement) {
-  const auto search = [&](const CheckOptions& check) -> std::optional<Failure> {
-    for (Failure& failure : fuzz::check_scene(scene, check).failures) {
-      if (disagreement.empty() || failure.disagreement == disagreement) return std::move(failure);
+Expected<std::optional<Failure>> first_failure(const Scene& scene, const std::string& program,
+                                               const fuzz::WorkerOptions& worker,
+                                               const std::string& disagreement) {
+  const auto search = [&](const CheckOptions& check) -> Expected<std::optional<Failure>> {
+    const IsolatedCheck checker(program, check, worker.limits);
+    for (Failure& failure : checker(scene).failures) {
+      if (disagreement.empty() || failure.disagreement == disagreement) {
+        return std::optional(std::move(failure));
+      }
     }
+    if (checker.error()) return tl::unexpected(*checker.error());
     return std::nullopt;
   };
-  for (const Subject& subject : all.subjects) {
-    CheckOptions one = all;
+  for (const Subject& subject : worker.check.subjects) {
+    CheckOptions one = worker.check;
     one.subjects = {subject};
-    if (auto failure = search(one)) return failure;
-    if (interrupted()) return std::nullopt;
+    auto failure = search(one);
+    if (!failure || *failure) return failure;
   }
-  return search(all);  // what shows only where several are compared
+  // What shows only where several are compared.
+  if (worker.check.subjects.size() < 2) return std::nullopt;
+  return search(worker.check);
 }
 
 /// The top-level "extra" of the output: how it fails, and which scene it is a smaller one of. The
@@ -167,23 +144,28 @@ class ProgressLine {
 
 class ShrinkRun {
  public:
-  ShrinkRun(const ShrinkCommand& options, Scene scene, CheckOptions check)
-      : options_(options), origin_(std::move(scene)), check_(std::move(check)) {}
+  ShrinkRun(const ShrinkCommand& options, Scene scene, std::string program,
+            fuzz::WorkerOptions worker)
+      : options_(options),
+        origin_(std::move(scene)),
+        program_(std::move(program)),
+        worker_(std::move(worker)) {}
 
   int run() {
-    const auto failure = first_failure(origin_, check_, options_.disagreement);
-    if (interrupted()) return report_error({ErrorCode::kInterrupted, {}, "interrupted", {}});
-    if (!failure) {
+    const auto found = first_failure(origin_, program_, worker_, options_.disagreement);
+    if (!found) return report_error(found.error());
+    if (!*found) {
       say(fmt::format("{}: nothing to shrink: it does not fail ({})\n",
                       shown_name(options_.scene.scene), checked_in_words()));
       return kDone;
     }
-    failure_ = *failure;
+    failure_ = **found;
     task_ = task_text(origin_, failure_);
     say(fmt::format("{} fails: {}\n  {}\n  {}\n", shown_name(options_.scene.scene),
                     failure_.signature(), failure_.text,
                     fuzz::size_in_words(fuzz::size_of(origin_))));
-    const fuzz::StillFails alike = fuzz::fails_like(failure_, check_);
+    const IsolatedCheck checker(program_, fuzz::narrowed(worker_.check, failure_), worker_.limits);
+    const fuzz::StillFails alike = fuzz::fails_like(failure_, checker);
     // A check that was cut short says nothing.
     const auto fails = [&](const Scene& scene) { return alike(scene) && !interrupted(); };
     Scene start = left_behind(fails).value_or(origin_);
@@ -192,7 +174,7 @@ class ShrinkRun {
 
     fuzz::ShrinkOptions shrinking;
     shrinking.interrupted = &interrupted();
-    shrinking.seconds = options_.seconds;
+    if (!options_.time.empty()) shrinking.seconds = duration_seconds(options_.time);
     ProgressLine line;
     std::optional<Error> unwritten;
     shrinking.progress = [&](const fuzz::ShrinkProgress& progress) {
@@ -206,6 +188,7 @@ class ShrinkRun {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     line.show({}, true);
     if (unwritten) return report_error(*unwritten);
+    if (checker.error() && !interrupted()) return report_error(*checker.error());
     if (auto done = write(result.scene); !done) return report_error(done.error());
     say(fmt::format("shrunken to {} in {} tries ({} accepted), {:.1f} s\n",
                     fuzz::size_in_words(result.after), result.tries, result.accepted,
@@ -237,11 +220,11 @@ class ShrinkRun {
 
   std::string checked_in_words() const {
     std::string names;
-    for (const Subject& subject : check_.subjects) {
+    for (const Subject& subject : worker_.check.subjects) {
       names += (names.empty() ? "" : ", ") + fuzz::name_of(subject);
     }
     std::string text = names;
-    if (!options_.property.empty()) text += "; property " + options_.property;
+    for (const std::string& id : options_.check.properties) text += "; property " + id;
     if (!options_.disagreement.empty()) text += "; class " + options_.disagreement;
     return text;
   }
@@ -251,7 +234,9 @@ class ShrinkRun {
     finding.scene = result.scene;
     finding.original = origin_;
     finding.failure = failure_;
-    finding.check = check_;
+    finding.check = worker_.check;
+    finding.seconds = worker_.limits.seconds;
+    finding.megabytes = worker_.limits.megabytes;
     finding.locally_minimal = result.locally_minimal;
     const auto place = fuzz::write_finding(options_.findings, finding);
     if (!place) return tl::unexpected(place.error());
@@ -282,14 +267,18 @@ class ShrinkRun {
 
   const ShrinkCommand& options_;
   const Scene origin_;
-  const CheckOptions check_;
+  const std::string program_;
+  const fuzz::WorkerOptions worker_;
   Failure failure_;
   std::string task_;
 };
 
 int run_shrink(const ShrinkCommand& options) {
-  auto check = check_options(options);
-  if (!check) return report_error(check.error());
+  auto worker = worker_options(options.check, usual_subjects());
+  if (!worker) return report_error(worker.error());
+  worker->check.seed = options.seed;
+  auto program = own_program();
+  if (!program) return report_error(program.error());
   auto loaded = load_scene(options.scene, false);
   if (!loaded) return report_error(loaded.error());
   Scene scene = std::move(loaded->scene);
@@ -298,7 +287,7 @@ int run_shrink(const ShrinkCommand& options) {
     for (const std::uint32_t light : loaded->lights) lights.push_back(scene.lights[light]);
     scene.lights = std::move(lights);
   }
-  return ShrinkRun(options, std::move(scene), std::move(*check)).run();
+  return ShrinkRun(options, std::move(scene), std::move(*program), std::move(*worker)).run();
 }
 
 }  // namespace
@@ -317,38 +306,17 @@ void add_shrink_command(CLI::App& app, Action& action) {
       "  gnomon shrink scene.json --kernel double+thin -o small.json\n"
       "  gnomon shrink scene.json --candidate-command './solver --json' --class misclassified");
   add_scene_options(command, options->scene);
-  repeatable(
-      command.add_option("--kernel", options->kernels,
-                         "What is under test: KERNEL[+identity][+thin][/ALGORITHM] (repeatable)"))
-      ->type_name("SUBJECT");
-  repeatable(command.add_option("--candidate-command", options->commands,
-                                "A foreign program under test: scene file as last argument, result "
-                                "on standard output (repeatable)"))
-      ->type_name("CMD");
-  command.add_option("--property", options->property, "Only failures of this property")
-      ->type_name("ID");
+  add_check_options(command, options->check);
   command
       .add_option("--class", options->disagreement,
                   "Only failures of this class, such as misclassified, uncovered, refused")
       ->type_name("CLASS");
-  command
-      .add_option("--tolerance", options->tolerance, "Wrong share of a polygon that is tolerated")
-      ->check(not_negative())
-      ->type_name("F")
-      ->capture_default_str();
-  command
-      .add_option("--width", options->width,
-                  "Width of errors that is tolerated; 1e-9 of the scene's diagonal if absent")
-      ->check(not_negative())
-      ->type_name("W");
-  command.add_flag("--strict", options->strict, "Tolerance and width 0");
   command.add_option("--seed", options->seed, "Of the metamorphic relation that is tried")
       ->type_name("N")
       ->capture_default_str();
-  command.add_option("--time", options->seconds, "Stop after so many seconds; 0: never")
-      ->check(not_negative())
-      ->type_name("SECONDS")
-      ->capture_default_str();
+  command.add_option("--time", options->time, "Stop after that long: 90, 90s, 5m, 2h")
+      ->check(duration())
+      ->type_name("T");
   command
       .add_option("-o,--output", options->output,
                   "Scene file, written after every improvement; standard output if absent")
