@@ -25,7 +25,6 @@ Expected<std::string> write_one(const fuzz::CampaignPlan& plan, const fuzz::Camp
   finding.failure = found.failure;
   finding.check = plan.worker.check;
   finding.check.seed = found.seed;
-  finding.check.skip_claims = false;
   finding.seconds = plan.worker.limits.seconds;
   finding.megabytes = plan.worker.limits.megabytes;
   finding.generator = found.generator;

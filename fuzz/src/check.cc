@@ -272,7 +272,10 @@ class SceneCheck {
 
   void judge(const Subject& subject, const oracle::Candidate& candidate, const std::string& name) {
     const bool must_be_exact = subject.exact() || options_.strict;
-    if (wanted(Property::kOracle) || wanted(Property::kSelf)) {
+    // How grave a false claim of a rounded result is, only the oracle can tell.
+    const bool claims = !subject.foreign() && wanted(Property::kClaims);
+    double share = 0, width = 0;
+    if (wanted(Property::kOracle) || wanted(Property::kSelf) || (claims && !must_be_exact)) {
       tell("oracle on " + name);
       oracle::CertifyOptions options;
       options.tolerance = options_.tolerance;
@@ -288,20 +291,28 @@ class SceneCheck {
       const bool wrong = must_be_exact ? report->verdict != oracle::Verdict::kIdentical
                                        : report->verdict == oracle::Verdict::kFailed;
       if (wrong) add_verdict(*report, name);
+      share = worst_share(report->totals);
+      width = report->totals.width.upper;
     }
     // Foreign results need not name casters, and have no claims then.
-    if (subject.foreign() || !wanted(Property::kClaims)) return;
+    if (!claims) return;
     ++report_.claims_checked;
     tell("claims of " + name);
     oracle::WitnessOptions options;
     options.tolerance = must_be_exact ? 0 : options_.tolerance;
     options.width = must_be_exact ? std::optional(0.0) : options_.width;
     options.most = 1;
-    const oracle::WitnessReport claims =
+    const oracle::WitnessReport checked =
         oracle::check_witnesses(scene_, *prepared_, candidate, options);
-    for (const oracle::WitnessFinding& finding : claims.findings) {
-      add({Property::kClaims, name, "false claim", finding.light, finding.polygon, finding.text});
+    for (const oracle::WitnessFinding& finding : checked.findings) {
+      add({Property::kClaims, name, "false claim", finding.light, finding.polygon, finding.text,
+           width, share});
     }
+  }
+
+  static double worst_share(const oracle::ComparisonTotals& totals) {
+    return std::max({totals.worst_misclassified, totals.worst_uncovered, totals.worst_overlapping,
+                     totals.worst_outside});
   }
 
   void add_verdict(const oracle::Report& report, const std::string& name) {
@@ -312,12 +323,12 @@ class SceneCheck {
       failure.disagreement = name_of(report.worst->kind);
       failure.light = report.worst->light;
       failure.polygon = report.worst->polygon;
-      if (!report.worst->text.empty()) failure.text += "; " + report.worst->text;
+      const std::string& place = report.worst->text;
+      if (!place.empty() && place != report.reason) failure.text += "; " + place;
     }
     for (const std::string& problem : report.problems) failure.text += "; " + problem;
     failure.width = totals.width.upper;
-    failure.share = std::max({totals.worst_misclassified, totals.worst_uncovered,
-                              totals.worst_overlapping, totals.worst_outside});
+    failure.share = worst_share(totals);
     add(std::move(failure));
   }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <string>
 
 #include "run_gnomon.h"
@@ -72,6 +73,55 @@ TEST(Shrink, AFindingIsAFolder) {
   EXPECT_EQ(run_gnomon({"certify", place + "/scene.json", "--kernel", "float"}).status, 1);
 }
 
+TEST(Shrink, FindingsOfACampaignReplay) {
+  const TestDirectory directory;
+  const std::vector<std::string> command = {"fuzz",
+                                            "--generator",
+                                            "soup-lattice",
+                                            "--kernel",
+                                            "float",
+                                            "--count",
+                                            "10",
+                                            "--property",
+                                            "oracle",
+                                            "--keep",
+                                            "2",
+                                            "-j",
+                                            "1",
+                                            "--findings",
+                                            directory.file("found"),
+                                            "--db",
+                                            directory.file("campaign.db")};
+  const RunResult run = run_gnomon(command);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr(") fails: oracle:"), HasSubstr("locally minimal")));
+  std::size_t folders = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(directory.file("found"))) {
+    ++folders;
+    const RunResult replay = run_gnomon({"replay", entry.path().string()});
+    EXPECT_EQ(replay.status, 1) << replay.out << replay.err;
+    EXPECT_THAT(replay.out, HasSubstr("oracle:"));
+    EXPECT_THAT(read_text(entry.path() / "README.md"), HasSubstr("generator `soup-lattice`"));
+  }
+  EXPECT_GE(folders, 1u);
+  // What is written is known.
+  EXPECT_THAT(run_gnomon(command).err, Not(HasSubstr("fails: ")));
+}
+
+TEST(Shrink, AForeignProgramIsShrunkToo) {
+  const TestDirectory directory;
+  // Wrong only where there are two polygons or more.
+  write_text(directory.file("solver.sh"),
+             "n=$(grep -c '\"loop\"' \"$1\")\n"
+             "[ \"$n\" -lt 2 ] || kill -SEGV $$\n"
+             "exec \"" GNOMON_PROGRAM "\" shadows \"$1\" --fragments\n");
+  const RunResult run =
+      run_gnomon({"shrink", kRoom, "--candidate-command", "sh " + directory.file("solver.sh")});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("no-crash:signal 11:command:sh "));
+  EXPECT_EQ(count(run.out, "\"loop\""), 2u) << run.out;
+}
+
 TEST(Shrink, WhatDoesNotFailIsAnAnswer) {
   const RunResult run = run_gnomon({"shrink", kRoom, "--kernel", "plane"});
   EXPECT_EQ(run.status, 0);
@@ -90,7 +140,7 @@ TEST(Shrink, StoppedItKeepsTheBestAndGoesOn) {
   const std::vector<std::string> command = {"shrink", large, "--kernel", "float", "-o", small};
   RunResult run = run_gnomon(command, options);
   EXPECT_TRUE(run.status == 130 || run.status == 0) << run.status << run.err;
-  run = run_gnomon({"shrink", large, "--kernel", "float", "--time", "0.02", "-o", small});
+  run = run_gnomon({"shrink", large, "--kernel", "float", "--time", "0.1", "-o", small});
   EXPECT_EQ(run.status, 0) << run.err;
   run = run_gnomon(command);
   EXPECT_EQ(run.status, 0) << run.err;
