@@ -15,6 +15,7 @@
 #include "gnomon/fuzz/campaign.h"
 #include "gnomon/fuzz/campaign_report.h"
 #include "gnomon/fuzz/generator.h"
+#include "gnomon/fuzz/zoo.h"
 #include "gnomon/report/number_text.h"
 #include "interrupt.h"
 #include "jobs.h"
@@ -37,7 +38,7 @@ struct FuzzOptions {
   std::string time, database, shard, json;
   std::vector<std::string> merge, fail_on;
   unsigned jobs = 0;
-  bool every_kernel = false, times = false;
+  bool every_kernel = false, zoo = false, times = false;
   std::string findings;
 };
 
@@ -152,7 +153,29 @@ int run_merge(const FuzzOptions& options) {
   return finish(options, *plan, *outcome);
 }
 
+/// Every mistake of the zoo hunted with several seeds. One that is not found is a hole in the
+/// oracle.
+int run_zoo(const FuzzOptions& options) {
+  constexpr std::uint64_t kHunts = 5, kMostScenes = 1000;
+  const ThreadLimit threads(1);
+  CampaignLine line;
+  std::vector<fuzz::ZooTally> tallies;
+  bool all_found = true;
+  for (const fuzz::ZooEntry& entry : fuzz::zoo()) {
+    if (interrupted()) break;
+    line.say("hunting " + entry.mutant() + " in " + std::string(entry.generator));
+    const auto tally = fuzz::hunt_often(entry, options.count.value_or(kHunts), kMostScenes);
+    if (!tally) return report_error(tally.error());
+    all_found = all_found && tally->found == tally->hunts;
+    tallies.push_back(*tally);
+  }
+  const auto written = write_output({}, fuzz::zoo_table(tallies));
+  if (!written) return report_error(written.error());
+  return interrupted() ? kInterruptedStatus : all_found ? kDone : kDisagree;
+}
+
 int run_fuzz(const FuzzOptions& options) {
+  if (options.zoo) return run_zoo(options);
   if (!options.merge.empty()) return run_merge(options);
   auto worker = worker_options(options.check, fuzz::exact_subjects());
   if (!worker) return report_error(worker.error());
@@ -252,6 +275,10 @@ void add_fuzz_command(CLI::App& app, Action& action) {
       ->type_name("DIR");
   command.add_flag("--every-kernel", options->every_kernel,
                    "Without --kernel: all exact kernels and algorithms on every scene");
+  command.add_flag(
+      "--zoo", options->zoo,
+      "Hunt every mistake of the bug zoo instead, --count times (5), and print how many "
+      "scenes it took");
   add_check_options(command, options->check);
   add_jobs_option(command, options->jobs);
   command.add_option("--json", options->json, "Write the campaign's figures; - is standard output")

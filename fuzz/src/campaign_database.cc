@@ -109,6 +109,14 @@ class CampaignDatabase::Lock {
 };
 
 CampaignDatabase::CampaignDatabase(const std::string& path, Access access) {
+  try {
+    open(path, access);
+  } catch (const SQLite::Exception& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
+}
+
+void CampaignDatabase::open(const std::string& path, Access access) {
   const bool in_memory = path.empty();
   const bool writes = access == Access::kWrite;
   if (!in_memory && writes) lock_ = std::make_unique<Lock>(path);

@@ -60,6 +60,8 @@ class CampaignDatabase {
 
  private:
   class Lock;
+  void open(const std::string& path, Access access);
+
   std::unique_ptr<Lock> lock_;
   std::unique_ptr<SQLite::Database> database_;
   bool is_new_ = false;
