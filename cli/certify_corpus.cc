@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <system_error>
 
+#include "check_options.h"
 #include "exit_status.h"
 #include "gnomon/fuzz/corpus.h"
 #include "gnomon/fuzz/corpus_judge.h"
@@ -32,13 +32,6 @@ Expected<std::vector<fuzz::Subject>> chosen_subjects(const CorpusCommandOptions&
   }
   if (subjects.empty()) return fuzz::default_corpus_subjects();
   return subjects;
-}
-
-/// Empty if the system does not tell.
-std::string own_program() {
-  std::error_code failure;
-  const std::filesystem::path path = std::filesystem::read_symlink("/proc/self/exe", failure);
-  return failure ? std::string() : path.string();
 }
 
 /// Writes every scene of the corpus anew, where that changes it.
@@ -76,7 +69,8 @@ int run_certify_corpus(const CorpusCommandOptions& options) {
   judging.tolerance = options.tolerance;
   judging.seconds = options.seconds;
   judging.megabytes = options.megabytes;
-  if (!options.in_process) judging.program = own_program();
+  // In this process where the system does not tell which program this is.
+  if (!options.in_process) judging.program = own_program().value_or("");
   judging.progress = progress.callback();
   judging.interrupted = &interrupted();
   const auto report = fuzz::judge_corpus(*fixtures, judging);

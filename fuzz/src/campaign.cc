@@ -15,6 +15,7 @@
 #include "gnomon/fuzz/generator.h"
 #include "gnomon/fuzz/worker_pool.h"
 #include "gnomon/report/number_text.h"
+#include "text_hash.h"
 
 namespace gnomon::fuzz {
 
@@ -30,12 +31,6 @@ std::uint64_t mixed(std::uint64_t word) {
   word = (word ^ (word >> 30)) * 0xbf58476d1ce4e5b9u;
   word = (word ^ (word >> 27)) * 0x94d049bb133111ebu;
   return word ^ (word >> 31);
-}
-
-std::uint64_t text_hash(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
 }
 
 double seconds_since(Clock::time_point start) {

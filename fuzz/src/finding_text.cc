@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "failure_json.h"
 #include "gnomon/fuzz/shrink.h"
 #include "gnomon/fuzz/still_fails.h"
 #include "gnomon/report/certificate.h"
@@ -100,14 +101,7 @@ std::string verdict_text(const Finding& finding, const Evidence& evidence) {
   json.member("gnomon", GNOMON_VERSION);
   json.key("failure");
   json.begin_object();
-  json.member("property", id_of(failure.property));
-  json.member("class", failure.disagreement);
-  json.member("subject", failure.subject);
-  json.member("light", failure.light);
-  json.member("polygon", failure.polygon);
-  json.member("text", failure.text);
-  json.member("width", failure.width);
-  json.member("share", failure.share);
+  write_failure_members(json, failure);
   json.member("shown_again", evidence.shown_again);
   json.end_object();
   json.key("check");

@@ -17,6 +17,7 @@
 #include "gnomon/scene/read.h"
 #include "move_tools.h"
 #include "scene_coordinates.h"
+#include "text_hash.h"
 
 namespace gnomon::fuzz {
 namespace {
@@ -95,19 +96,10 @@ std::vector<Base> hard_scenes(bool area) {
   return bases;
 }
 
-/// FNV-1a.
-std::uint64_t hash_of(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  }
-  return hash;
-}
-
 /// Random numbers of one purpose, which do not depend on those of another.
 Random stream(std::uint64_t seed, std::string_view purpose, std::uint64_t attempt) {
   Random first(seed);
-  Random second(first.next() ^ hash_of(purpose));
+  Random second(first.next() ^ text_hash(purpose));
   return Random(second.next() + attempt * 0x9e3779b97f4a7c15u);
 }
 

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <utility>
 
+#include "failure_json.h"
 #include "gnomon/fuzz/generator.h"
 #include "gnomon/report/json_writer.h"
 #include "gnomon/report/number_text.h"
@@ -32,14 +33,7 @@ using report::JsonWriter;
 
 void write_failure(JsonWriter& json, const Failure& failure) {
   json.begin_object(JsonLayout::kInline);
-  json.member("property", id_of(failure.property));
-  json.member("class", failure.disagreement);
-  json.member("subject", failure.subject);
-  json.member("light", failure.light);
-  json.member("polygon", failure.polygon);
-  json.member("text", failure.text);
-  json.member("width", failure.width);
-  json.member("share", failure.share);
+  write_failure_members(json, failure);
   json.end_object();
 }
 
