@@ -5,6 +5,7 @@
 #include <uv.h>
 
 #include <csignal>
+#include <ctime>
 #include <list>
 #include <utility>
 #include <vector>
@@ -26,6 +27,32 @@ std::string subject_of_stage(const std::string& stage) {
   }
   return stage.empty() ? "start" : stage;
 }
+
+/// Keeps SIGPIPE from ending the program when a child ends before it has read its request: held
+/// back in this thread, and taken away at the end. How the program treats the signal elsewhere
+/// stays its own.
+class BrokenPipesAreErrors {
+ public:
+  BrokenPipesAreErrors() {
+    sigemptyset(&broken_pipe_);
+    sigaddset(&broken_pipe_, SIGPIPE);
+    sigset_t pending;
+    sigpending(&pending);
+    was_pending_ = sigismember(&pending, SIGPIPE) == 1;
+    pthread_sigmask(SIG_BLOCK, &broken_pipe_, &before_);
+  }
+  BrokenPipesAreErrors(const BrokenPipesAreErrors&) = delete;
+  BrokenPipesAreErrors& operator=(const BrokenPipesAreErrors&) = delete;
+  ~BrokenPipesAreErrors() {
+    const timespec at_once{};
+    if (!was_pending_) sigtimedwait(&broken_pipe_, nullptr, &at_once);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+ private:
+  sigset_t broken_pipe_, before_;
+  bool was_pending_ = false;
+};
 
 }  // namespace
 
@@ -302,6 +329,7 @@ struct WorkerPool::State {
   }
 
   Expected<void> run(const Callbacks& own) {
+    const BrokenPipesAreErrors no_signal;
     callbacks = &own;
     error.reset();
     if (own.tick) {

@@ -312,19 +312,26 @@ TEST(SectorInterruption, FromAnotherThread) {
   const PreparedScene scene = prepared({"quads", {{"n", 20000}, {"light", 2}}});
   for (const unsigned jobs : {1u, 2u, 0u}) {
     for (const std::uint32_t task_size : {0u, 1u << 30}) {  // many tasks, or one
-      std::atomic<bool> stop = false;
       ShadowOptions options = sectors();
       options.jobs = jobs;
       options.task_size = task_size;
-      options.interrupted = &stop;
-      std::thread other([&] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        stop = true;
-      });
-      const Expected<ShadowResult> result = compute_shadows(scene, options);
-      other.join();
-      ASSERT_FALSE(result);
-      EXPECT_EQ(result.error().code, ErrorCode::kInterrupted);
+      // On a busy machine the other thread may come when all is done.
+      bool interrupted = false;
+      for (int attempt = 0; attempt < 50 && !interrupted; ++attempt) {
+        std::atomic<bool> stop = false;
+        options.interrupted = &stop;
+        std::thread other([&] {
+          std::this_thread::sleep_for(std::chrono::milliseconds(2));
+          stop = true;
+        });
+        const Expected<ShadowResult> result = compute_shadows(scene, options);
+        other.join();
+        interrupted = !result;
+        if (!result) {
+          EXPECT_EQ(result.error().code, ErrorCode::kInterrupted);
+        }
+      }
+      EXPECT_TRUE(interrupted);
     }
   }
 }

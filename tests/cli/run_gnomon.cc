@@ -41,6 +41,37 @@ std::size_t TestDirectory::count() const {
       std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
 }
 
+namespace {
+
+/// Whether the process has a handler of the signal; what Linux tells of its signals is a mask.
+bool catches(pid_t process, int signal) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("SigCgt:")) {
+      return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0;
+    }
+  }
+  return false;
+}
+
+/// A signal that comes too early tests nothing, and how long a start takes depends on the machine:
+/// waits for the program to be ready for it, at most until it ends by itself.
+void send_signal(pid_t process, const RunOptions& options) {
+  const auto ended = [&] {
+    siginfo_t info = {};
+    return ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+           info.si_pid != 0;
+  };
+  while (!catches(process, options.signal) || (options.signal_when && !options.signal_when())) {
+    if (ended()) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  std::this_thread::sleep_for(std::chrono::duration<double>(options.signal_after));
+  ::kill(process, options.signal);
+}
+
+}  // namespace
+
 RunResult run_gnomon(const std::vector<std::string>& arguments, const RunOptions& options) {
   const TestDirectory directory;
   const std::string in = directory.file("in"), err = directory.file("err");
@@ -75,10 +106,7 @@ RunResult run_gnomon(const std::vector<std::string>& arguments, const RunOptions
     ::close(pipe_ends[0]);
     ::close(pipe_ends[1]);
   }
-  if (options.signal != 0) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(options.signal_after));
-    ::kill(child, options.signal);
-  }
+  if (options.signal != 0) send_signal(child, options);
   int status = 0;
   ::waitpid(child, &status, 0);
   RunResult result;

@@ -4,6 +4,7 @@
 #define GNOMON_TESTS_CLI_RUN_GNOMON_H
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ struct RunOptions {
   std::string stdout_path;               // standard output goes to this file instead
   bool close_pipe = false;               // standard output is a pipe that nobody reads
   std::vector<std::string> environment;  // "NAME=VALUE", added
-  int signal = 0;                        // sent ...
-  double signal_after = 0;               // ... so many seconds after the start
+  int signal = 0;                        // sent once the program catches it and ...
+  std::function<bool()> signal_when;     // ... this holds (asked over and over), and then ...
+  double signal_after = 0;               // ... so many seconds later
 };
 
 struct RunResult {

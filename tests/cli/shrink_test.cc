@@ -136,7 +136,7 @@ TEST(Shrink, StoppedItKeepsTheBestAndGoesOn) {
   ASSERT_EQ(run_gnomon({"generate", "city", "--param", "n=40", "-o", large}).status, 0);
   RunOptions options;
   options.signal = SIGINT;
-  options.signal_after = 0.5;
+  options.signal_when = [&] { return std::filesystem::exists(small); };
   const std::vector<std::string> command = {"shrink", large, "--kernel", "float", "-o", small};
   RunResult run = run_gnomon(command, options);
   EXPECT_TRUE(run.status == 130 || run.status == 0) << run.status << run.err;

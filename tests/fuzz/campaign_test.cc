@@ -116,22 +116,29 @@ TEST_F(CampaignTest, AKillLosesNothing) {
   plan_.worker.check.subjects = {*parse_subject("plane")};
   const std::uint64_t count = 3000;
   const std::string database = path("killed.db");
+  std::uint64_t done = 0;
   for (int kill = 0; kill < 3; ++kill) {
     const pid_t child = ::fork();
     if (child == 0) {
       (void)run_campaign(plan_, run_of(database, count));
       ::_exit(0);
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+    // When something new is in the database, and more is under way.
+    while (true) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      const auto growing = read_campaign(database);
+      if (growing && growing->totals.cases > done) break;
+      ASSERT_EQ(::waitpid(child, nullptr, WNOHANG), 0) << "the campaign ended by itself";
+    }
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     const auto read = read_campaign(database);
     ASSERT_TRUE(read) << to_string(read.error());
-    EXPECT_GT(read->totals.cases, 0u);
+    EXPECT_GT(read->totals.cases, done);
     EXPECT_EQ(read->totals.count("subject:plane"), read->totals.cases);
     EXPECT_EQ(read->totals.count("generator:mix"), read->totals.cases);
+    done = read->totals.cases;
   }
-  const auto done = read_campaign(database)->totals.cases;
   const std::string resumed = ran(run_of(database, done + 50));
   EXPECT_EQ(resumed, ran(run_of("", done + 50)));
 }

@@ -63,10 +63,16 @@ TEST(WorkerPool, ACrashIsAFailureOfWhatItWasAtAndTheNextGoesOn) {
               ElementsAre("d", "no-crash:signal 11:double", "no-crash:status 3:double", "d"));
 }
 
+TEST(WorkerPool, AProcessThatReadsNoMoreEndsOnlyItself) {
+  // Its input is closed when the second request is written; the signal of that would end this test.
+  const WorkerCommand deaf{"/bin/sh", {"-c", "read -r line; exec <&-; " + kAnswer + "; exit 3"}};
+  EXPECT_THAT(outcomes(deaf, 2), ElementsAre("d", "no-crash:status 3:start"));
+}
+
 TEST(WorkerPool, AHangIsOfTheBudget) {
   const auto hang =
       shell("echo '@oracle on plane'; case $line in 'case 1 '*) sleep 100;; esac; " + kAnswer);
-  EXPECT_THAT(outcomes(hang, 3, 1, 0.3), ElementsAre("d", "budget:time:plane", "d"));
+  EXPECT_THAT(outcomes(hang, 3, 1, 2), ElementsAre("d", "budget:time:plane", "d"));
 }
 
 TEST(WorkerPool, NonsenseIsNoAnswer) {
