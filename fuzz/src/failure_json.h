@@ -3,8 +3,11 @@
 #ifndef GNOMON_FUZZ_SRC_FAILURE_JSON_H
 #define GNOMON_FUZZ_SRC_FAILURE_JSON_H
 
+#include <string>
+
 #include "gnomon/fuzz/property.h"
 #include "gnomon/report/json_writer.h"
+#include "json_members.h"
 
 namespace gnomon::fuzz {
 
@@ -18,6 +21,26 @@ inline void write_failure_members(report::JsonWriter& json, const Failure& failu
   json.member("text", failure.text);
   json.member("width", failure.width);
   json.member("share", failure.share);
+}
+
+/// What write_failure_members() wrote; errors are the reader's.
+inline Failure read_failure(JsonMembers& members) {
+  Failure failure;
+  std::string property;
+  members.read("property", property);
+  members.read("class", failure.disagreement);
+  members.read("subject", failure.subject);
+  members.read("light", failure.light);
+  members.read("polygon", failure.polygon);
+  members.read("text", failure.text);
+  members.read("width", failure.width);
+  members.read("share", failure.share);
+  if (const auto known = property_by_id(property)) {
+    failure.property = *known;
+  } else {
+    members.reject("property");
+  }
+  return failure;
 }
 
 }  // namespace gnomon::fuzz

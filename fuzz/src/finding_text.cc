@@ -2,8 +2,6 @@
 #include "finding_text.h"
 
 #include <fmt/format.h>
-#include <rapidjson/document.h>
-#include <rapidjson/error/en.h>
 
 #include <string_view>
 #include <utility>
@@ -15,7 +13,6 @@
 #include "gnomon/report/json_writer.h"
 #include "gnomon/report/number_text.h"
 #include "gnomon/report/text_sink.h"
-#include "gnomon/scene/text_file.h"
 
 namespace gnomon::fuzz {
 
@@ -230,142 +227,46 @@ std::string readme_text(const Finding& finding, const Evidence& evidence, const 
   return text;
 }
 
-namespace {
-
-/// Reads members by name; what is missing or of another type is an error with its pointer.
-class Members {
- public:
-  Members(const rapidjson::Value& object, std::string file, std::string pointer)
-      : object_(object), file_(std::move(file)), pointer_(std::move(pointer)) {}
-
-  template <class Value>
-  bool read(const char* key, Value& value) {
-    const auto place = object_.FindMember(key);
-    if (place == object_.MemberEnd() || !get(place->value, value)) {
-      if (!error_)
-        error_ = Error{ErrorCode::kFormat,
-                       {file_, 0, 0, pointer_ + "/" + key},
-                       fmt::format("\"{}\" is missing, or not what it should be", key),
-                       "a verdict as `gnomon fuzz` writes it"};
-      return false;
-    }
-    return true;
-  }
-  const rapidjson::Value* object(const char* key) {
-    const auto place = object_.FindMember(key);
-    return place != object_.MemberEnd() && place->value.IsObject() ? &place->value : nullptr;
-  }
-  const std::optional<Error>& error() const { return error_; }
-
- private:
-  static bool get(const rapidjson::Value& json, std::string& value) {
-    if (!json.IsString()) return false;
-    value.assign(json.GetString(), json.GetStringLength());
-    return true;
-  }
-  static bool get(const rapidjson::Value& json, bool& value) {
-    if (!json.IsBool()) return false;
-    value = json.GetBool();
-    return true;
-  }
-  static bool get(const rapidjson::Value& json, double& value) {
-    if (!json.IsNumber()) return false;
-    value = json.GetDouble();
-    return true;
-  }
-  static bool get(const rapidjson::Value& json, std::optional<double>& value) {
-    if (json.IsNull()) return true;
-    if (!json.IsNumber()) return false;
-    value = json.GetDouble();
-    return true;
-  }
-  static bool get(const rapidjson::Value& json, std::uint64_t& value) {
-    if (!json.IsUint64()) return false;
-    value = json.GetUint64();
-    return true;
-  }
-  static bool get(const rapidjson::Value& json, std::vector<std::string>& value) {
-    if (!json.IsArray()) return false;
-    for (const auto& element : json.GetArray()) {
-      std::string text;
-      if (!get(element, text)) return false;
-      value.push_back(std::move(text));
-    }
-    return true;
-  }
-
-  const rapidjson::Value& object_;
-  std::string file_, pointer_;
-  std::optional<Error> error_;
-};
-
-}  // namespace
-
 Expected<Finding> parse_verdict(const std::string& text, const std::string& file) {
-  const auto wrong = [&](std::string what, std::string expected) {
-    return fail(ErrorCode::kFormat, std::move(what), std::move(expected), {file, 0, 0, {}});
-  };
-  rapidjson::Document document;
-  document.Parse<rapidjson::kParseIterativeFlag | rapidjson::kParseFullPrecisionFlag>(text.data(),
-                                                                                      text.size());
-  if (document.HasParseError()) {
-    return fail(ErrorCode::kSyntax, rapidjson::GetParseError_En(document.GetParseError()), {},
-                place_in_text(file, text, document.GetErrorOffset()));
-  }
-  if (!document.IsObject()) return wrong("not an object", "a verdict");
-  Members root(document, file, "");
+  const auto document = parse_json_object(text, file);
+  if (!document) return tl::unexpected(document.error());
+  JsonMembers root(*document, file, {}, "a verdict as `gnomon fuzz` writes it");
   std::string format;
   std::uint64_t version = 0;
-  if (!root.read("format", format) || !root.read("version", version)) {
-    return tl::unexpected(*root.error());
-  }
+  root.read("format", format);
+  root.read("version", version);
+  if (root.error()) return tl::unexpected(*root.error());
   if (format != kFormatName || version != kVersion) {
-    return wrong("not a finding of version 1", "\"format\": \"gnomon-finding\", \"version\": 1");
-  }
-  const auto* failure = root.object("failure");
-  const auto* check = root.object("check");
-  const auto* origin = root.object("origin");
-  if (failure == nullptr || check == nullptr || origin == nullptr) {
-    return wrong("\"failure\", \"check\" or \"origin\" is missing", "three objects");
+    return fail(ErrorCode::kFormat, "not a finding of version 1",
+                "\"format\": \"gnomon-finding\", \"version\": 1", {file, 0, 0, {}});
   }
 
   Finding finding;
-  std::string property;
-  Members f(*failure, file, "/failure");
-  f.read("property", property);
-  f.read("class", finding.failure.disagreement);
-  f.read("subject", finding.failure.subject);
-  f.read("light", finding.failure.light);
-  f.read("polygon", finding.failure.polygon);
-  f.read("text", finding.failure.text);
-  f.read("width", finding.failure.width);
-  f.read("share", finding.failure.share);
-  std::vector<std::string> subjects;
-  Members c(*check, file, "/check");
-  c.read("subjects", subjects);
-  c.read("tolerance", finding.check.tolerance);
-  c.read("width", finding.check.width);
-  c.read("strict", finding.check.strict);
-  c.read("seed", finding.check.seed);
-  c.read("max_fragments", finding.check.max_fragments);
-  c.read("command_seconds", finding.check.command_seconds);
-  c.read("command_megabytes", finding.check.command_megabytes);
-  c.read("seconds", finding.seconds);
-  c.read("megabytes", finding.megabytes);
-  Members o(*origin, file, "/origin");
-  o.read("generator", finding.generator);
-  o.read("recipe", finding.recipe);
-  o.read("campaign_seed", finding.campaign_seed);
-  o.read("case_index", finding.case_index);
-  o.read("case_seed", finding.case_seed);
+  JsonMembers failure = root.object("failure");
+  JsonMembers check = root.object("check");
+  JsonMembers origin = root.object("origin");
   root.read("locally_minimal", finding.locally_minimal);
-  for (const Members* members : {&root, &f, &c, &o}) {
+  finding.failure = read_failure(failure);
+  std::vector<std::string> subjects;
+  check.read("subjects", subjects);
+  check.read("tolerance", finding.check.tolerance);
+  check.read("width", finding.check.width);
+  check.read("strict", finding.check.strict);
+  check.read("seed", finding.check.seed);
+  check.read("max_fragments", finding.check.max_fragments);
+  check.read("command_seconds", finding.check.command_seconds);
+  check.read("command_megabytes", finding.check.command_megabytes);
+  check.read("seconds", finding.seconds);
+  check.read("megabytes", finding.megabytes);
+  origin.read("generator", finding.generator);
+  origin.read("recipe", finding.recipe);
+  origin.read("campaign_seed", finding.campaign_seed);
+  origin.read("case_index", finding.case_index);
+  origin.read("case_seed", finding.case_seed);
+  for (const JsonMembers* members : {&root, &failure, &check, &origin}) {
     if (members->error()) return tl::unexpected(*members->error());
   }
-  const auto known = property_by_id(property);
-  if (!known) return wrong("no such property: " + property, "an id of a property");
-  finding.failure.property = *known;
-  finding.check.properties = {*known};
+  finding.check.properties = {finding.failure.property};
   for (const std::string& name : subjects) {
     auto subject = parse_subject(name);
     if (!subject) return tl::unexpected(subject.error());

@@ -2,7 +2,6 @@
 #include "gnomon/fuzz/worker.h"
 
 #include <fmt/format.h>
-#include <rapidjson/document.h>
 #include <sys/resource.h>
 
 #include <charconv>
@@ -37,50 +36,7 @@ void write_failure(JsonWriter& json, const Failure& failure) {
   json.end_object();
 }
 
-tl::unexpected<Error> not_an_answer(std::string what) {
-  return fail(ErrorCode::kFormat, std::move(what), "what write_failure and answer_text write");
-}
-
-std::string text_member(const rapidjson::Value& object, const char* name) {
-  const auto at = object.FindMember(name);
-  if (at == object.MemberEnd() || !at->value.IsString()) return {};
-  return {at->value.GetString(), at->value.GetStringLength()};
-}
-
-double number_member(const rapidjson::Value& object, const char* name) {
-  const auto at = object.FindMember(name);
-  return at == object.MemberEnd() || !at->value.IsNumber() ? 0 : at->value.GetDouble();
-}
-
-std::uint64_t count_member(const rapidjson::Value& object, const char* name) {
-  const auto at = object.FindMember(name);
-  return at == object.MemberEnd() || !at->value.IsUint64() ? 0 : at->value.GetUint64();
-}
-
-Expected<Failure> failure_of(const rapidjson::Value& object) {
-  if (!object.IsObject()) return not_an_answer("a failure that is no object");
-  Failure failure;
-  const auto property = property_by_id(text_member(object, "property"));
-  if (!property) return not_an_answer("an unknown property");
-  failure.property = *property;
-  failure.disagreement = text_member(object, "class");
-  failure.subject = text_member(object, "subject");
-  failure.light = text_member(object, "light");
-  failure.polygon = text_member(object, "polygon");
-  failure.text = text_member(object, "text");
-  failure.width = number_member(object, "width");
-  failure.share = number_member(object, "share");
-  return failure;
-}
-
-Expected<rapidjson::Document> parse_json(std::string_view text) {
-  rapidjson::Document document;
-  document.Parse(text.data(), text.size());
-  if (document.HasParseError() || !document.IsObject()) {
-    return fail(ErrorCode::kSyntax, "not a JSON object");
-  }
-  return document;
-}
+constexpr std::string_view kAnswerWriter = "what a worker writes";
 
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -232,9 +188,12 @@ std::string failure_text(const Failure& failure) {
 }
 
 Expected<Failure> parse_failure(std::string_view text) {
-  const auto document = parse_json(text);
+  const auto document = parse_json_object(text, {});
   if (!document) return tl::unexpected(document.error());
-  return failure_of(*document);
+  JsonMembers members(*document, {}, {}, kAnswerWriter);
+  Failure failure = read_failure(members);
+  if (members.error()) return tl::unexpected(*members.error());
+  return failure;
 }
 
 std::string answer_text(const WorkerAnswer& answer) {
@@ -267,33 +226,25 @@ std::string answer_text(const WorkerAnswer& answer) {
 }
 
 Expected<WorkerAnswer> parse_answer(std::string_view text) {
-  const auto document = parse_json(text);
+  const auto document = parse_json_object(text, {});
   if (!document) return tl::unexpected(document.error());
   WorkerAnswer answer;
-  answer.report.digest = text_member(*document, "digest");
-  answer.report.polygons = static_cast<std::uint32_t>(count_member(*document, "polygons"));
-  answer.report.lights = static_cast<std::uint32_t>(count_member(*document, "lights"));
-  answer.report.area_lights = count_member(*document, "area_lights");
-  answer.report.fragments = count_member(*document, "fragments");
-  answer.report.claims_checked = count_member(*document, "claims_checked");
-  answer.recipe = text_member(*document, "recipe");
-  for (const char* name : {"kinds", "subjects", "failures"}) {
-    const auto at = document->FindMember(name);
-    if (at == document->MemberEnd() || !at->value.IsArray()) {
-      return not_an_answer(std::string("no ") + name);
-    }
-    for (const rapidjson::Value& value : at->value.GetArray()) {
-      if (name[0] == 'k' && value.IsUint()) {
-        answer.kinds.push_back(static_cast<std::uint16_t>(value.GetUint()));
-      } else if (name[0] == 's' && value.IsString()) {
-        answer.report.subjects.emplace_back(value.GetString(), value.GetStringLength());
-      } else if (name[0] == 'f') {
-        Expected<Failure> failure = failure_of(value);
-        if (!failure) return tl::unexpected(failure.error());
-        answer.report.failures.push_back(std::move(*failure));
-      }
-    }
+  CaseReport& report = answer.report;
+  JsonMembers members(*document, {}, {}, kAnswerWriter);
+  members.read("digest", report.digest);
+  members.read("polygons", report.polygons);
+  members.read("lights", report.lights);
+  members.read("area_lights", report.area_lights);
+  members.read("fragments", report.fragments);
+  members.read("claims_checked", report.claims_checked);
+  members.read("recipe", answer.recipe);
+  members.read("kinds", answer.kinds);
+  members.read("subjects", report.subjects);
+  for (JsonMembers& failure : members.objects("failures")) {
+    report.failures.push_back(read_failure(failure));
+    if (failure.error()) return tl::unexpected(*failure.error());
   }
+  if (members.error()) return tl::unexpected(*members.error());
   return answer;
 }
 

@@ -23,8 +23,12 @@ using testing::StartsWith;
 WorkerCommand shell(const std::string& script) {
   return {"/bin/sh", {"-c", "while read -r line; do " + script + "; done"}};
 }
-const std::string kAnswer =
-    "echo '={\"digest\":\"d\",\"kinds\":[],\"subjects\":[],\"failures\":[]}'";
+std::string answer_of_digest(const std::string& digest) {
+  WorkerAnswer answer;
+  answer.report.digest = digest;
+  return "=" + answer_text(answer);
+}
+const std::string kAnswer = "echo '" + answer_of_digest("d") + "'";
 
 std::vector<std::string> outcomes(const WorkerCommand& command, std::uint64_t requests,
                                   unsigned workers = 1, double seconds = 5) {
@@ -83,9 +87,9 @@ TEST(WorkerPool, NonsenseIsNoAnswer) {
 }
 
 TEST(WorkerPool, APartialLineIsWaitedFor) {
-  const auto slow = shell(
-      "printf '@sub'; sleep 0.05; echo 'ject x'; printf '={\"digest\":\"d\",';"
-      "sleep 0.05; echo '\"kinds\":[],\"subjects\":[],\"failures\":[]}'");
+  const std::string answer = answer_of_digest("d");
+  const auto slow = shell("printf '@sub'; sleep 0.05; echo 'ject x'; printf '%s' '" +
+                          answer.substr(0, 9) + "'; sleep 0.05; echo '" + answer.substr(9) + "'");
   EXPECT_THAT(outcomes(slow, 2), ElementsAre("d", "d"));
 }
 
@@ -124,6 +128,12 @@ TEST(Worker, AnswersReadBack) {
   EXPECT_EQ(read->report.failures.at(0).text, "line\nbreak");
   EXPECT_EQ(read->report.failures.at(0).share, 1e-300);
   EXPECT_FALSE(parse_failure("{\"property\": \"none such\"}"));
+  // What is missing is an error, and no zero.
+  std::string partial = text;
+  partial.replace(partial.find("\"fragments\""), 11, "\"fragment\"");
+  const auto missing = parse_answer(partial);
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(to_string(missing.error()), HasSubstr("/fragments"));
 }
 
 TEST(IsolatedChecker, ChecksAScene) {
