@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 #include <rapidjson/document.h>
-#include <unistd.h>
 
-#include <cstdint>
-#include <fstream>
 #include <optional>
 
+#include "address_space.h"
 #include "gnomon/fuzz/command.h"
 
 namespace gnomon::fuzz {
@@ -16,14 +14,6 @@ namespace gnomon::fuzz {
 namespace {
 
 using Json = rapidjson::Value;
-
-/// Address space that this program has taken: with sanitizers, terabytes before it does anything.
-std::uint64_t own_megabytes() {
-  std::ifstream file("/proc/self/statm");
-  std::uint64_t pages = 0;
-  file >> pages;
-  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) / (1024 * 1024);
-}
 
 std::string text_of(const Json& object, const char* key) {
   const auto place = object.FindMember(key);
@@ -90,7 +80,7 @@ ProcessVerdict judge_in_process(const Fixture& fixture, const std::vector<std::s
     limits.arguments.insert(limits.arguments.end(), {"--kernel", name});
   }
   limits.seconds = options.seconds * static_cast<double>(names.size());
-  limits.megabytes = options.megabytes == 0 ? 0 : options.megabytes + own_megabytes();
+  limits.megabytes = options.megabytes == 0 ? 0 : options.megabytes + (address_space_taken() >> 20);
   limits.interrupted = options.interrupted;
   const auto result = run_command("", limits);  // the program is the first argument
   if (!result)

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "address_space.h"
 #include "failure_json.h"
 #include "gnomon/fuzz/generator.h"
 #include "gnomon/report/json_writer.h"
@@ -52,12 +53,7 @@ void confine(const Limits& limits) {
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   if (limits.megabytes == 0) return;
-  std::uint64_t pages = 0;
-  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(file, "%lu", &pages) != 1) pages = 0;
-    std::fclose(file);
-  }
-  const rlim_t most = pages * 4096 + (limits.megabytes << 20);
+  const rlim_t most = address_space_taken() + (limits.megabytes << 20);
   const rlimit memory{most, most};
   setrlimit(RLIMIT_AS, &memory);
 }
