@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/kernel/plane_scene_space.h"
+#include "algorithms/scene_bsp/scene_bsp.inl.h"
+#include "kernel/implicit/implicit_scene_space.h"
 #include "machine.h"
 #include "parts.h"
-#include "scene_bsp_impl.h"
 #include "scenes.h"
 #include "table.h"
 
@@ -34,7 +34,7 @@ PreparedScene family(const std::string& name, std::int64_t n) {
 }  // namespace
 
 std::uint64_t scene_bsp_pieces(const PreparedScene& scene) {
-  PlaneSceneSpace<NoStats> space(scene.geometry, {});
+  ImplicitSceneSpace<NoStats> space(scene.geometry, {});
   return whole_tree(space, scene).node_pieces.size();
 }
 
@@ -54,7 +54,7 @@ bool run_scene_bsp(Extent extent) {
       const PreparedScene scene = family(name, n);
       const std::size_t before = bytes_in_use();
       const double start = cpu_seconds();
-      PlaneSceneSpace<CountStats> space(scene.geometry, {});
+      ImplicitSceneSpace<CountStats> space(scene.geometry, {});
       const auto tree = whole_tree(space, scene);
       const double seconds = cpu_seconds() - start;
       const std::size_t after = bytes_in_use();

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "gnomon/scene/generate.h"
-#include "gnomon/scene/random.h"
+#include "scene/base/random.h"
 
 namespace gnomon::bench {
 namespace {

@@ -19,7 +19,7 @@ function(gnomon_add_test name)
   gnomon_set_flags(${target})
   set_target_properties(${target} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test_programs")
-  target_link_libraries(${target} PRIVATE ${arg_LIBS} GTest::gtest_main GTest::gmock)
+  target_link_libraries(${target} PRIVATE ${arg_LIBS} gnomon::internals GTest::gtest_main GTest::gmock)
   target_compile_definitions(${target} PRIVATE
     GNOMON_SHARED_SCENES="${GNOMON_SHARED_SCENES}"
     GNOMON_EXAMPLES="${PROJECT_SOURCE_DIR}/examples")

@@ -47,7 +47,7 @@ class CasterSearch {
 
   const LightView& view_;
   std::array<Hierarchy, 6> faces_;
-  std::vector<Point<double>> loop_, clipped_;  // scratch
+  std::vector<Point<double>> loop_, clipped_;  // workspace
   std::vector<std::uint32_t> pending_;
 };
 

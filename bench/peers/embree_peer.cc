@@ -13,10 +13,10 @@
 #include <cstdlib>
 #include <vector>
 
-#include "gnomon/scene/random.h"
 #include "machine.h"
 #include "peers/light_view.h"
 #include "peers/peer.h"
+#include "scene/base/random.h"
 #include "table.h"
 
 namespace gnomon::bench {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gnomon/kernel/exact_integer.h"
+#include "kernel/numbers/exact_integer.h"
 
 namespace gnomon::bench {
 

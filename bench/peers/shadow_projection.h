@@ -127,8 +127,8 @@ class ShadowProjection {
   std::size_t axis_ = 0;
   Number largest_{};
   ChartLoop<Number> chart_receiver_;
-  Loop loop_, clipped_;         // scratch
-  std::vector<Number> values_;  // scratch
+  Loop loop_, clipped_;         // workspace
+  std::vector<Number> values_;  // workspace
 };
 
 }  // namespace gnomon::bench

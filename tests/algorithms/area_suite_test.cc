@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "area_check.h"
-#include "gnomon/fuzz/area_families.h"
+#include "fuzz/generate/area_families.h"
 #include "gnomon/scene/read.h"
 
 namespace gnomon::test {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "gnomon/fuzz/families.h"
-#include "gnomon/fuzz/scene_pen.h"
+#include "fuzz/generate/families.h"
+#include "fuzz/generate/scene_pen.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
 #include "solve.h"

@@ -10,11 +10,11 @@
 #include <cstdio>
 #include <vector>
 
+#include "algorithms/illumination/umbra_cell.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/algorithms/visible_light.h"
-#include "gnomon/scene/random.h"
 #include "light_soup.h"
-#include "umbra_cell.h"
+#include "scene/base/random.h"
 
 namespace gnomon {
 namespace {

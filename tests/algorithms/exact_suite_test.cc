@@ -7,7 +7,7 @@
 #include <string>
 
 #include "exact_check.h"
-#include "gnomon/fuzz/families.h"
+#include "fuzz/generate/families.h"
 
 namespace gnomon::test {
 namespace {

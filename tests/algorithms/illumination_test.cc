@@ -15,14 +15,14 @@
 #include <string>
 #include <vector>
 
-#include "contour_integral.h"
+#include "algorithms/illumination/contour_integral.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/algorithms/visible_light.h"
 #include "gnomon/oracle/area_visibility.h"
 #include "gnomon/scene/generate.h"
-#include "gnomon/scene/random.h"
 #include "gnomon/scene/read.h"
 #include "light_soup.h"
+#include "scene/base/random.h"
 
 namespace gnomon {
 namespace {

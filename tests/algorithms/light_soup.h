@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "gnomon/scene/prepare.h"
-#include "gnomon/scene/random.h"
 #include "gnomon/scene/scene.h"
+#include "scene/base/random.h"
 
 namespace gnomon::test {
 

@@ -12,13 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/fuzz/scene_pen.h"
-#include "gnomon/kernel/coordinate_volume_space.h"
+#include "algorithms/volume_trees/balanced_prefix.h"
+#include "algorithms/volume_trees/bounding_box.h"
+#include "algorithms/volume_trees/volume_tree.h"
+#include "fuzz/generate/scene_pen.h"
 #include "gnomon/scene/prepare.h"
-#include "gnomon/scene/random.h"
-#include "merged_box.h"
-#include "merged_prefix.h"
-#include "merged_tree.h"
+#include "kernel/coordinate/coordinate_volume_space.h"
+#include "scene/base/random.h"
 
 namespace gnomon::test {
 namespace {
@@ -142,7 +142,7 @@ std::string check(Space& space, const Polyhedron<Vertex>& polyhedron) {
   return "";
 }
 
-TEST(MergedPolyhedron, TheBoxIsOne) {
+TEST(Polyhedron, TheBoxIsOne) {
   const Soup soup = make_soup(1, 4, 8);
   SceneSpace scene_space(soup.prepared.geometry, {});
   Space space(scene_space, {});
@@ -153,7 +153,7 @@ TEST(MergedPolyhedron, TheBoxIsOne) {
   EXPECT_EQ(volume_of(space, box), side * side * side);
 }
 
-TEST(MergedPolyhedron, PiecesHaveTheVolumeOfTheWhole) {
+TEST(Polyhedron, PiecesHaveTheVolumeOfTheWhole) {
   std::uint64_t splits = 0, touching = 0;
   for (std::uint64_t seed = 0; seed < 150; ++seed) {
     const Soup soup = make_soup(seed, 6, seed % 3 == 0 ? 3 : 9);
@@ -400,7 +400,7 @@ UnionCheck check_union(UnionScene& scene, Random& random, Union kind, bool prefi
   return result;
 }
 
-TEST(MergedTree, IsInWhereAVolumeIs) {
+TEST(VolumeTree, IsInWhereAVolumeIs) {
   UnionCheck all;
   for (std::uint64_t seed = 0; seed < 240; ++seed) {
     UnionScene scene(seed, 10, seed % 3 == 0 ? 4 : seed % 3 == 1 ? 12 : 1000);
@@ -415,7 +415,7 @@ TEST(MergedTree, IsInWhereAVolumeIs) {
 }
 
 // 1992, fig. 6: volumes that cross each other, if the second is not continued behind the first.
-TEST(MergedTree, WrongUnionIsWrong) {
+TEST(VolumeTree, WrongUnionIsWrong) {
   unsigned wrong = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     UnionScene scene(seed, 10, seed % 2 == 1 ? 12 : 1000);
@@ -425,7 +425,7 @@ TEST(MergedTree, WrongUnionIsWrong) {
   EXPECT_GT(wrong, 10u);
 }
 
-TEST(MergedPrefix, LeavesHoldWhatTheyShould) {
+TEST(VolumeTreePrefix, LeavesHoldWhatTheyShould) {
   Random random(5);
   std::vector<SpaceBox> boxes;
   for (int i = 0; i < 500; ++i) {

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/generate/scene_pen.h"
 #include "gnomon/algorithms/shadows.h"
-#include "gnomon/fuzz/scene_pen.h"
 #include "gnomon/scene/prepare.h"
-#include "gnomon/scene/random.h"
+#include "scene/base/random.h"
 #include "solve.h"
 
 namespace gnomon::test {

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "exact_check.h"
-#include "gnomon/fuzz/families.h"
+#include "fuzz/generate/families.h"
 #include "gnomon/scene/generate.h"
-#include "gnomon/scene/random.h"
+#include "scene/base/random.h"
 
 namespace gnomon::test {
 namespace {

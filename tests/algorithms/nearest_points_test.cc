@@ -2,9 +2,9 @@
 // Points put out as doubles are the nearest to the exact ones, however they were found.
 #include <gtest/gtest.h>
 
+#include "fuzz/generate/families.h"
 #include "gnomon/algorithms/shadows.h"
-#include "gnomon/fuzz/families.h"
-#include "gnomon/kernel/nearest_double.h"
+#include "kernel/signs/nearest_double.h"
 
 namespace gnomon::test {
 namespace {

@@ -11,10 +11,10 @@
 #include <thread>
 #include <vector>
 
-#include "area_sums.h"
-#include "gnomon/scene/random.h"
-#include "piece_area.h"
-#include "sector_split.h"
+#include "algorithms/partition/fraction_sums.h"
+#include "algorithms/partition/piece_fractions.h"
+#include "algorithms/sectors/sector_split.h"
+#include "scene/base/random.h"
 
 namespace gnomon {
 namespace {
@@ -23,7 +23,7 @@ double random_double(Random& random, double low, double high) {
   return low + (high - low) * std::ldexp(static_cast<double>(random.below(1ull << 53)), -53);
 }
 
-// --- AreaSums ---
+// --- FractionSums ---
 
 std::vector<Ball> random_fractions(Random& random, std::size_t n) {
   std::vector<Ball> balls;
@@ -35,11 +35,11 @@ std::vector<Ball> random_fractions(Random& random, std::size_t n) {
   return balls;
 }
 
-TEST(AreaSums, EncloseTheExactSum) {
+TEST(FractionSums, EncloseTheExactSum) {
   Random random(1);
   for (const std::size_t n : {1u, 2u, 10u, 1000u}) {
     for (int round = 0; round < 50; ++round) {
-      AreaSums sums(3);
+      FractionSums sums(3);
       mpq_class low = 0, high = 0;
       for (const Ball& ball : random_fractions(random, n)) {
         low += mpq_class(ball.middle) - mpq_class(ball.radius);
@@ -58,10 +58,10 @@ TEST(AreaSums, EncloseTheExactSum) {
   }
 }
 
-TEST(AreaSums, DoNotDependOnTheOrderOrTheThreads) {
+TEST(FractionSums, DoNotDependOnTheOrderOrTheThreads) {
   Random random(2);
   std::vector<Ball> fractions = random_fractions(random, 4000);
-  AreaSums first(1), second(1), third(1);
+  FractionSums first(1), second(1), third(1);
   for (const Ball& ball : fractions) first.add_enclosure(0, ball);
   random.shuffle(std::span(fractions));
   for (const Ball& ball : fractions) second.add_enclosure(0, ball);
@@ -72,14 +72,14 @@ TEST(AreaSums, DoNotDependOnTheOrderOrTheThreads) {
     });
   }
   for (std::thread& thread : threads) thread.join();
-  for (const AreaSums* other : {&second, &third}) {
+  for (const FractionSums* other : {&second, &third}) {
     EXPECT_EQ(first.enclosure(0).lower, other->enclosure(0).lower);
     EXPECT_EQ(first.enclosure(0).upper, other->enclosure(0).upper);
   }
 }
 
-TEST(AreaSums, StayWithinZeroAndOne) {
-  AreaSums sums(2);
+TEST(FractionSums, StayWithinZeroAndOne) {
+  FractionSums sums(2);
   sums.add_enclosure(0, Ball(1, 1e-12));
   EXPECT_EQ(sums.enclosure(0).upper, 1);
   EXPECT_GE(sums.enclosure(0).lower, 1 - 1.1e-12);
@@ -87,11 +87,11 @@ TEST(AreaSums, StayWithinZeroAndOne) {
   EXPECT_EQ(sums.enclosure(1).lower, 0);
 }
 
-TEST(AreaSums, RoundedSumsDoNotDependOnTheOrder) {
+TEST(FractionSums, RoundedSumsDoNotDependOnTheOrder) {
   Random random(3);
   std::vector<double> fractions;
   for (int i = 0; i < 1000; ++i) fractions.push_back(random_double(random, 0, 1e-3));
-  AreaSums first(1), second(1);
+  FractionSums first(1), second(1);
   for (const double x : fractions) first.add_rounded(0, true, x);
   random.shuffle(std::span(fractions));
   for (const double x : fractions) second.add_rounded(0, true, x);
@@ -100,10 +100,10 @@ TEST(AreaSums, RoundedSumsDoNotDependOnTheOrder) {
   EXPECT_EQ(first.rounded(0, false), 0);
 }
 
-TEST(AreaSums, WhatIsNoFractionStaysVisible) {
+TEST(FractionSums, WhatIsNoFractionStaysVisible) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 1e300}) {
-    AreaSums sums(1);
+    FractionSums sums(1);
     sums.add_rounded(0, true, 0.25);
     sums.add_rounded(0, true, bad);
     sums.add_rounded(0, true, 0.25);
@@ -111,7 +111,7 @@ TEST(AreaSums, WhatIsNoFractionStaysVisible) {
     EXPECT_EQ(sums.rounded(0, false), 0);
   }
   // Many that are too large each by little.
-  AreaSums sums(1);
+  FractionSums sums(1);
   for (int i = 0; i < 100; ++i) sums.add_rounded(0, false, 1.9);
   EXPECT_TRUE(std::isnan(sums.rounded(0, false)));
 }

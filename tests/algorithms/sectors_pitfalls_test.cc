@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "exact_check.h"
-#include "gnomon/fuzz/scene_pen.h"
+#include "fuzz/generate/scene_pen.h"
 #include "gnomon/scene/generate.h"
-#include "gnomon/scene/random.h"
+#include "scene/base/random.h"
 #include "witness_check.h"
 
 namespace gnomon::test {

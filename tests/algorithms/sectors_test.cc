@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "exact_check.h"
-#include "gnomon/fuzz/families.h"
-#include "gnomon/fuzz/scene_pen.h"
+#include "fuzz/generate/families.h"
+#include "fuzz/generate/scene_pen.h"
 #include "gnomon/scene/generate.h"
 
 namespace gnomon::test {

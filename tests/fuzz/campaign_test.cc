@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A campaign is the same however it is run: in one go, in pieces, in shards, killed and resumed.
-#include "gnomon/fuzz/campaign.h"
+#include "fuzz/campaign/campaign.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "gnomon/fuzz/campaign_report.h"
+#include "fuzz/campaign/campaign_report.h"
 
 namespace gnomon::fuzz {
 namespace {

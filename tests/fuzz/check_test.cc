@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All properties hold on exact kernels over the families of small scenes, and each property notices
 // what breaks it.
-#include "gnomon/fuzz/check.h"
+#include "fuzz/check/check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/fuzz/area_families.h"
-#include "gnomon/fuzz/families.h"
-#include "gnomon/fuzz/metamorphic.h"
+#include "fuzz/generate/area_families.h"
+#include "fuzz/generate/families.h"
+#include "fuzz/moves/metamorphic.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/read.h"
 #include "solve.h"

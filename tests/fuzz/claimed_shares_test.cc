@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Results without fragments: fractions and areas in all their spellings.
-#include "gnomon/fuzz/claimed_shares.h"
+#include "fuzz/corpus/claimed_shares.h"
 
 #include <gtest/gtest.h>
 

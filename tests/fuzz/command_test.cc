@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Foreign programs that do everything wrong: each ends, and how is told.
-#include "gnomon/fuzz/command.h"
+#include "fuzz/process/command.h"
 
 #include <gtest/gtest.h>
 

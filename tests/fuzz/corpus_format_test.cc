@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "gnomon/fuzz/corpus.h"
+#include "fuzz/corpus/corpus.h"
 #include "gnomon/scene/read.h"
 
 namespace gnomon::fuzz {

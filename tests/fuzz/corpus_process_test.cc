@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "gnomon/fuzz/corpus_judge.h"
+#include "fuzz/corpus/corpus_judge.h"
 
 namespace gnomon::fuzz {
 namespace {

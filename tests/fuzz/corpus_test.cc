@@ -3,7 +3,7 @@
 // say what is recorded, every rounded kernel gets the y_ ones right, and on the i_ ones those
 // differ that are recorded to: when one turns right, the list is out of date
 // (`gnomon certify --corpus tests/regressions --record`).
-#include "gnomon/fuzz/corpus.h"
+#include "fuzz/corpus/corpus.h"
 
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@
 
 #include "area_check.h"
 #include "exact_check.h"
-#include "gnomon/fuzz/corpus_judge.h"
-#include "gnomon/fuzz/kind_check.h"
-#include "gnomon/fuzz/kinds.h"
+#include "fuzz/corpus/corpus_judge.h"
+#include "fuzz/generate/kind_predicates.h"
+#include "fuzz/scene/kinds.h"
 #include "gnomon/scene/read.h"
 
 namespace gnomon::fuzz {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Findings as folders: whole or not at all, the same bytes every time, and read back as they were.
-#include "gnomon/fuzz/finding.h"
+#include "fuzz/findings/finding.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,10 +13,10 @@
 #include <sstream>
 #include <string>
 
-#include "gnomon/fuzz/area_families.h"
-#include "gnomon/fuzz/families.h"
-#include "gnomon/fuzz/shrink.h"
-#include "gnomon/fuzz/still_fails.h"
+#include "fuzz/generate/area_families.h"
+#include "fuzz/generate/families.h"
+#include "fuzz/shrink/shrink.h"
+#include "fuzz/shrink/still_fails.h"
 #include "gnomon/scene/generate.h"
 #include "solve.h"
 

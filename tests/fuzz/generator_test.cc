@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Generators: the same seed gives the same scene, every scene can be prepared, every kind expected
 // appears, and what a scene is said to hold is there.
-#include "gnomon/fuzz/generator.h"
+#include "fuzz/generate/generator.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 #include <set>
 #include <string>
 
-#include "gnomon/fuzz/kind_check.h"
-#include "gnomon/fuzz/moves.h"
+#include "fuzz/generate/kind_predicates.h"
+#include "fuzz/moves/moves.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/write.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What KindChecker says of scenes made by hand: one that holds a kind, and one that nearly does.
 // And moves by it: a scene that does not hold a kind does after its move.
-#include "gnomon/fuzz/kind_check.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/fuzz/moves.h"
-#include "gnomon/fuzz/scene_pen.h"
-#include "gnomon/fuzz/soups.h"
+#include "fuzz/generate/kind_predicates.h"
+#include "fuzz/generate/scene_pen.h"
+#include "fuzz/generate/soups.h"
+#include "fuzz/moves/moves.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
 

@@ -9,9 +9,9 @@
 
 #include <string>
 
-#include "gnomon/fuzz/check.h"
-#include "gnomon/fuzz/scene_pen.h"
-#include "gnomon/fuzz/subject.h"
+#include "fuzz/check/check.h"
+#include "fuzz/check/subject.h"
+#include "fuzz/generate/scene_pen.h"
 #include "gnomon/scene/prepare.h"
 #include "solve.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Codes of scenes: any bytes are a valid scene within the limits, a scene that can be written as a
 // code comes back the same, and the degenerate steps do what they say.
-#include "gnomon/fuzz/scene_code.h"
+#include "fuzz/generate/scene_code.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
-#include "gnomon/scene/random.h"
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/validate.h"
+#include "scene/base/random.h"
 
 namespace gnomon::fuzz {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shrinking keeps the failure and takes away all else: on predicates whose smallest scenes are
 // known, and on real failures of rounded kernels.
-#include "gnomon/fuzz/shrink.h"
+#include "fuzz/shrink/shrink.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "gnomon/fuzz/area_families.h"
-#include "gnomon/fuzz/check.h"
-#include "gnomon/fuzz/families.h"
-#include "gnomon/fuzz/still_fails.h"
+#include "fuzz/check/check.h"
+#include "fuzz/generate/area_families.h"
+#include "fuzz/generate/families.h"
+#include "fuzz/shrink/still_fails.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
 #include "solve.h"

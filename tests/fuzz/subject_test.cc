@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gnomon/fuzz/subject.h"
+#include "fuzz/check/subject.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Child processes that answer, crash, hang, talk nonsense or do not start. Most are shell scripts
 // that speak the protocol of worker.h.
-#include "gnomon/fuzz/worker_pool.h"
+#include "fuzz/workers/worker_pool.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/fuzz/isolated.h"
+#include "fuzz/workers/isolated.h"
 #include "gnomon/scene/generate.h"
 
 namespace gnomon::fuzz {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bug zoo: on each scene of tests/regressions/zoo and area-zoo the sound subject passes and the
 // mutant fails as the table says; every mutation has a row; and hunts find what they are for.
-#include "gnomon/fuzz/zoo.h"
+#include "fuzz/zoo/zoo.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 #include <set>
 #include <string>
 
-#include "gnomon/fuzz/shrink.h"
-#include "gnomon/fuzz/subject.h"
+#include "fuzz/check/subject.h"
+#include "fuzz/shrink/shrink.h"
 #include "gnomon/oracle/mesh_check.h"
 #include "solve.h"
 

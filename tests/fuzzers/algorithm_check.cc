@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithm_check.h"
 
-#include "gnomon/fuzz/check.h"
-#include "gnomon/fuzz/scene_code.h"
+#include "fuzz/check/check.h"
+#include "fuzz/generate/scene_code.h"
 #include "gnomon/scene/prepare.h"
 #include "harness.h"
 

@@ -4,7 +4,7 @@
 #include "gnomon/scene/prepare.h"
 
 #include "algorithm_check.h"
-#include "gnomon/fuzz/scene_code.h"
+#include "fuzz/generate/scene_code.h"
 #include "gnomon/oracle/prepared_check.h"
 #include "gnomon/scene/validate.h"
 #include "harness.h"

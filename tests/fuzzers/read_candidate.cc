@@ -7,7 +7,7 @@
 #include <array>
 #include <memory>
 
-#include "gnomon/fuzz/scene_code.h"
+#include "fuzz/generate/scene_code.h"
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/oracle/witness_check.h"
 #include "gnomon/scene/prepare.h"

@@ -10,11 +10,11 @@
 #include <filesystem>
 #include <string_view>
 
-#include "gnomon/fuzz/scene_code.h"
-#include "gnomon/scene/output_file.h"
+#include "fuzz/generate/scene_code.h"
 #include "gnomon/scene/read.h"
-#include "gnomon/scene/text_file.h"
 #include "gnomon/scene/write.h"
+#include "scene/base/output_file.h"
+#include "scene/base/text_file.h"
 
 namespace {
 

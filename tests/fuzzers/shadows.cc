@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "algorithm_check.h"
-#include "gnomon/fuzz/scene_code.h"
+#include "fuzz/generate/scene_code.h"
 #include "harness.h"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The name of a subject: kernel, policies, algorithms, mutation, or a command.
-#include "gnomon/fuzz/subject.h"
+#include "fuzz/check/subject.h"
 
 #include "harness.h"
 

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "builder.h"
-#include "gnomon/scene/random.h"
+#include "scene/base/random.h"
 
 namespace gnomon::test {
 namespace {

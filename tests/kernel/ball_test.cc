@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A Ball encloses: random expressions are evaluated in balls and in rationals, at every magnitude
 // that doubles have.
-#include "gnomon/kernel/ball.h"
+#include "kernel/signs/ball.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "gnomon/scene/random.h"
+#include "scene/base/random.h"
 
 namespace gnomon::test {
 namespace {

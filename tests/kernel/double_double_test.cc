@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pairs of doubles against rationals, and the nearest doubles that come from them.
-#include "gnomon/kernel/double_double.h"
+#include "kernel/numbers/double_double.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "gnomon/kernel/nearest_double.h"
+#include "kernel/signs/nearest_double.h"
 
 namespace gnomon {
 namespace {

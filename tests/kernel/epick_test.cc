@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "gnomon/kernel/epick_space.h"
+#include "kernel/cgal/epick_space.h"
 #include "triangle_soup.h"
 
 namespace gnomon::test {

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gnomon/kernel/plane_light_space.h"
-#include "gnomon/scene/random.h"
+#include "kernel/implicit/implicit_light_space.h"
+#include "scene/base/random.h"
 
 namespace gnomon {
 namespace {
 
-using Space = PlaneLightSpace<>;
+using Space = ImplicitLightSpace<>;
 using Rational3 = std::array<mpq_class, 3>;
 
 mpz_class random_integer(Random& random, unsigned bits) {

@@ -9,10 +9,10 @@
 #include <map>
 #include <string>
 
-#include "gnomon/kernel/exact_integer.h"
-#include "gnomon/kernel/exact_shadow_plane.h"
-#include "gnomon/kernel/plane_scene_space.h"
 #include "gnomon/kernel/precision_plan.h"
+#include "kernel/implicit/exact_shadow_plane.h"
+#include "kernel/implicit/implicit_scene_space.h"
+#include "kernel/numbers/exact_integer.h"
 #include "triangle_soup.h"
 
 namespace gnomon::test {

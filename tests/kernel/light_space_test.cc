@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/kernel/plane_light_space.h"
+#include "kernel/implicit/implicit_light_space.h"
 #include "triangle_soup.h"
 
 namespace gnomon::test {
 namespace {
 
-using Scene = PlaneSceneSpace<CountStats>;
-using Space = PlaneLightSpace<CountStats>;
+using Scene = ImplicitSceneSpace<CountStats>;
+using Space = ImplicitLightSpace<CountStats>;
 
 /// q by its definition (orientation.h), of a homogeneous point x / w with w > 0.
 Integers q_of(const LightPoint& light, const Integers& x, const mpz_class& w) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rationals to doubles: the nearest one at ties, among subnormal numbers and at the end of the
 // range, and enclosures that hold.
-#include "gnomon/kernel/nearest_double.h"
+#include "kernel/signs/nearest_double.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "gnomon/scene/random.h"
+#include "scene/base/random.h"
 
 namespace gnomon::test {
 namespace {

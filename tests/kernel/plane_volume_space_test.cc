@@ -3,8 +3,6 @@
 // clipped by planes through vertices of others, through corners that support planes cut off a
 // light, along directions and across axes, again and again; every side, every position and every
 // enclosure is compared with the exact point.
-#include "gnomon/kernel/plane_volume_space.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,14 +11,15 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/kernel/kernel_concept.h"
-#include "gnomon/kernel/nearest_double.h"
+#include "kernel/concept/kernel_concept.h"
+#include "kernel/implicit/implicit_volume_space.h"
+#include "kernel/signs/nearest_double.h"
 #include "triangle_soup.h"
 
 namespace gnomon::test {
 namespace {
 
-using Space = PlaneVolumeSpace<CountStats>;
+using Space = ImplicitVolumeSpace<CountStats>;
 static_assert(VolumeSpaceModel<Space> && MeasuredSpace<Space>);
 
 /// n . x - d in rationals.
@@ -293,7 +292,7 @@ enum class Kinds : std::uint8_t { kAll, kThroughVertices };
 
 StageCounts check_soup(const TriangleSoup& soup, Random& random, int extra = 6,
                        Kinds kinds = Kinds::kAll) {
-  const PlaneSceneSpace<CountStats> scene(soup.geometry(), {});
+  const ImplicitSceneSpace<CountStats> scene(soup.geometry(), {});
   Space space(scene, {});
   Planes planes(soup, space, random);
   planes.add_supports();
@@ -320,9 +319,9 @@ StageCounts check_soup(const TriangleSoup& soup, Random& random, int extra = 6,
   return space.stage_counts();
 }
 
-class PlaneVolumes : public testing::TestWithParam<unsigned> {};
+class ImplicitVolumes : public testing::TestWithParam<unsigned> {};
 
-TEST_P(PlaneVolumes, EverySideIsTrue) {
+TEST_P(ImplicitVolumes, EverySideIsTrue) {
   const unsigned bits = GetParam();
   Random random(bits);
   StageCounts counts;
@@ -340,14 +339,14 @@ TEST_P(PlaneVolumes, EverySideIsTrue) {
   EXPECT_GT(counts.exactly_zero, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Bits, PlaneVolumes,
+INSTANTIATE_TEST_SUITE_P(Bits, ImplicitVolumes,
                          testing::Values(3u, 6u, 7u, 10u, 11u, 13u, 14u, 17u, 20u, 21u, 27u, 28u,
                                          31u, 32u, 42u, 43u, 53u, 54u, 56u, 57u, 62u, 63u, 64u, 84u,
                                          113u, 171u, 340u));
 
 // Which integers had to answer is decided by the bits alone, while all planes go through input
 // vertices.
-TEST(PlaneVolumesStages, AreThoseOfThePlan) {
+TEST(ImplicitVolumesStages, AreThoseOfThePlan) {
   for (const unsigned bits : {6u, 13u, 14u, 20u, 21u, 42u, 57u, 63u, 70u, 84u, 114u, 126u, 127u}) {
     Random random(1000 + bits);
     StageCounts counts;
@@ -370,10 +369,10 @@ TEST(PlaneVolumesStages, AreThoseOfThePlan) {
 }
 
 // A fork has the planes so far, and what either adds later is its own.
-TEST(PlaneVolumesForks, AreApart) {
+TEST(ImplicitVolumesForks, AreApart) {
   Random random(3);
   const TriangleSoup soup = random_soup(random, SoupKind::kFull, 20, 6);
-  const PlaneSceneSpace<CountStats> scene(soup.geometry(), {});
+  const ImplicitSceneSpace<CountStats> scene(soup.geometry(), {});
   Space space(scene, {});
   Planes planes(soup, space, random);
   planes.add_supports();
@@ -412,7 +411,7 @@ TEST(PlaneVolumesForks, AreApart) {
   }
 }
 
-TEST(PlaneVolumesUnderflow, EverySideIsTrue) {
+TEST(ImplicitVolumesUnderflow, EverySideIsTrue) {
   Random random(78);
   for (const unsigned far : {119u, 180u, 269u, 359u, 541u, 1070u}) {
     for (const SoupKind kind : {SoupKind::kLattice, SoupKind::kNear, SoupKind::kFull}) {

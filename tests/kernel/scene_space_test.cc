@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/kernel/plane_scene_space.h"
+#include "kernel/implicit/implicit_scene_space.h"
 #include "triangle_soup.h"
 
 namespace gnomon::test {
 namespace {
 
-using Space = PlaneSceneSpace<CountStats>;
+using Space = ImplicitSceneSpace<CountStats>;
 
 struct TrackedVertex {
   Space::Vertex vertex;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gnomon/kernel/epeck_space.h"
+#include "kernel/cgal/epeck_space.h"
 #include "sector_space_test.h"
 
 namespace gnomon::test {

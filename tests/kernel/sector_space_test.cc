@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sector_space_test.h"
 
-#include "gnomon/kernel/coordinate_space.h"
-#include "gnomon/kernel/epick_space.h"
-#include "gnomon/kernel/plane_light_space.h"
+#include "kernel/cgal/epick_space.h"
+#include "kernel/coordinate/coordinate_space.h"
+#include "kernel/implicit/implicit_light_space.h"
 
 namespace gnomon::test {
 
 template <>
-inline constexpr bool kDepthsPerDirection<PlaneLightSpace<NoStats>> = true;
+inline constexpr bool kDepthsPerDirection<ImplicitLightSpace<NoStats>> = true;
 
 namespace {
 
 using Kernels = testing::Types<CoordinateLightSpace<float>, CoordinateLightSpace<double>,
                                CoordinateLightSpace<long double>, CoordinateLightSpace<mpq_class>,
-                               EpickLightSpace, PlaneLightSpace<NoStats>>;
+                               EpickLightSpace, ImplicitLightSpace<NoStats>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Kernels, SectorSpace, Kernels);
 
 TEST(SectorSpaceThickness, ASupportPlaneHasIt) {

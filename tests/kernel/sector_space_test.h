@@ -16,8 +16,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "gnomon/kernel/coordinate_space.h"
-#include "gnomon/kernel/kernel_concept.h"
+#include "kernel/concept/kernel_concept.h"
+#include "kernel/coordinate/coordinate_space.h"
 #include "triangle_soup.h"
 
 namespace gnomon::test {

@@ -11,10 +11,10 @@
 #include <map>
 #include <vector>
 
-#include "gnomon/kernel/corner.h"
 #include "gnomon/kernel/geometry.h"
-#include "gnomon/kernel/nearest_double.h"
-#include "gnomon/scene/random.h"
+#include "kernel/signs/corner.h"
+#include "kernel/signs/nearest_double.h"
+#include "scene/base/random.h"
 
 namespace gnomon::test {
 

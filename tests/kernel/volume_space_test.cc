@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume_space_test.h"
 
-#include "gnomon/kernel/coordinate_volume_space.h"
-#include "gnomon/kernel/epick_volume_space.h"
-#include "gnomon/kernel/plane_volume_space.h"
+#include "kernel/cgal/epick_volume_space.h"
+#include "kernel/coordinate/coordinate_volume_space.h"
+#include "kernel/implicit/implicit_volume_space.h"
 
 namespace gnomon::test {
 namespace {
 
 using Kernels = testing::Types<CoordinateVolumeSpace<float>, CoordinateVolumeSpace<double>,
                                CoordinateVolumeSpace<long double>, CoordinateVolumeSpace<mpq_class>,
-                               EpickVolumeSpace, PlaneVolumeSpace<NoStats>>;
+                               EpickVolumeSpace, ImplicitVolumeSpace<NoStats>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Kernels, VolumeSpace, Kernels);
-using ExactKernels = testing::Types<CoordinateVolumeSpace<mpq_class>, PlaneVolumeSpace<NoStats>>;
+using ExactKernels = testing::Types<CoordinateVolumeSpace<mpq_class>, ImplicitVolumeSpace<NoStats>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Kernels, ExactVolumeSpace, ExactKernels);
 
 TEST(VolumeSpaceThickness, AnAddedPlaneHasIt) {

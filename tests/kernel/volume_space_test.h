@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "gnomon/kernel/kernel_concept.h"
-#include "gnomon/kernel/nearest_double.h"
+#include "kernel/concept/kernel_concept.h"
+#include "kernel/signs/nearest_double.h"
 #include "triangle_soup.h"
 
 namespace gnomon::test {

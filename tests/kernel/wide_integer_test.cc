@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "gnomon/kernel/exact_integer.h"
+#include "kernel/numbers/exact_integer.h"
 #include "triangle_soup.h"
 
 namespace gnomon::test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "gnomon/oracle/area_visibility.h"
-#include "group_overlay.h"
+#include "oracle/geometry/group_overlay.h"
 #include "scene_builder.h"
 
 namespace gnomon::oracle {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "overlay.h"
+#include "oracle/geometry/overlay.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "group_overlay.h"
+#include "oracle/geometry/group_overlay.h"
 
 namespace gnomon::oracle {
 

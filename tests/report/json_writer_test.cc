@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gnomon/report/json_writer.h"
+#include "report/json/json_writer.h"
 
 #include <gtest/gtest.h>
 #include <rapidjson/document.h>

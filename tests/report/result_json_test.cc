@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From parts back to polygons: sums over coplanar parts are exact, others are enclosed.
-#include "gnomon/report/result_json.h"
+#include "report/json/result_json.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,10 +9,10 @@
 #include <limits>
 
 #include "gnomon/algorithms/shadows.h"
-#include "gnomon/kernel/nearest_double.h"
-#include "gnomon/report/candidate_from_result.h"
-#include "gnomon/report/polygon_sides.h"
 #include "gnomon/scene/read.h"
+#include "kernel/signs/nearest_double.h"
+#include "report/sides/candidate_from_result.h"
+#include "report/sides/polygon_sides.h"
 
 namespace gnomon::report {
 namespace {

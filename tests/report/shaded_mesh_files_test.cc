@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shaded meshes as files: PLY read back by the project's reader, glTF taken apart byte by byte.
-#include "gnomon/report/shaded_mesh_files.h"
+#include "report/meshes/shaded_mesh_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

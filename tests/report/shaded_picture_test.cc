@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures of illuminated scenes: what is painted, and with which shades.
-#include "gnomon/report/shaded_picture.h"
+#include "report/pictures/shaded_picture.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <string>
 
 #include "gnomon/algorithms/shadows.h"
-#include "gnomon/report/text_sink.h"
 #include "gnomon/scene/read.h"
+#include "report/text/text_sink.h"
 
 namespace gnomon::report {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gnomon/report/svg.h"
+#include "report/pictures/svg.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

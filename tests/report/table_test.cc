@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gnomon/report/table.h"
+#include "report/text/table.h"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "gnomon/report/number_text.h"
+#include "report/text/number_text.h"
 
 namespace gnomon::report {
 namespace {

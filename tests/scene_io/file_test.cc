@@ -10,8 +10,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "gnomon/scene/output_file.h"
 #include "gnomon/scene/write.h"
+#include "scene/base/output_file.h"
 #include "scene_testing.h"
 
 namespace gnomon {

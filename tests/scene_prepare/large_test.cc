@@ -7,7 +7,7 @@
 
 #include "builder.h"
 #include "gnomon/scene/generate.h"
-#include "gnomon/scene/random.h"
+#include "scene/base/random.h"
 
 namespace gnomon::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "builder.h"
-#include "gnomon/scene/random.h"
+#include "scene/base/random.h"
 
 namespace gnomon::test {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "gnomon/algorithms/shadows.h"
-#include "gnomon/kernel/kernel_pair.h"
+#include "kernel/pair/kernel_pair.h"
 
 namespace gnomon {
 

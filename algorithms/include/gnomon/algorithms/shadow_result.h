@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/kernel/predicate_stats.h"
 #include "gnomon/kernel/sign.h"
+#include "gnomon/kernel/stage_counts.h"
 
 namespace gnomon {
 

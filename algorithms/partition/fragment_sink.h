@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What one side of one part comes to under one light, whoever cut it: collects classified pieces,
+// puts the part together again if all agree, measures and exports. Used by all algorithms whose
+// loops live in three dimensions.
+//
+// Exactness: on exact kernels the fractions are certified enclosures, and exact rationals on
+// request, that add up to exactly 1: the class that is measured least is what the others leave.
+#ifndef GNOMON_ALGORITHMS_PARTITION_FRAGMENT_SINK_H
+#define GNOMON_ALGORITHMS_PARTITION_FRAGMENT_SINK_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "algorithms/partition/fractions.h"
+#include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/sliver.h"
+#include "algorithms/shadow_volumes/receiver_cutter.h"
+#include "gnomon/algorithms/shadows.h"
+#include "kernel/concept/kernel_concept.h"
+
+namespace gnomon {
+
+/// The result of one side; put one after another they are a LightResult.
+struct SideResult {
+  PartResult part;
+  AreaFractions area;
+  std::vector<Fragment> fragments;
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<mpq_class, 3>> exact_points;
+};
+
+/// A side without fragments: all of it is in shadow for that reason.
+inline SideResult dark_side(std::uint32_t part, Side side, ShadowReason reason, bool area) {
+  SideResult result;
+  result.part.part = part;
+  result.part.side = side;
+  result.part.reason = reason;
+  (area ? result.area.umbra : result.part.shadow) = {1, 1};
+  (area ? result.area.exact_umbra : result.part.exact_shadow) = 1;
+  return result;
+}
+
+/// Appends the points of a loop to those that the options ask for; a back side's is reversed, so
+/// that it is counter-clockwise seen from that side.
+template <VolumeSpaceModel Space, class OutputFragment>
+void export_volume_loop(const Space& space, const ShadowOptions& options,
+                        const LoopView<typename Space::Vertex>& loop, bool reversed,
+                        OutputFragment& fragment, std::vector<std::array<double, 3>>& points,
+                        std::vector<std::array<mpq_class, 3>>& exact_points) {
+  fragment.first =
+      static_cast<std::uint32_t>(options.keep_points ? points.size() : exact_points.size());
+  fragment.count = loop.size();
+  for (std::uint32_t i = 0; i < loop.size(); ++i) {
+    const auto corner = loop.corner(reversed ? loop.size() - 1 - i : i);
+    if (options.keep_points) points.push_back(space.nearest_position(corner));
+    if (options.keep_exact_points) exact_points.push_back(space.exact_position(corner));
+  }
+}
+
+template <VolumeSpaceModel Space>
+class FragmentSink {
+ public:
+  using Vertex = typename Space::Vertex;
+  using Loop = LoopView<Vertex>;
+
+  FragmentSink(const PreparedScene& scene, const ShadowOptions& options)
+      : scene_(&scene), options_(&options) {}
+
+  void begin(std::uint32_t part, Side side, bool area) {
+    part_ = part;
+    side_ = side;
+    area_ = area;
+    loops_.clear();
+    pieces_.clear();
+  }
+  void add(const PieceClass& state, const Loop& loop) {
+    pieces_.push_back({state, loops_.append(loop)});
+  }
+  std::size_t size() const { return pieces_.size(); }
+  /// `whole`: the part's own loop.
+  SideResult finish(const Space& space, const Loop& whole);
+
+ private:
+  struct Piece {
+    PieceClass state;
+    LoopRange loop;
+  };
+  static Interval rest_of(const Interval& a, const Interval& b) {
+    // Each operation rounds by at most half a unit of a number below 2; two units outwards are
+    // safe.
+    constexpr double kOutwards = 4 * Ball::kUnit;
+    return {std::max(0.0, 1 - a.upper - b.upper - kOutwards),
+            std::min(1.0, 1 - a.lower - b.lower + kOutwards)};
+  }
+  void measure(const Space& space, const Loop& whole, SideResult& result) const;
+
+  const PreparedScene* scene_;
+  const ShadowOptions* options_;
+  std::uint32_t part_ = 0;
+  Side side_ = Side::kFront;
+  bool area_ = true;
+  LoopStore<Vertex> loops_;
+  std::vector<Piece> pieces_;
+};
+
+template <VolumeSpaceModel Space>
+SideResult FragmentSink<Space>::finish(const Space& space, const Loop& whole) {
+  SideResult result;
+  result.part.part = part_;
+  result.part.side = side_;
+  if (options_->merge && pieces_.size() > 1 &&
+      std::all_of(pieces_.begin(), pieces_.end(),
+                  [&](const Piece& piece) { return piece.state == pieces_.front().state; })) {
+    // The input polygon as it was (1989, sec. 6).
+    pieces_.resize(1);
+    pieces_.front().loop = loops_.append(whole);
+  }
+  if (options_->mutation == Mutation::kSliversDropped && pieces_.size() > 1) {
+    std::erase_if(pieces_, [&](const Piece& piece) {
+      return is_sliver(space, loops_.view(piece.loop, scene_->parts[part_].plane));
+    });
+  }
+  measure(space, whole, result);
+  const PlaneId plane = scene_->parts[part_].plane;
+  const bool keep = options_->keep_points || options_->keep_exact_points;
+  result.fragments.reserve(pieces_.size());
+  for (const Piece& piece : pieces_) {
+    Fragment fragment;
+    fragment.state = piece.state.state;
+    fragment.reason = piece.state.reason;
+    fragment.caster = piece.state.caster;
+    if (keep) {
+      export_volume_loop(space, *options_, loops_.view(piece.loop, plane), side_ == Side::kBack,
+                         fragment, result.points, result.exact_points);
+    }
+    result.fragments.push_back(fragment);
+  }
+  result.part.fragment_count = static_cast<std::uint32_t>(result.fragments.size());
+  return result;
+}
+
+template <VolumeSpaceModel Space>
+void FragmentSink<Space>::measure(const Space& space, const Loop& whole, SideResult& result) const {
+  Interval* const interval[] = {&result.part.lit, &result.part.shadow, &result.area.penumbra,
+                                &result.area.umbra};
+  mpq_class* const exact[] = {&result.part.exact_lit, &result.part.exact_shadow,
+                              &result.area.exact_penumbra, &result.area.exact_umbra};
+  std::array<std::size_t, 4> count{};
+  for (const Piece& piece : pieces_) ++count[static_cast<std::size_t>(piece.state.state)];
+  for (std::size_t state = 0; state < 4; ++state) {
+    if (count[state] != pieces_.size() || pieces_.empty()) continue;
+    *interval[state] = {1, 1};
+    *exact[state] = 1;
+    return;
+  }
+  const PlaneId plane = scene_->parts[part_].plane;
+  PartMeasure<Space> part(space, chart_of(space.geometry(), plane), whole,
+                          options_->exact_fractions);
+  // The class of most pieces is left out on exact kernels.
+  std::size_t most = 0;
+  for (std::size_t state = 1; state < 4; ++state) {
+    if (count[state] > count[most]) most = state;
+  }
+  std::array<FractionSum, 4> sums;
+  for (const Piece& piece : pieces_) {
+    const auto state = static_cast<std::size_t>(piece.state.state);
+    if (Space::kExact && state == most) continue;
+    sums[state].add(part.fraction(loops_.view(piece.loop, plane)));
+  }
+  Interval others[2];
+  std::size_t k = 0;
+  mpq_class rest = 1;
+  for (std::size_t state = 0; state < 4; ++state) {
+    if (count[state] == 0 || (Space::kExact && state == most)) continue;
+    *interval[state] = sums[state].interval(Space::kExact);
+    if (Space::kExact && k < 2) others[k++] = *interval[state];
+    if (options_->exact_fractions) {
+      *exact[state] = sums[state].exact();
+      rest -= *exact[state];
+    }
+  }
+  if constexpr (Space::kExact) {
+    *interval[most] = rest_of(others[0], others[1]);
+    if (options_->exact_fractions) *exact[most] = rest;
+  }
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_PARTITION_FRAGMENT_SINK_H

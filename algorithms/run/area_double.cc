@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "algorithms/run/receiver_run.h"
+#include "kernel/coordinate/coordinate_volume_space.h"
+
+namespace gnomon {
+
+Expected<AreaOutcome> area_double(const PreparedScene& scene, const ShadowOptions& options,
+                                  const LightList& lights, const LightList& combined) {
+  return area_shadows_with<CoordinateVolumeSpace<double>>(scene, options, lights, combined);
+}
+
+}  // namespace gnomon

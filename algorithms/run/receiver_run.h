@@ -1,0 +1,462 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Lights of any kind receiver by receiver, from a prepared scene to a result, on several threads;
+// and several lights in one pipeline, with a class per light on each fragment. Instantiated one
+// kernel a source.
+#ifndef GNOMON_ALGORITHMS_RUN_RECEIVER_RUN_H
+#define GNOMON_ALGORITHMS_RUN_RECEIVER_RUN_H
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "algorithms/partition/fragment_sink.h"
+#include "algorithms/run/area_kernels.h"
+#include "algorithms/shadow_volumes/caster_tree.h"
+#include "algorithms/shadow_volumes/light_geometry.h"
+#include "algorithms/shadow_volumes/light_in_space.h"
+#include "algorithms/volume_trees/light_by_planes.h"
+#include "algorithms/volume_trees/penumbra_and_umbra.h"
+#include "kernel/signs/fp_environment.h"
+
+namespace gnomon {
+
+/// Side `side` of part `part` as one receiver.
+struct Receiver {
+  std::uint32_t part = 0;
+  Side side = Side::kFront;
+};
+
+template <VolumeSpaceModel Space>
+class ReceiverRun {
+ public:
+  using Vertex = typename Space::Vertex;
+  using Loop = LoopView<Vertex>;
+  using Workspace = ReceiverWorkspace<Space>;
+  using SceneSpace = typename Space::SceneSpace;
+
+  ReceiverRun(const PreparedScene& scene, const ShadowOptions& options)
+      : scene_(scene),
+        options_(options),
+        light_geometry_(make_light_geometry(scene)),
+        scene_space_(light_geometry_.geometry, {options.identity, options.thickness}),
+        space_(scene_space_, {options.identity, options.thickness}),
+        tree_(light_geometry_.geometry, scene, casters(scene)) {}
+
+  /// Lights that results are wanted of one by one, and those that fragments are combined of.
+  Expected<AreaOutcome> run(const LightList& lights, const LightList& combined);
+
+ private:
+  using Workspaces = tbb::enumerable_thread_specific<std::unique_ptr<Workspace>>;
+
+  static std::vector<std::uint32_t> casters(const PreparedScene& scene) {
+    std::vector<std::uint32_t> parts;
+    for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
+      if (scene.parts[i].casts) parts.push_back(i);
+    }
+    return parts;
+  }
+  /// Calls body(workspace, i) for [0, n). False if it was stopped.
+  template <class Body>
+  bool for_each(std::size_t n, double from, double to, const Body& body);
+  bool stopped() {
+    if (options_.interrupted != nullptr && options_.interrupted->load(std::memory_order_relaxed)) {
+      stopped_.store(true, std::memory_order_relaxed);
+    }
+    return stopped_.load(std::memory_order_relaxed);
+  }
+  bool count_piece() {
+    return pieces_.fetch_add(1, std::memory_order_relaxed) < options_.max_fragments ||
+           (stopped_.store(true, std::memory_order_relaxed), false);
+  }
+  LightResult run_light(std::uint32_t light, double from, double to);
+  LightResult run_light(const LightInSpace<Space>& light, LightResult result, double from,
+                        double to);
+  /// 1992 to the letter: the light cut by the planes of all polygons, a result for each piece.
+  void run_pieces(std::uint32_t light, double from, double to, std::vector<LightResult>& results);
+  /// `merged`: may be null.
+  std::vector<SideResult> run_part(Workspace& workspace, const LightInSpace<Space>& light,
+                                   const PenumbraAndUmbra<Space>* merged, std::uint32_t part);
+  bool build_trees(const LightInSpace<Space>& light, double from, double to,
+                   PenumbraAndUmbra<Space>& trees);
+  void combine(const LightList& lights, double from, double to, AreaOutcome& outcome);
+  tl::unexpected<Error> stop_reason() const;
+
+  const PreparedScene& scene_;
+  const ShadowOptions& options_;
+  LightGeometry light_geometry_;
+  SceneSpace scene_space_;
+  Space space_;
+  CasterTree tree_;
+  std::atomic<std::uint64_t> pieces_ = 0;
+  std::atomic<bool> stopped_ = false, no_ieee_ = false;
+  StageCounts stages_;
+};
+
+template <VolumeSpaceModel Space>
+template <class Body>
+bool ReceiverRun<Space>::for_each(std::size_t n, double from, double to, const Body& body) {
+  Workspaces workspaces;
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto one = [&](std::size_t i) {
+    if (stopped()) return;
+    std::unique_ptr<Workspace>& workspace = workspaces.local();
+    if (!workspace) {
+      if (!check_fp_environment()) {
+        no_ieee_.store(true);
+        stopped_.store(true);
+        return;
+      }
+      workspace = std::make_unique<Workspace>(space_.fork(), options_.mutation);
+    }
+    const std::uint32_t mark = workspace->space.plane_mark();
+    body(*workspace, i);
+    workspace->space.release_planes(mark);
+    if (!options_.progress) return;
+    const std::lock_guard lock(mutex);
+    if ((++done & 15) == 0) {
+      options_.progress(from + (to - from) * static_cast<double>(done) / static_cast<double>(n));
+    }
+  };
+  if (Space::kParallel && options_.jobs != 1) {
+    tbb::parallel_for(std::size_t{0}, n, one);
+  } else {
+    for (std::size_t i = 0; i < n; ++i) one(i);
+  }
+  for (const std::unique_ptr<Workspace>& workspace : workspaces) {
+    stages_ += workspace->space.stage_counts();
+  }
+  return !stopped_;
+}
+
+template <VolumeSpaceModel Space>
+std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
+                                                     const LightInSpace<Space>& light,
+                                                     const PenumbraAndUmbra<Space>* merged,
+                                                     std::uint32_t index) {
+  const Part& part = scene_.parts[index];
+  std::vector<SideResult> sides;
+  ShadowReason reason = ShadowReason::kNone;
+  FragmentSink<Space> sink(scene_, options_);
+  for (const Side side : {Side::kFront, Side::kBack}) {
+    if (side == Side::kBack && !part.two_sided) break;
+    const Sight sight = light.sight(workspace, index, side);
+    if (!sight.sees()) {
+      if (reason == ShadowReason::kNone) reason = sight.reason;
+      continue;
+    }
+    const PlaneRef receiving = plane_of_side(part, side);
+    const bool by_trees =
+        merged != nullptr && merged->takes(workspace.space, workspace.record, receiving);
+    if (!by_trees) light.prepare(workspace, index, side);
+    const Loop whole = part_loop(workspace.space, scene_, index, workspace.whole);
+    sink.begin(index, side, light.is_area());
+    const auto emit = [&](const PieceClass& state, const Loop& loop) {
+      sink.add(state, loop);
+      return count_piece();
+    };
+    if (by_trees) {
+      if (!workspace.merged) {
+        workspace.merged =
+            std::make_unique<VolumeTreeWorkspace<Space>>(workspace.space, options_.merge);
+      }
+      merged->cut(workspace.space, workspace.record, *workspace.merged, whole, receiving, emit);
+    } else {
+      light.cut(workspace, whole, emit);
+    }
+    if (stopped_) return sides;
+    sides.push_back(sink.finish(workspace.space, whole));
+  }
+  if (sides.empty()) sides.push_back(dark_side(index, Side::kFront, reason, light.is_area()));
+  return sides;
+}
+
+/// The trees of the merged algorithm, for all sides that see the light and that they take. False if
+/// stopped.
+template <VolumeSpaceModel Space>
+bool ReceiverRun<Space>::build_trees(const LightInSpace<Space>& light, double from, double to,
+                                     PenumbraAndUmbra<Space>& trees) {
+  std::vector<std::uint32_t> receivers;
+  {
+    Workspace workspace(space_.fork(), options_.mutation);
+    for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
+      if (stopped()) return false;
+      for (const Side side : {Side::kFront, Side::kBack}) {
+        if (side == Side::kBack && !scene_.parts[i].two_sided) break;
+        if (light.sight(workspace, i, side).sees() &&
+            trees.takes(workspace.space, workspace.record, plane_of_side(scene_.parts[i], side))) {
+          receivers.push_back(i);
+          break;
+        }
+      }
+    }
+    stages_ += workspace.space.stage_counts();
+  }
+  using Outcome = typename PenumbraAndUmbra<Space>::Outcome;
+  const Outcome outcome = trees.build(receivers, [&](double share) {
+    if (options_.progress) options_.progress(from + (to - from) * share);
+    return !stopped();
+  });
+  if (outcome == Outcome::kTooManyNodes) {
+    pieces_ = options_.max_fragments + 1;
+    stopped_ = true;
+  }
+  return outcome == Outcome::kDone;
+}
+
+template <VolumeSpaceModel Space>
+LightResult ReceiverRun<Space>::run_light(std::uint32_t index, double from, double to) {
+  pieces_ = 0;
+  const std::uint32_t mark = space_.plane_mark();
+  const LightInSpace<Space> light(space_, light_geometry_, tree_, index, options_.mutation);
+  LightResult result;
+  result.light = index;
+  result = run_light(light, std::move(result), from, to);
+  space_.release_planes(mark);
+  return result;
+}
+
+template <VolumeSpaceModel Space>
+void ReceiverRun<Space>::run_pieces(std::uint32_t index, double from, double to,
+                                    std::vector<LightResult>& results) {
+  pieces_ = 0;
+  const LightFace& face = light_geometry_.faces[index];
+  LoopStore<Vertex> whole;
+  for (std::size_t i = 0; i < face.loop.size(); ++i) {
+    whole.push(space_.input_vertex(face.loop[i]),
+               space_.edges().of_edge(face.edges[i].index(), face.edges[i].flipped()));
+  }
+  std::vector<PlaneRef> planes;
+  std::vector<bool> known(light_geometry_.geometry.planes.size(), false);
+  known[face.plane] = true;
+  for (const Part& part : scene_.parts) {
+    if (!known[part.plane]) planes.emplace_back(part.plane, part.flipped);
+    known[part.plane] = true;
+  }
+  LightCut<Vertex> cut;
+  if (!cut_light(space_, whole.view({0, whole.size(), 0}, face.plane), planes,
+                 options_.max_fragments, cut)) {
+    pieces_ = options_.max_fragments + 1;
+    stopped_ = true;
+    return;
+  }
+  const auto count = static_cast<double>(cut.pieces.size());
+  for (std::uint32_t i = 0; i < cut.pieces.size() && !stopped_; ++i) {
+    const Loop piece = cut.loops.view(cut.pieces[i], face.plane);
+    const std::uint32_t mark = space_.plane_mark();
+    const LightInSpace<Space> light(space_, light_geometry_, tree_, index, piece);
+    LightResult result;
+    result.light = index;
+    result.piece = i;
+    for (std::uint32_t k = 0; options_.keep_exact_points && k < piece.size(); ++k) {
+      result.piece_loop.push_back(space_.exact_position(piece.corner(k)));
+    }
+    result = run_light(light, std::move(result), from + (to - from) * (i / count),
+                       from + (to - from) * ((i + 1) / count));
+    if (i == 0) result.dropped_slivers += cut.vanished;
+    results.push_back(std::move(result));
+    space_.release_planes(mark);
+  }
+}
+
+template <VolumeSpaceModel Space>
+LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, LightResult result,
+                                          double from, double to) {
+  std::optional<PenumbraAndUmbra<Space>> merged;
+  if (light.is_area() && options_.area_algorithm != AreaAlgorithm::kReceiver) {
+    merged.emplace(space_, light, scene_, tree_, options_);
+    const double middle = from + (to - from) / 2;
+    if (!build_trees(light, from, middle, *merged)) return result;
+    from = middle;
+  }
+  std::vector<std::vector<SideResult>> parts(scene_.parts.size());
+  // The largest first: their work may be most of all, and what is started last is waited for.
+  std::vector<std::uint32_t> order(scene_.parts.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::vector<double> size(order.size());
+  for (std::uint32_t i = 0; i < size.size(); ++i) {
+    const Box& box = tree_.box(i);
+    for (std::size_t k = 0; k < 3; ++k) size[i] += box.high[k] - box.low[k];
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return size[a] > size[b]; });
+  std::atomic<std::uint64_t> cells = 0, vanished = 0;
+  for_each(order.size(), from, to, [&](Workspace& workspace, std::size_t i) {
+    const std::uint64_t cells_before = workspace.cutter.cells(),
+                        vanished_before = workspace.cutter.vanished();
+    const std::uint64_t filtered_before =
+        workspace.merged ? workspace.merged->filter.vanished() : 0;
+    parts[order[i]] = run_part(workspace, light, merged ? &*merged : nullptr, order[i]);
+    if (workspace.merged) vanished += workspace.merged->filter.vanished() - filtered_before;
+    cells += workspace.cutter.cells() - cells_before;
+    vanished += workspace.cutter.vanished() - vanished_before;
+  });
+  result.tree_nodes = cells + (merged ? merged->node_count() : 0);
+  result.dropped_slivers = vanished + (merged ? merged->findings() : 0);
+  if (stopped_) return result;
+  for (std::vector<SideResult>& sides : parts) {
+    for (SideResult& side : sides) {
+      if (side.part.reason == ShadowReason::kNone) {
+        ++result.facing_parts;
+        result.facing_edges += scene_.parts[side.part.part].count;
+      }
+      side.part.first_fragment = static_cast<std::uint32_t>(result.fragments.size());
+      const auto base = static_cast<std::uint32_t>(
+          options_.keep_points ? result.points.size() : result.exact_points.size());
+      for (Fragment& fragment : side.fragments) {
+        fragment.first += base;
+        result.fragments.push_back(fragment);
+      }
+      result.points.insert(result.points.end(), side.points.begin(), side.points.end());
+      std::move(side.exact_points.begin(), side.exact_points.end(),
+                std::back_inserter(result.exact_points));
+      result.parts.push_back(std::move(side.part));
+      if (light.is_area()) result.area_fractions.push_back(std::move(side.area));
+    }
+    sides = {};
+  }
+  result.fragment_total = result.fragments.size();
+  return result;
+}
+
+/// Every fragment of one light goes on to the next (1989, sec. 5).
+template <VolumeSpaceModel Space>
+void ReceiverRun<Space>::combine(const LightList& indices, double from, double to,
+                                 AreaOutcome& outcome) {
+  struct Combined {
+    std::vector<CombinedFragment> fragments;
+    std::vector<std::array<double, 3>> points;
+    std::vector<std::array<mpq_class, 3>> exact_points;
+  };
+  struct Piece {
+    LoopRange loop;
+    std::uint64_t lit_by = 0, penumbra_of = 0;
+  };
+  pieces_ = 0;
+  const std::uint32_t mark = space_.plane_mark();
+  std::deque<LightInSpace<Space>> lights;
+  for (const std::uint32_t light : indices)
+    lights.emplace_back(space_, light_geometry_, tree_, light);
+  std::vector<std::array<Combined, 2>> results(scene_.parts.size());
+  const auto run_side = [&](Workspace& workspace, std::uint32_t part, Side side, Combined& out) {
+    const PlaneId plane = scene_.parts[part].plane;
+    LoopStore<Vertex> now, next;
+    std::vector<Piece> pieces, cut;
+    bool seen = false;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      if (!lights[i].sight(workspace, part, side).sees()) continue;
+      if (!seen) {
+        pieces.push_back(
+            {now.append(part_loop(workspace.space, scene_, part, workspace.whole)), 0, 0});
+        seen = true;
+      }
+      lights[i].prepare(workspace, part, side);
+      next.clear();
+      cut.clear();
+      for (const Piece& piece : pieces) {
+        const bool done = lights[i].cut(
+            workspace, now.view(piece.loop, plane), [&](const PieceClass& state, const Loop& loop) {
+              Piece fragment{next.append(loop), piece.lit_by, piece.penumbra_of};
+              const std::uint64_t bit = std::uint64_t{1} << i;
+              if (state.state == LightState::kLit) fragment.lit_by |= bit;
+              if (state.state == LightState::kPenumbra) fragment.penumbra_of |= bit;
+              cut.push_back(fragment);
+              return count_piece();
+            });
+        if (!done) return;
+      }
+      std::swap(now, next);
+      std::swap(pieces, cut);
+    }
+    for (const Piece& piece : pieces) {
+      CombinedFragment fragment{part, side, piece.lit_by, piece.penumbra_of};
+      export_volume_loop(workspace.space, options_, now.view(piece.loop, plane),
+                         side == Side::kBack, fragment, out.points, out.exact_points);
+      out.fragments.push_back(fragment);
+    }
+  };
+  for_each(scene_.parts.size(), from, to, [&](Workspace& workspace, std::size_t i) {
+    const auto part = static_cast<std::uint32_t>(i);
+    run_side(workspace, part, Side::kFront, results[i][0]);
+    if (scene_.parts[i].two_sided) run_side(workspace, part, Side::kBack, results[i][1]);
+  });
+  space_.release_planes(mark);
+  if (stopped_) return;
+  // Grouped by polygon and side: parts of a polygon are neighbours.
+  for (std::size_t polygon = 0; polygon + 1 < scene_.first_part.size(); ++polygon) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      for (std::uint32_t part = scene_.first_part[polygon]; part < scene_.first_part[polygon + 1];
+           ++part) {
+        Combined& own = results[part][side];
+        const auto base =
+            static_cast<std::uint32_t>(options_.keep_points ? outcome.combined_points.size()
+                                                            : outcome.combined_exact_points.size());
+        for (CombinedFragment& fragment : own.fragments) {
+          fragment.first += base;
+          outcome.combined.push_back(fragment);
+        }
+        outcome.combined_points.insert(outcome.combined_points.end(), own.points.begin(),
+                                       own.points.end());
+        std::move(own.exact_points.begin(), own.exact_points.end(),
+                  std::back_inserter(outcome.combined_exact_points));
+      }
+    }
+  }
+}
+
+template <VolumeSpaceModel Space>
+tl::unexpected<Error> ReceiverRun<Space>::stop_reason() const {
+  if (no_ieee_) return tl::unexpected<Error>(check_fp_environment().error());
+  if (pieces_ > options_.max_fragments) return too_many_fragments(options_);
+  return interrupted();
+}
+
+template <VolumeSpaceModel Space>
+Expected<AreaOutcome> ReceiverRun<Space>::run(const LightList& lights, const LightList& combined) {
+  AreaOutcome outcome;
+  const double steps = static_cast<double>(lights.size() + (combined.empty() ? 0 : 1));
+  double step = 0;
+  for (const std::uint32_t light : lights) {
+    if (options_.area_algorithm == AreaAlgorithm::kPieces &&
+        scene_.lights[light].type == LightType::kArea) {
+      run_pieces(light, step / steps, (step + 1) / steps, outcome.lights);
+    } else {
+      outcome.lights.push_back(run_light(light, step / steps, (step + 1) / steps));
+    }
+    if (stopped_) return stop_reason();
+    ++step;
+  }
+  if (!combined.empty()) {
+    combine(combined, step / steps, 1, outcome);
+    if (stopped_) return stop_reason();
+  }
+  outcome.stages = stages_;
+  outcome.stages += space_.stage_counts();
+  outcome.stages += scene_space_.stage_counts();
+  return outcome;
+}
+
+/// On as many threads as asked for.
+template <VolumeSpaceModel Space>
+Expected<AreaOutcome> area_shadows_with(const PreparedScene& scene, const ShadowOptions& options,
+                                        const LightList& lights, const LightList& combined) {
+  const unsigned most = std::max(1u, std::thread::hardware_concurrency());
+  const unsigned jobs = options.jobs == 0 ? most : std::min(options.jobs, most);
+  tbb::task_arena arena(static_cast<int>(jobs));
+  return arena.execute([&] { return ReceiverRun<Space>(scene, options).run(lights, combined); });
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_RUN_RECEIVER_RUN_H

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The scene BSP (Fuchs, Kedem & Naylor 1980): a tree of support planes that gives an exact
+// front-to-back order of all polygons from any light in O(n), and back-to-front from any eye.
+//
+// Each inner node holds one support plane and every piece that lies in it, so that coplanar
+// polygons are always together. Pieces of one part are convex and at most one a node. Reference:
+// Chin & Feiner 1989, sec. 3. The root of each subtree is chosen among a few sampled candidates by
+// splits and balance, on bounding boxes in doubles: a heuristic that cannot affect correctness.
+// Explicit stack; memory is the pieces (append only), about 40 bytes a vertex and piece.
+#ifndef GNOMON_ALGORITHMS_SCENE_BSP_SCENE_BSP_H
+#define GNOMON_ALGORITHMS_SCENE_BSP_SCENE_BSP_H
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/split.h"
+#include "gnomon/scene/prepare.h"
+#include "kernel/concept/kernel_concept.h"
+
+namespace gnomon {
+
+struct BspNode {
+  static constexpr std::int32_t kEmpty = -1;
+  PlaneId plane = 0;
+  std::int32_t front = kEmpty, back = kEmpty;
+  std::uint32_t first = 0, count = 0;  // into SceneBsp::node_pieces
+};
+
+template <class Vertex>
+struct SceneBsp {
+  std::vector<BspNode> nodes;              // root is 0; empty scene: no nodes
+  std::vector<std::uint32_t> node_pieces;  // indices into pieces
+  std::vector<LoopRange> pieces;           // also those that were split further
+  LoopStore<Vertex> loops;
+  std::uint32_t depth = 0;
+  std::uint64_t splits = 0;
+  std::uint64_t vanished = 0;  // children with fewer than three vertices (rounded kernels)
+  bool interrupted = false;
+  bool too_many = false;  // more than max_pieces: given up
+};
+
+/// Axis-aligned box in scene units, for heuristics.
+struct ApproximateBox {
+  std::array<double, 3> low{}, high{};
+};
+
+/// Support planes and boxes in plain doubles, the same for every kernel.
+class RootChooser {
+ public:
+  RootChooser(const Geometry& geometry, std::uint64_t seed);
+  /// Index into `candidates` of the piece whose plane should split them.
+  std::size_t choose(std::span<const std::uint32_t> candidates,
+                     std::span<const ApproximateBox> boxes, std::span<const PlaneId> planes);
+
+ private:
+  std::uint64_t random();
+  std::vector<std::array<double, 4>> planes_;
+  std::uint64_t state_;
+};
+
+/// Builds the tree of the given parts. `identity` tells whether pieces of the same support plane go
+/// to the node unasked; without it (what most programs do) only the root's own piece does.
+/// `on_is_behind`: Mutation::kOnSwapped.
+template <SceneSpaceModel Space>
+SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedScene& scene,
+                                                 std::span<const std::uint32_t> parts,
+                                                 std::uint64_t seed, bool identity,
+                                                 const std::atomic<bool>* interrupted = nullptr,
+                                                 std::uint64_t max_pieces = 100'000'000,
+                                                 bool on_is_behind = false);
+
+/// Node indices front to back as seen from where `side_of_node` says: kFront if the viewpoint is in
+/// front of a node's plane. O(nodes), explicit stack.
+std::vector<std::uint32_t> front_to_back(std::span<const BspNode> nodes,
+                                         const std::function<Sign(PlaneId)>& side_of_node);
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SCENE_BSP_SCENE_BSP_H

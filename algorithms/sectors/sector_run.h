@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// One light by the sectors algorithm, from a prepared scene to a result, on several threads.
+#ifndef GNOMON_ALGORITHMS_SECTORS_SECTOR_RUN_H
+#define GNOMON_ALGORITHMS_SECTORS_SECTOR_RUN_H
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "algorithms/sectors/sector_tree.inl.h"
+#include "gnomon/algorithms/shadows.h"
+#include "kernel/signs/fp_environment.h"
+
+namespace gnomon {
+
+template <SectorSpaceModel Space>
+class SectorRun {
+ public:
+  using SceneSpace = typename Space::SceneSpace;
+  using Vertex = typename Space::Vertex;
+  using Tree = SectorTree<Space>;
+  enum class Outcome : std::uint8_t { kDone, kInterrupted, kTooManyFragments, kNoIeee };
+
+  /// Call everything in an arena of `jobs` threads.
+  SectorRun(const PreparedScene& scene, const ShadowOptions& options, SceneSpace& scene_space,
+            std::uint32_t light, const KernelOptions& kernel_options)
+      : scene_(scene),
+        options_(options),
+        scene_space_(scene_space),
+        light_(scene.lights[light].point),
+        jobs_(Space::kParallel && options.jobs != 1 ? options.jobs : 1),
+        space_(scene_space, light_, kernel_options),
+        facing_(scene, space_),
+        charts_(charts_of(scene.geometry)),
+        areas_(scene.parts.size()),
+        sums_(scene.parts.size()) {
+    result_.light = light;
+    result_.facing_parts = facing_.parts.size();
+    result_.facing_edges = facing_.edges;
+  }
+
+  /// `progress` gets the share of the work that is done, from one thread at a time.
+  Outcome run(const std::function<void(double)>& progress);
+  LightResult finish();
+  StageCounts stage_counts() const { return stages_; }
+
+ private:
+  /// Calls body(begin, end) for ranges of [0, n), on as many threads as asked for.
+  template <class Body>
+  void in_parallel(std::uint32_t n, const Body& body) const {
+    if (jobs_ == 1) {
+      body(std::uint32_t{0}, n);
+      return;
+    }
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, n, 4096),
+                      [&](const auto& range) { body(range.begin(), range.end()); });
+  }
+  std::vector<SectorItem> import(LoopStore<Vertex>& loops);
+  /// A kernel that has planar points of its own needs no charts.
+  static PlaneCharts charts_of(const Geometry& geometry) {
+    if constexpr (requires(const Space& space, const Corner<Vertex>& corner) {
+                    space.planar_point(corner);
+                  }) {
+      return {};
+    } else {
+      return PlaneCharts(geometry);
+    }
+  }
+  /// Twice the area of a whole part, good for fractions of it.
+  Ball enclosed_area(const LoopView<Vertex>& loop) const {
+    constexpr double kNarrow = PartMeasure<Space>::kWidest / 16;
+    const Ball area = twice_area(space_, charts_, loop, std::numeric_limits<double>::infinity());
+    if (area.radius < kNarrow * area.middle) return area;
+    return twice_area(space_, charts_, loop, 0);
+  }
+  SectorCell common_cell(Tree& planner, std::span<const SectorItem> items);
+
+  const PreparedScene& scene_;
+  const ShadowOptions& options_;
+  SceneSpace& scene_space_;
+  const LightPoint& light_;
+  unsigned jobs_;
+  Space space_;
+  FacingParts facing_;
+  PlaneCharts charts_;
+  std::vector<Ball> areas_;
+  FractionSums sums_;
+  std::vector<SectorState> states_;  // of facing_.parts
+  std::vector<SectorOutput> outputs_;
+  StageCounts stages_;
+  LightResult result_;
+};
+
+/// Facing parts as loops and items, in order.
+template <SectorSpaceModel Space>
+std::vector<SectorItem> SectorRun<Space>::import(LoopStore<Vertex>& loops) {
+  const auto count = static_cast<std::uint32_t>(facing_.parts.size());
+  std::vector<SectorItem> items(count);
+  std::uint32_t first = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t part = facing_.parts[i];
+    items[i].part = part;
+    items[i].first = first;
+    items[i].count = scene_.parts[part].count;
+    first += items[i].count;
+  }
+  loops.resize(first);
+  const auto import_range = [&](std::uint32_t begin, std::uint32_t end) {
+    LoopStore<typename SceneSpace::Vertex> whole;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const SectorItem& item = items[i];
+      const bool reversed = facing_.facing[item.part].side == Side::kBack;
+      import_loop(space_, part_loop(scene_space_, scene_, item.part, whole), reversed, loops,
+                  item.first);
+      if (!space_.knows_identity()) {  // planes of edges are computed here, once a polygon
+        for (std::uint32_t k = 0; k < item.count; ++k) {
+          loops.edge(item.first + k) =
+              space_.shadow_plane(loops.edge(item.first + k), loops.vertex(item.first + k),
+                                  loops.vertex(item.first + (k + 1 == item.count ? 0 : k + 1)));
+        }
+      }
+      areas_[item.part] = enclosed_area(
+          loops.view({item.first, item.count, item.part}, scene_.parts[item.part].plane));
+    }
+  };
+  if (space_.knows_identity()) {
+    in_parallel(
+        static_cast<std::uint32_t>(scene_.geometry.edges.size()),
+        [&](std::uint32_t begin, std::uint32_t end) { space_.make_edge_planes(begin, end); });
+    in_parallel(count, import_range);
+  } else {
+    import_range(0, count);
+  }
+  return items;
+}
+
+/// The sector that holds all polygons, as for a lamp outside the scene; else where the tree starts.
+template <SectorSpaceModel Space>
+SectorCell SectorRun<Space>::common_cell(Tree& planner, std::span<const SectorItem> items) {
+  const auto count = static_cast<std::uint32_t>(items.size());
+  const auto view = [&](std::uint32_t i) {
+    const SectorItem& item = items[i];
+    return planner.loops().view({item.first, item.count, item.part}, scene_.parts[item.part].plane);
+  };
+  if (count == 0) return planner.root_cell();
+  const SectorCell cell = planner.cell_of(view(0));
+  if (cell.level < SectorCell::kChart) return planner.root_cell();
+  std::atomic<bool> all = true;
+  const auto test = [&](Tree& tree, std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end && all.load(std::memory_order_relaxed); ++i) {
+      if (tree.cell_of(view(i)) != cell) all.store(false, std::memory_order_relaxed);
+    }
+  };
+  // Without identity a fork has to copy the planes of all edges. With it, decisions are a fork's
+  // and not counted: how many there are depends on the threads.
+  const auto test_in_fork = [&](std::uint32_t begin, std::uint32_t end) {
+    Tree tree(planner.context(), planner.space().fork());
+    tree.use_sector_planes(planner);
+    test(tree, begin, end);
+  };
+  if (!planner.space().knows_identity()) {
+    test(planner, 1, count);
+  } else if (jobs_ == 1) {
+    test_in_fork(1, count);
+  } else {
+    constexpr std::uint64_t kRanges = 16;
+    tbb::parallel_for(std::uint64_t{0}, kRanges, [&](std::uint64_t range) {
+      test_in_fork(static_cast<std::uint32_t>(count * range / kRanges),
+                   static_cast<std::uint32_t>(count * (range + 1) / kRanges));
+    });
+  }
+  return all ? cell : planner.root_cell();
+}
+
+template <SectorSpaceModel Space>
+typename SectorRun<Space>::Outcome SectorRun<Space>::run(
+    const std::function<void(double)>& progress) {
+  // Cells of this size are worked off by one thread; the same whatever the number of threads.
+  constexpr std::uint32_t kSmallestTask = 256, kLargestTask = 16384, kTasks = 128;
+  std::atomic<std::uint64_t> pieces = 0;
+  std::atomic<bool> stopped = false, no_ieee = false;
+  const SectorContext context{scene_, options_, facing_, charts_, light_,
+                              areas_, sums_,    pieces,  stopped};
+  LoopStore<Vertex> loops;
+  std::vector<SectorItem> items = import(loops);
+  Tree planner(context, std::move(space_));
+  planner.add_sector_planes();
+  planner.loops() = std::move(loops);
+  const auto total = static_cast<std::uint32_t>(items.size());
+  const std::uint32_t task_size = options_.task_size != 0
+                                      ? options_.task_size
+                                      : std::clamp(total / kTasks, kSmallestTask, kLargestTask);
+  const SectorCell cell = common_cell(planner, items);
+  const bool located = cell.level == SectorCell::kChart;
+  if (located) {
+    in_parallel(total, [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i) planner.locate(cell.chart, items[i]);
+    });
+  }
+  auto tasks = planner.plan(std::move(items), cell, located, task_size);
+
+  std::uint64_t work = 1, done = 0;
+  for (const auto& task : tasks) work += task.size();
+  std::mutex progress_mutex;
+  outputs_.resize(tasks.size() + 1);
+  tbb::enumerable_thread_specific<std::unique_ptr<Tree>> trees;
+  const auto count_rest = [&](const SectorOutput& output) {
+    pieces += output.piece_count % Tree::kPieceBatch;
+    if (pieces > options_.max_fragments) stopped.store(true, std::memory_order_relaxed);
+  };
+  const auto run_task = [&](std::size_t i) {
+    if (stopped.load(std::memory_order_relaxed)) return;
+    std::unique_ptr<Tree>& tree = trees.local();
+    if (!tree) {
+      if (!check_fp_environment()) {
+        no_ieee.store(true);
+        stopped.store(true);
+        return;
+      }
+      tree = std::make_unique<Tree>(context, planner.space().fork());
+      tree->use_sector_planes(planner);
+    }
+    tree->run(tasks[i], planner);
+    outputs_[i] = std::exchange(tree->output(), {});
+    count_rest(outputs_[i]);
+    if (!progress) return;
+    const std::lock_guard lock(progress_mutex);
+    done += tasks[i].size();
+    progress(static_cast<double>(done) / static_cast<double>(work));
+  };
+  if (jobs_ == 1) {
+    for (std::size_t i = 0; i < tasks.size(); ++i) run_task(i);
+  } else {
+    tbb::parallel_for(std::size_t{0}, tasks.size(), run_task);
+  }
+  if (stopped) {
+    if (no_ieee) return Outcome::kNoIeee;
+    return pieces > options_.max_fragments ? Outcome::kTooManyFragments : Outcome::kInterrupted;
+  }
+  for (const auto& task : tasks) planner.set_states(task);
+  const auto states = planner.finish();
+  states_.assign(states.begin(), states.end());
+  for (const std::unique_ptr<Tree>& tree : trees) stages_ += tree->space().stage_counts();
+  stages_ += planner.space().stage_counts();
+  // Whole parts go out as they came in (1989, sec. 6).
+  for (std::uint32_t i = 0; i < states_.size(); ++i) {
+    if (states_[i] != kMixed && states_[i] != kUndecided) planner.emit_root(i);
+  }
+  outputs_.back() = std::move(planner.output());
+  count_rest(outputs_.back());
+  return pieces > options_.max_fragments ? Outcome::kTooManyFragments : Outcome::kDone;
+}
+
+template <SectorSpaceModel Space>
+LightResult SectorRun<Space>::finish() {
+  std::vector<FractionSum> exact(options_.exact_fractions ? scene_.parts.size() : 0);
+  for (SectorOutput& output : outputs_) {
+    result_.fragment_total += output.piece_count;
+    result_.tree_nodes += output.nodes;
+    result_.dropped_slivers += output.vanished;
+    for (auto& [part, lit] : output.exact_lit) exact[part].add({Ball(), std::move(lit), true});
+  }
+  std::vector<SectorState> states(scene_.parts.size(), kUndecided);
+  for (std::uint32_t i = 0; i < states_.size(); ++i) states[facing_.parts[i]] = states_[i];
+
+  // Counting sort of the pieces by part, points one after another.
+  std::vector<std::uint32_t> start(scene_.parts.size() + 1, 0);
+  for (const SectorOutput& output : outputs_) {
+    for (const SectorOutput::Piece& piece : output.pieces) ++start[piece.part + 1];
+  }
+  for (std::size_t i = 1; i < start.size(); ++i) start[i] += start[i - 1];
+  result_.fragments.resize(start.back());
+  std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
+  for (SectorOutput& output : outputs_) {
+    const auto base = static_cast<std::uint32_t>(
+        options_.keep_points ? result_.points.size() : result_.exact_points.size());
+    for (const SectorOutput::Piece& piece : output.pieces) {
+      Fragment& fragment = result_.fragments[next[piece.part]++];
+      fragment = piece.fragment;
+      fragment.first += base;
+    }
+    result_.points.insert(result_.points.end(), output.points.begin(), output.points.end());
+    std::move(output.exact_points.begin(), output.exact_points.end(),
+              std::back_inserter(result_.exact_points));
+    output = {};
+  }
+
+  result_.parts.resize(scene_.parts.size());
+  for (std::uint32_t index = 0; index < scene_.parts.size(); ++index) {
+    PartResult& part = result_.parts[index];
+    part.part = index;
+    part.side = facing_.facing[index].side;
+    part.reason = facing_.facing[index].reason;
+    part.first_fragment = start[index];
+    part.fragment_count = start[index + 1] - start[index];
+    const SectorState state = states[index];
+    if (state == kMixed) {
+      if constexpr (Space::kExact) {
+        part.lit = sums_.enclosure(index);
+        // 1 - x rounds by half a unit; the next double outwards is safe.
+        part.shadow = {std::max(0.0, std::nextafter(1 - part.lit.upper, -1.0)),
+                       std::min(1.0, std::nextafter(1 - part.lit.lower, 2.0))};
+      } else {
+        const double lit = sums_.rounded(index, true), shadow = sums_.rounded(index, false);
+        part.lit = {lit, lit};
+        part.shadow = {shadow, shadow};
+      }
+      if (options_.exact_fractions) {
+        part.exact_lit = exact[index].exact();
+        part.exact_shadow = 1 - part.exact_lit;
+      }
+    } else {
+      part.lit = state == kAllLit ? Interval{1, 1} : Interval{0, 0};
+      part.shadow = state == kAllLit ? Interval{0, 0} : Interval{1, 1};
+      part.exact_lit = state == kAllLit ? 1 : 0;
+      part.exact_shadow = 1 - part.exact_lit;
+    }
+  }
+  return std::move(result_);
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SECTORS_SECTOR_RUN_H

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Where the k-d tree of light space splits a cell: by a histogram of the polygons' boxes in the
+// chart of their sector. A heuristic on certified boxes: the planes that come out are exact, and
+// the answer does not depend on them.
+#ifndef GNOMON_ALGORITHMS_SECTORS_SECTOR_SPLIT_H
+#define GNOMON_ALGORITHMS_SECTORS_SECTOR_SPLIT_H
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "kernel/concept/light_space.h"
+
+namespace gnomon {
+
+/// A box in the chart of a sector; by default everything.
+struct ChartBox {
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  std::array<float, 2> low{-kInfinity, -kInfinity}, high{kInfinity, kInfinity};
+
+  bool overlaps(const ChartBox& other) const {
+    return low[0] < other.high[0] && other.low[0] < high[0] && low[1] < other.high[1] &&
+           other.low[1] < high[1];
+  }
+};
+
+/// A polygon, clipped to a cell, as the tree sees it. The box and the depths are certified: the
+/// polygon's directions are within [low, high] and its z within [z_low, z_high] (infinite where
+/// nothing is known, or the kernel rounds: as its coordinates say).
+struct SectorItem : ChartBox {
+  float z_low = -kInfinity, z_high = kInfinity;
+  std::uint32_t first = 0;  // its loop
+  std::uint32_t count : 31 = 0;
+  std::uint32_t fresh : 1 = 1;  // new in this cell: its loop was clipped
+  std::uint32_t part = 0;
+  std::uint32_t parent = 0;  // the item of the parent cell that it is a piece of
+};
+
+/// A split of a cell by u = value or v = value; the value is exactly `steps` * 2^-bits.
+struct SectorSplit {
+  int axis = 0;  // 0: u, 1: v
+  double value = 0;
+  std::int64_t steps = 0;
+  int bits = 0;
+};
+
+/// n log2 n.
+double n_log_n(std::size_t n);
+
+class SplitChooser {
+ public:
+  /// Splits only while f(below) + f(above) < kGrowth f(n), f(n) = n log n.
+  static constexpr double kGrowth = 1.1;
+
+  /// Nothing if no split pays.
+  std::optional<SectorSplit> choose(std::span<const SectorItem> items);
+
+ private:
+  static constexpr int kBins = 32;
+};
+
+/// The plane of a split in the coordinates of q; its front is where the coordinate is larger.
+/// `grid_bits`: b of the scene (the unit of a directional light's chart).
+PrefixPlane plane_of(const SectorSplit& split, const LightChart& chart, bool directional,
+                     unsigned grid_bits);
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SECTORS_SECTOR_SPLIT_H

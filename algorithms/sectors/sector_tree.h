@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The sectors algorithm: shadows without any order of the polygons.
+//
+// Light space is cut by a tree of planes through the light: first into sectors of one chart each
+// (for a point light the planes x = +-y and z = +- the larger of the two; a directional light has
+// one chart), then by k-d splits. Polygons are clipped exactly to the cells. A polygon that covers
+// a cell hides all that is behind its plane: that leaves the cell, whatever is there. In a leaf,
+// from each receiver the nearer casters are subtracted, the largest first, until nothing is lit;
+// the part of a caster that is nearer is cut off by the receiver's plane where the two cross. No
+// order, no cycles, no coplanar groups: a polygon shadows another if it is nearer in some cell, and
+// polygons of one plane are nowhere nearer than each other.
+//
+// Pieces of a polygon that come to the same end in both children of a cell are one piece again.
+//
+// Guarantee on exact kernels: the fragments tile the polygon and have the class and a witness of
+// the definition (docs: semantics), whatever planes the heuristics choose. The result does not
+// depend on the number of threads: cells down to a fixed size are made by one thread, everything
+// below is independent, and sums are associative (area_sums.h). Explicit stack; memory is the items
+// and loops of the cells on it, about 2.2 times those of the root. Reference: Slater, A comparison
+// of three shadow volume algorithms (1992), for tiles; docs/algorithms.md.
+#ifndef GNOMON_ALGORITHMS_SECTORS_SECTOR_TREE_H
+#define GNOMON_ALGORITHMS_SECTORS_SECTOR_TREE_H
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "algorithms/partition/fraction_sums.h"
+#include "algorithms/partition/import_export.h"
+#include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/piece_fractions.h"
+#include "algorithms/partition/split.h"
+#include "algorithms/sectors/sector_split.h"
+#include "gnomon/algorithms/shadow_result.h"
+#include "kernel/concept/kernel_concept.h"
+
+namespace gnomon {
+
+/// What became of a polygon in a cell: a caster's part, or one of these.
+using SectorState = std::uint32_t;
+inline constexpr SectorState kAllLit = Fragment::kNoCaster;
+inline constexpr SectorState kMixed = kAllLit - 1;  // pieces of several kinds, already put out
+inline constexpr SectorState kUndecided = kAllLit - 2;
+
+/// What one task puts out; concatenated in the order of tasks.
+struct SectorOutput {
+  struct Piece {
+    std::uint32_t part;
+    Fragment fragment;  // first: into the points of this output
+  };
+  std::vector<Piece> pieces;  // only if points are kept
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<mpq_class, 3>> exact_points;
+  std::vector<std::pair<std::uint32_t, mpq_class>> exact_lit;  // on request: part, lit fraction
+  std::uint64_t piece_count = 0, nodes = 0, vanished = 0;
+};
+
+/// What all threads share. Constant but for the atomics.
+struct SectorContext {
+  const PreparedScene& scene;
+  const ShadowOptions& options;
+  const FacingParts& facing;
+  const PlaneCharts& charts;
+  const LightPoint& light;
+  std::span<const Ball> areas;  // twice the area of each part, by planar points
+  FractionSums& sums;
+  std::atomic<std::uint64_t>& pieces;  // so far
+  std::atomic<bool>& stopped;          // interrupted, or too many pieces
+};
+
+/// A cell of light space: which of the sector planes are still to come, and the chart after them.
+struct SectorCell {
+  friend bool operator==(const SectorCell&, const SectorCell&) = default;
+
+  static constexpr int kChart = 4;
+  int level = 0;  // 0: x = y, 1: x = -y, 2: z = s, 3: z = -s, s the larger of +-x, +-y
+  bool above_first = false, above_second = false;
+  LightChart chart;
+};
+
+template <SectorSpaceModel Space>
+class SectorTree {
+ public:
+  using Vertex = typename Space::Vertex;
+  /// SectorContext::pieces is told of so many at a time; the rest of an output is its taker's to
+  /// tell.
+  static constexpr std::uint64_t kPieceBatch = 1024;
+
+  /// Polygons of one cell, to be worked off by one thread: items [begin, end) of the tree that made
+  /// the task.
+  struct Task {
+    SectorCell cell;
+    std::uint32_t begin = 0, end = 0;
+    std::vector<SectorState> states;  // when done
+
+    std::uint32_t size() const { return end - begin; }
+  };
+
+  SectorTree(const SectorContext& context, Space space)
+      : context_(&context), space_(std::move(space)) {}
+
+  const SectorContext& context() const { return *context_; }
+  Space& space() { return space_; }
+  SectorOutput& output() { return output_; }
+  LoopStore<Vertex>& loops() { return loops_; }
+
+  /// The ten planes between the sectors. Call it once, before the space is forked.
+  void add_sector_planes();
+  /// The same planes in a fork.
+  void use_sector_planes(const SectorTree& other) {
+    sector_planes_ = other.sector_planes_;
+    first_cell_plane_ = other.first_cell_plane_;
+  }
+
+  /// The cell that holds a polygon as a whole, as far as the planes between the sectors tell.
+  SectorCell cell_of(const LoopView<Vertex>& loop);
+  /// Where the tree starts if nothing is known of its polygons.
+  SectorCell root_cell() const;
+  /// Box and depths of an item in the chart of a cell. Thread-safe.
+  void locate(const LightChart& chart, SectorItem& item) const;
+  /// Splits the cell that holds `items` (loops in loops()) down to cells of at most `task_size`,
+  /// which become tasks. Call finish() when their states are known. `located`: items have boxes.
+  std::vector<Task> plan(std::vector<SectorItem> items, const SectorCell& cell, bool located,
+                         std::uint32_t task_size);
+  void set_states(const Task& task);
+  /// Joins the cells of plan(); the states of its items follow.
+  std::span<const SectorState> finish();
+  /// Puts out item i of plan() as a whole. Requires: finished, and its state is not kMixed.
+  void emit_root(std::uint32_t i) {
+    emit({items_[i].first, items_[i].count, items_[i].part}, states_[i]);
+  }
+
+  /// Does a task of another tree, leaving its states in it.
+  void run(Task& task, const SectorTree& planner);
+
+ private:
+  bool coplanar_is_behind() const { return context_->options.mutation == Mutation::kOnSwapped; }
+  /// Cells of so many times the size of a leaf that no k-d plane splits are split by edges of their
+  /// polygons.
+  static constexpr std::uint32_t kLargeLeaf = 4;
+
+  struct Frame {
+    SectorCell cell;
+    std::uint32_t begin = 0, end = 0;  // items
+    bool located = false;              // items have boxes
+    int stage = 0;                     // 0: new; 1: front done; 2: both done
+    std::uint32_t children = 0, middle = 0, children_end = 0;
+    std::uint32_t loops_mark = 0, planes_mark = 0;
+    SectorCell front_cell, back_cell;
+  };
+  struct Range {
+    std::uint32_t begin, end;
+  };
+  /// A piece of a receiver that is lit so far, and its box in the chart once one was asked for.
+  struct LitPiece {
+    LoopRange loop;
+    bool located = false;
+    ChartBox box;
+  };
+  enum class Relation : std::uint8_t { kNone, kBehind, kCrossing };
+
+  void enter(SectorCell cell, Range items, bool located);
+  void descend(std::uint32_t task_size, std::vector<Task>* tasks);
+  bool stopped() const {
+    const std::atomic<bool>* interrupted = context_->options.interrupted;
+    if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) {
+      context_->stopped.store(true, std::memory_order_relaxed);
+    }
+    return context_->stopped.load(std::memory_order_relaxed);
+  }
+  LoopView<Vertex> view(const LoopRange& range) const {
+    return loops_.view(range, context_->scene.parts[range.part].plane);
+  }
+  LoopView<Vertex> view(const SectorItem& item) const {
+    return view(LoopRange{item.first, item.count, item.part});
+  }
+  bool is_cell_plane(PlaneRef edge) const { return edge.index() >= first_cell_plane_; }
+
+  ChartBox box_of(const LightChart& chart, const LoopView<Vertex>& loop) const;
+  std::uint32_t cull(std::uint32_t begin, std::uint32_t end);
+  std::uint32_t move_decided_last(std::uint32_t begin, std::uint32_t end);
+  bool covers(const SectorItem& item) const;
+  bool is_behind(const SectorItem& item, std::uint32_t part);
+  Relation relation(const SectorItem& receiver, const SectorItem& caster);
+  bool any_nearer(const SectorItem& item, PlaneId plane, bool& any_behind);
+  bool split(Frame& frame, std::uint32_t open_end);
+  bool split_by_sector_plane(Frame& frame, std::uint32_t open_end);
+  PlaneRef next_sector_plane(const SectorCell& cell, SectorCell& above, SectorCell& below) const;
+  PlaneRef choose_edge_plane(std::uint32_t begin, std::uint32_t end);
+  void partition(Frame& frame, std::uint32_t open_end, PlaneRef plane, const SectorSplit* split);
+  /// `chart`: of the cell; null if it has none.
+  void leaf(std::uint32_t begin, std::uint32_t end, const LightChart* chart);
+  void subtract_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters,
+                        bool nearest_first, const LightChart* chart);
+  bool clip(const LitPiece& piece, LoopRange& inside);
+  void join(Range children);
+  void emit(const LoopRange& loop, SectorState state);
+  void emit_area(const LoopRange& loop, bool lit);
+
+  const SectorContext* context_;
+  Space space_;
+  SectorOutput output_;
+  std::array<PlaneRef, 10> sector_planes_;
+  std::uint32_t first_cell_plane_ = 0;
+  LoopStore<Vertex> loops_;
+  std::vector<SectorItem> items_;
+  std::vector<SectorState> states_;
+  std::size_t root_size_ = 0;
+  std::vector<Range> joins_;  // of plan(), children before parents
+  std::vector<Frame> stack_;
+  SplitChooser chooser_;
+  std::unordered_map<std::uint32_t, mpq_class> exact_areas_;  // of parts, as needed
+  // Workspace, kept to save allocations.
+  SplitRecord record_, first_record_;
+  std::vector<Vertex> crossings_;
+  std::vector<SectorItem> front_items_;
+  std::vector<std::uint32_t> order_;
+  std::vector<LitPiece> lit_, still_lit_;
+  std::vector<PlaneRef> caster_planes_, spanning_;
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SECTORS_SECTOR_TREE_H

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Which parts can be between a receiver and a light: a bounding-volume hierarchy of parts, asked
+// with the shaft of two boxes (Haines & Wallace, Shaft culling for efficient ray-traced radiosity,
+// 1991): the convex hull of the two.
+//
+// Guarantee: a part that meets the hull of the two boxes is found; others may be found, too. Boxes
+// are in fractions of the grid's extent, which doubles hold to 2^-53 whatever the grid, and every
+// comparison leaves a margin far above all rounding. No decision of an algorithm is made here.
+#ifndef GNOMON_ALGORITHMS_SHADOW_VOLUMES_CASTER_TREE_H
+#define GNOMON_ALGORITHMS_SHADOW_VOLUMES_CASTER_TREE_H
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "gnomon/kernel/geometry.h"
+#include "gnomon/scene/prepare.h"
+
+namespace gnomon {
+
+struct Box {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{kInfinity, kInfinity, kInfinity};
+  std::array<double, 3> high{-kInfinity, -kInfinity, -kInfinity};
+
+  void add(const std::array<double, 3>& point) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = point[k] < low[k] ? point[k] : low[k];
+      high[k] = point[k] > high[k] ? point[k] : high[k];
+    }
+  }
+  void add(const Box& other) {
+    add(other.low);
+    add(other.high);
+  }
+};
+
+/// A grid position as fractions of the grid's extent, each to 2^-53.
+std::array<double, 3> grid_fraction(const GridPositions& grid, VertexId vertex);
+
+/// The convex hull of two boxes, or of a box and a direction to infinity, as half-spaces with a
+/// margin.
+class Shaft {
+ public:
+  Shaft(const Box& receiver, const Box& light);
+  /// `direction`: to a directional light, in grid units of any length.
+  Shaft(const Box& receiver, const std::array<double, 3>& direction);
+  /// False only if the box is certainly outside.
+  bool may_meet(const Box& box) const;
+
+ private:
+  struct Plane {
+    int u, v;          // the two axes that the normal has components along
+    double nu, nv, d;  // inside: nu x_u + nv x_v <= d
+  };
+  void add_plane(int u, int v, double nu, double nv, double d);
+  void add_tangents(const Box& receiver, const Box& light);
+
+  std::array<Plane, 18> planes_;
+  std::size_t count_ = 0;
+};
+
+/// Where umbras of an area light may reach. From a point p, two corners a, b of the light are seen
+/// at an angle; a caster that hides both from p has a point on each of the rays, and those are at
+/// least |x - p| sin(angle) apart, x the one towards a. So a caster that is smaller than its
+/// distance from the receiver times the sine of the smallest such angle has no umbra there.
+class UmbraReach {
+ public:
+  static constexpr double kMargin = 1e-9;
+
+  /// Everything is reached.
+  UmbraReach() = default;
+  /// Corners to within kMargin.
+  UmbraReach(std::span<const std::array<double, 3>> light, const Box& receiver);
+  /// False only if a caster in the box certainly has no umbra on the receiver.
+  bool may_reach(const Box& caster) const;
+  /// The same of casters of at most that size (the diagonal of a box) anywhere in the box.
+  bool may_reach(const Box& box, double size) const;
+
+ private:
+  Box receiver_;
+  double sine_ = 0;  // of the smallest angle, or less
+};
+
+class CasterTree {
+ public:
+  /// Of those parts, by the geometry's grid.
+  CasterTree(const Geometry& geometry, const PreparedScene& scene,
+             std::span<const std::uint32_t> parts);
+
+  const Box& box(std::uint32_t part) const { return boxes_[part]; }
+  /// Appends the parts that may meet the shaft, in order of their numbers.
+  void find(const Shaft& shaft, std::vector<std::uint32_t>& parts) const;
+  /// Of these only those whose umbra may reach the receiver.
+  void find(const Shaft& shaft, const UmbraReach& reach, std::vector<std::uint32_t>& parts) const;
+
+ private:
+  static constexpr std::uint32_t kLeaf = 4;
+  struct Node {
+    Box box;
+    std::uint32_t begin = 0, end = 0;  // into order_
+    std::uint32_t right = 0;           // 0: a leaf; the left child follows its parent
+    double largest = 0;                // diagonal of a part's box
+  };
+  void build();
+  template <class MayBe>
+  void search(const MayBe& may_be, std::vector<std::uint32_t>& parts) const;
+
+  std::vector<Box> boxes_;  // of all parts
+  std::vector<std::uint32_t> order_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SHADOW_VOLUMES_CASTER_TREE_H

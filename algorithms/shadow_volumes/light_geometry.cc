@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "algorithms/shadow_volumes/light_geometry.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "kernel/numbers/exact_integer.h"
+#include "kernel/signs/nearest_double.h"
+
+namespace gnomon {
+namespace {
+
+using GridPoint = std::array<mpz_class, 3>;
+
+class Builder {
+ public:
+  explicit Builder(const PreparedScene& scene) {
+    result_.scene = &scene;
+    result_.geometry = scene.geometry;
+    first_new_ = static_cast<VertexId>(scene.geometry.positions.size());
+  }
+
+  LightGeometry build() {
+    const PreparedScene& scene = *result_.scene;
+    for (const PreparedLight& light : scene.lights) {
+      LightFace face;
+      if (light.type == LightType::kArea) {
+        for (const GridPoint& point : light.area_loop) face.loop.push_back(vertex(point));
+      } else if (light.type == LightType::kPoint) {
+        face.loop.push_back(vertex(light.point.grid));
+      }
+      result_.faces.push_back(std::move(face));
+    }
+    put_positions();
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+      if (scene.lights[i].type == LightType::kArea) complete(result_.faces[i]);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  VertexId vertex(const GridPoint& point) {
+    const GridPositions& grid = result_.geometry.grid;
+    for (VertexId v = 0; v < grid.size(); ++v) {
+      if (grid.at(v, 0) == point[0] && grid.at(v, 1) == point[1] && grid.at(v, 2) == point[2]) {
+        return v;
+      }
+    }
+    const auto found = std::find(added_.begin(), added_.end(), point);
+    if (found == added_.end()) {
+      added_.push_back(point);
+      return first_new_ + static_cast<VertexId>(added_.size() - 1);
+    }
+    return first_new_ + static_cast<VertexId>(found - added_.begin());
+  }
+
+  void put_positions() {
+    if (added_.empty()) return;
+    Geometry& geometry = result_.geometry;
+    std::vector<mpz_class> all;
+    all.reserve(3 * (geometry.grid.size() + added_.size()));
+    for (VertexId v = 0; v < geometry.grid.size(); ++v) {
+      for (int k = 0; k < 3; ++k) all.push_back(geometry.grid.at(v, k));
+    }
+    for (const GridPoint& point : added_) {
+      std::array<double, 3> nearest{};
+      for (int k = 0; k < 3; ++k) {
+        all.push_back(point[k]);
+        nearest[k] =
+            nearest_double(mpq_class(geometry.origin[k] + geometry.step * mpq_class(point[k])));
+      }
+      geometry.positions.push_back(nearest);
+    }
+    geometry.grid = GridPositions::from(std::move(all));
+    geometry.light_vertices = static_cast<std::uint32_t>(added_.size());
+  }
+
+  void complete(LightFace& face) {
+    const std::size_t n = face.loop.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      face.edges.push_back(edge(face.loop[i], face.loop[(i + 1) % n]));
+    }
+    face.plane = plane({face.loop[0], face.loop[1], face.loop[2]}, face.flipped);
+  }
+
+  PlaneRef edge(VertexId from, VertexId to) {
+    const EdgeEnds ends{std::min(from, to), std::max(from, to)};
+    std::vector<EdgeEnds>& edges = result_.geometry.edges;
+    // An edge that polygons share with the light has two vertices that they share.
+    auto found = edges.end();
+    if (ends.b < first_new_) found = std::find(edges.begin(), edges.end(), ends);
+    for (auto e = edges.begin() + static_cast<std::ptrdiff_t>(result_.scene->geometry.edges.size());
+         found == edges.end() && e != edges.end(); ++e) {
+      if (*e == ends) found = e;
+    }
+    const auto index = static_cast<EdgeId>(found - edges.begin());
+    if (found == edges.end()) edges.push_back(ends);
+    return PlaneRef(index, from > to);
+  }
+
+  Vector3<mpz_class> at(VertexId v) const {
+    const GridPositions& grid = result_.geometry.grid;
+    return {grid.at(v, 0), grid.at(v, 1), grid.at(v, 2)};
+  }
+  Vector3<mpz_class> normal(const SupportTriple& t) const {
+    return cross(difference(at(t.b), at(t.a)), difference(at(t.c), at(t.a)));
+  }
+
+  PlaneId plane(const SupportTriple& triple, bool& flipped) {
+    std::vector<SupportTriple>& planes = result_.geometry.planes;
+    const Vector3<mpz_class> n = normal(triple), origin = at(triple.a);
+    for (PlaneId id = 0; id < planes.size(); ++id) {
+      const auto contains = [&](VertexId v) { return sgn(dot(n, difference(at(v), origin))) == 0; };
+      if (!contains(planes[id].a) || !contains(planes[id].b) || !contains(planes[id].c)) continue;
+      flipped = sgn(dot(n, normal(planes[id]))) < 0;
+      return id;
+    }
+    flipped = false;
+    planes.push_back(triple);
+    return static_cast<PlaneId>(planes.size() - 1);
+  }
+
+  LightGeometry result_;
+  VertexId first_new_ = 0;
+  std::vector<GridPoint> added_;
+};
+
+}  // namespace
+
+LightGeometry make_light_geometry(const PreparedScene& scene) { return Builder(scene).build(); }
+
+}  // namespace gnomon

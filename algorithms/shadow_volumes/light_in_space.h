@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// One light of any kind in three dimensions: which sides of the parts see it, and the shadow
+// volumes that may reach a receiver.
+//
+// Volumes of casters are made once per light. Only where a receiver's own plane cuts an area light
+// are they made again, for the part of the light in front of it, and forgotten with the receiver.
+#ifndef GNOMON_ALGORITHMS_SHADOW_VOLUMES_LIGHT_IN_SPACE_H
+#define GNOMON_ALGORITHMS_SHADOW_VOLUMES_LIGHT_IN_SPACE_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "algorithms/partition/import_export.h"
+#include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/split.h"
+#include "algorithms/shadow_volumes/caster_tree.h"
+#include "algorithms/shadow_volumes/light_geometry.h"
+#include "algorithms/shadow_volumes/receiver_cutter.h"
+#include "algorithms/shadow_volumes/shadow_volume.h"
+#include "algorithms/volume_trees/volume_tree.h"
+#include "gnomon/algorithms/shadow_result.h"
+#include "kernel/concept/kernel_concept.h"
+
+namespace gnomon {
+
+/// The support plane of a part, turned so that its front is the given side's.
+inline PlaneRef plane_of_side(const Part& part, Side side) {
+  return PlaneRef(part.plane, part.flipped != (side == Side::kBack));
+}
+
+/// What one side of a part has of a light.
+struct Sight {
+  ShadowReason reason = ShadowReason::kNone;  // kNone: it sees some of it
+  bool sees() const { return reason == ShadowReason::kNone; }
+};
+
+/// What a thread needs for one receiver after another; the volumes in `own` and the planes made for
+/// them are those of the last one.
+template <VolumeSpaceModel Space>
+struct ReceiverWorkspace {
+  explicit ReceiverWorkspace(Space fork, Mutation mutation = Mutation::kNone)
+      : space(std::move(fork)),
+        builder(space, mutation),
+        cutter(space, mutation == Mutation::kOnSwapped) {}
+  ReceiverWorkspace(const ReceiverWorkspace&) = delete;
+  ReceiverWorkspace& operator=(const ReceiverWorkspace&) = delete;
+
+  Space space;
+  VolumeBuilder<Space> builder;
+  ReceiverCutter<Space> cutter;
+  LoopStore<typename Space::Vertex> whole, caster, front, light;
+  VolumeStore own;
+  std::vector<std::uint32_t> parts;
+  std::vector<VolumeToCut> volumes;
+  SplitRecord record;
+  std::vector<typename Space::Vertex> crossings;
+  std::unique_ptr<VolumeTreeWorkspace<Space>> merged;  // once the merged algorithm asks for it
+};
+
+template <VolumeSpaceModel Space>
+class LightInSpace {
+ public:
+  using Vertex = typename Space::Vertex;
+  using Loop = LoopView<Vertex>;
+  using Workspace = ReceiverWorkspace<Space>;
+
+  /// Adds the planes of all volumes to `space`, which must be forked afterwards. `tree` and `scene`
+  /// must outlive it.
+  LightInSpace(Space& space, const LightGeometry& scene, const CasterTree& tree,
+               std::uint32_t light, Mutation mutation = Mutation::kNone)
+      : scene_(*scene.scene),
+        light_(&scene.scene->lights[light]),
+        tree_(&tree),
+        mutation_(mutation) {
+    const LightFace& face = scene.faces[light];
+    for (std::size_t i = 0; i < face.loop.size(); ++i) {
+      PlaneRef edge;
+      if (!face.edges.empty()) {
+        edge = space.edges().of_edge(face.edges[i].index(), face.edges[i].flipped());
+      }
+      loop_.push(space.input_vertex(face.loop[i]), edge);
+      box_.add(grid_fraction(scene.geometry.grid, face.loop[i]));
+    }
+    plane_id_ = face.edges.empty() ? kNoPlane : face.plane;
+    if (is_area()) plane_ = PlaneRef(face.plane, face.flipped);
+    make_volumes(space);
+  }
+  /// The same for a piece of an area light, a convex loop on its plane that support planes cut out.
+  LightInSpace(Space& space, const LightGeometry& scene, const CasterTree& tree,
+               std::uint32_t light, const Loop& piece)
+      : scene_(*scene.scene), light_(&scene.scene->lights[light]), tree_(&tree) {
+    const LightFace& face = scene.faces[light];
+    for (const VertexId vertex : face.loop) {
+      box_.add(grid_fraction(scene.geometry.grid, vertex));
+    }
+    loop_.append(piece);
+    plane_id_ = face.plane;
+    plane_ = PlaneRef(face.plane, face.flipped);
+    make_volumes(space);
+  }
+
+  bool is_area() const { return light_->type == LightType::kArea; }
+  LightState in_shadow() const { return is_area() ? LightState::kUmbra : LightState::kShadow; }
+  PlaneRef plane() const { return plane_; }
+  std::size_t volume_count() const { return store_.size(); }
+  const VolumeStore& volumes() const { return store_; }
+  /// The volumes of a part's sides, by index: two for a two-sided part whose plane cuts the light.
+  std::pair<std::uint32_t, std::uint32_t> volumes_of(std::uint32_t part) const {
+    return {first_volume_[part], first_volume_[part + 1]};
+  }
+  LightShape<Vertex> shape() const {
+    return {loop_.view({0, loop_.size(), 0}, plane_id_),
+            light_->type == LightType::kDirectional ? &light_->point : nullptr, plane_};
+  }
+
+  /// Whether that side of a part, if it receives at all, sees some of the light.
+  Sight sight(Workspace& workspace, std::uint32_t part, Side side) const;
+  /// Cuts a piece of the side of a part (its whole loop, or a fragment of an earlier light) and
+  /// calls emit(PieceClass, Loop) for each fragment; false if emit was. Requires: it sees the
+  /// light, and prepare() was called for this receiver.
+  template <class Emit>
+  bool cut(Workspace& workspace, const Loop& piece, const Emit& emit) const;
+  /// Finds the volumes that may reach a receiver, for cut().
+  void prepare(Workspace& workspace, std::uint32_t part, Side side) const;
+
+ private:
+  static constexpr PlaneId kNoPlane = 0xffffffffu;
+  /// So many casters are tried for a penumbra that holds a whole receiver.
+  static constexpr std::size_t kMostCovers = 16;
+  /// Keeps the shadow of a caster at the light finite, as far as the order of casters goes.
+  static constexpr double kNearestToLight = 1e-12;
+
+  void make_volumes(Space& space);
+  /// The box of a corner's position is as wide as what is known of it.
+  UmbraReach umbra_reach(const Space& space, const Loop& light, const Box& receiver) const {
+    if (!is_area()) return {};
+    std::vector<std::array<double, 3>> corners;
+    for (std::uint32_t i = 0; i < light.size(); ++i) {
+      const std::array<Ball, 3> position = space.position(light.corner(i));
+      std::array<double, 3> point{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!(position[k].radius < UmbraReach::kMargin)) return {};
+        point[k] = position[k].middle;
+      }
+      corners.push_back(point);
+    }
+    return UmbraReach(corners, receiver);
+  }
+  void sort_by_shadow(std::uint32_t receiver, std::vector<std::uint32_t>& casters) const;
+  void drop_behind(Workspace& workspace, std::uint32_t receiver, PlaneRef receiving,
+                   std::vector<std::uint32_t>& casters) const;
+  /// The box of a cut light, as wide as its corners are known; that of all of it if they are not.
+  Box box_of(const Space& space, const Loop& light) const {
+    Box box;
+    for (std::uint32_t i = 0; i < light.size(); ++i) {
+      const std::array<Ball, 3> position = space.position(light.corner(i));
+      std::array<double, 3> low{}, high{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (!position[k].is_finite()) return box_;
+        low[k] = position[k].lower();
+        high[k] = position[k].upper();
+      }
+      box.add(low);
+      box.add(high);
+    }
+    return box;
+  }
+  Shaft shaft_to(const Box& receiver, const Box& light) const {
+    if (light_->type != LightType::kDirectional) return Shaft(receiver, light);
+    std::array<double, 3> direction{};
+    for (std::size_t k = 0; k < 3; ++k) direction[k] = light_->point.grid[k].get_d();
+    return Shaft(receiver, direction);
+  }
+
+  const PreparedScene& scene_;
+  const PreparedLight* light_;
+  const CasterTree* tree_;
+  Mutation mutation_ = Mutation::kNone;
+  LoopStore<Vertex> loop_;
+  Box box_;
+  PlaneId plane_id_ = kNoPlane;
+  PlaneRef plane_;  // of an area light; it emits to its front
+  VolumeStore store_;
+  std::vector<std::uint32_t> first_volume_;
+};
+
+/// The volumes of both sides of a part, for one shape of the light.
+template <VolumeSpaceModel Space, class SpaceOfLoops>
+void add_part_volumes(VolumeBuilder<Space>& builder, const SpaceOfLoops& space,
+                      const PreparedScene& scene, std::uint32_t index,
+                      const LightShape<typename Space::Vertex>& light,
+                      LoopStore<typename Space::Vertex>& loops, VolumeStore& store) {
+  const Part& part = scene.parts[index];
+  const auto loop = part_loop(space, scene, index, loops);
+  builder.add(loop, plane_of_side(part, Side::kFront), false, light, store);
+  if (part.two_sided) builder.add(loop, plane_of_side(part, Side::kBack), true, light, store);
+}
+
+template <VolumeSpaceModel Space>
+void LightInSpace<Space>::make_volumes(Space& space) {
+  VolumeBuilder<Space> builder(space, mutation_);
+  LoopStore<Vertex> loops;
+  first_volume_.reserve(scene_.parts.size() + 1);
+  for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
+    first_volume_.push_back(static_cast<std::uint32_t>(store_.size()));
+    // A polygon in the light's plane casts nothing.
+    if (!scene_.parts[i].casts || scene_.parts[i].plane == plane_id_) continue;
+    add_part_volumes(builder, space, scene_, i, shape(), loops, store_);
+  }
+  first_volume_.push_back(static_cast<std::uint32_t>(store_.size()));
+}
+
+template <VolumeSpaceModel Space>
+Sight LightInSpace<Space>::sight(Workspace& workspace, std::uint32_t index, Side side) const {
+  const Part& part = scene_.parts[index];
+  const PlaneRef receiving = plane_of_side(part, side);
+  const LightShape<Vertex> light = shape();
+  if (!workspace.builder.is_in_front(receiving, light)) {
+    const bool in_plane = workspace.builder.holds(receiving, light);
+    return {in_plane ? ShadowReason::kLightInPlane : ShadowReason::kFacesAway};
+  }
+  if (is_area()) {
+    const Loop loop = part_loop(workspace.space, scene_, index, workspace.whole);
+    const Placement placement = workspace.record.decide(workspace.space, plane_, loop);
+    if (placement == Placement::kBack || placement == Placement::kOn) {
+      return {ShadowReason::kBehindLight};
+    }
+  }
+  return {};
+}
+
+/// Casters with the largest shadows on the receiver first, as far as boxes tell: what is penumbra
+/// already need not be cut by other penumbras. A heuristic: the order changes fragments only.
+template <VolumeSpaceModel Space>
+void LightInSpace<Space>::sort_by_shadow(std::uint32_t receiver,
+                                         std::vector<std::uint32_t>& casters) const {
+  const auto middle = [](const Box& box, std::size_t k) { return (box.low[k] + box.high[k]) / 2; };
+  const auto size = [](const Box& box) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += box.high[k] - box.low[k];
+    return sum;
+  };
+  const auto distance = [&](const Box& a, const Box& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += std::fabs(middle(a, k) - middle(b, k));
+    return sum;
+  };
+  const bool directional = light_->type == LightType::kDirectional;
+  std::vector<std::pair<double, std::uint32_t>> keys;
+  keys.reserve(casters.size());
+  for (const std::uint32_t caster : casters) {
+    const Box& box = tree_->box(caster);
+    // A point of the shadow is (1 + t) o - t a.
+    const double t =
+        directional ? 0
+                    : distance(box, tree_->box(receiver)) / (distance(box, box_) + kNearestToLight);
+    keys.emplace_back(-((1 + t) * size(box) + (directional ? 0 : t * size(box_))), caster);
+  }
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t i = 0; i < keys.size(); ++i) casters[i] = keys[i].second;
+}
+
+template <VolumeSpaceModel Space>
+void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Side side) const {
+  Space& space = workspace.space;
+  const PlaneRef receiving = plane_of_side(scene_.parts[index], side);
+  workspace.own.clear();
+  workspace.volumes.clear();
+  LightShape<Vertex> light = shape();
+  const bool cut = is_area() && mutation_ != Mutation::kStraddlingLightFaces &&
+                   workspace.record.decide(space, receiving, light.loop) == Placement::kSpanning;
+  if (cut) {
+    workspace.light.clear();
+    const SplitChildren children = make_children(space, receiving, light.loop, workspace.record,
+                                                 workspace.crossings, workspace.light);
+    if (children.front.count < 3) return;
+    light.loop = workspace.light.view(children.front, plane_id_);
+  }
+  const Box& box = tree_->box(index);
+  const Box light_box = cut ? box_of(space, light.loop) : box_;
+  const UmbraReach reach = umbra_reach(space, light.loop, box);
+  const Loop loop = part_loop(space, scene_, index, workspace.front);
+  const auto is_missed = [&](const ShadowVolume& volume) {
+    const auto planes = store_.penumbra(volume);
+    return std::any_of(planes.begin(), planes.end(),
+                       [&](PlaneRef plane) { return workspace.cutter.is_outside(loop, plane); });
+  };
+  bool covered = false;  // by one penumbra: others do not matter any more
+  // Volumes of the whole light cost nothing more, and the cutter asks them again: only where
+  // `may_cover` is likely is it worth to ask here.
+  const auto add = [&](std::uint32_t part, bool may_cover) {
+    const bool umbra = reach.may_reach(tree_->box(part));
+    if (covered && !umbra) return;
+    auto [begin, end] = volumes_of(part);
+    if (cut) {
+      // What hides nothing of the whole light hides nothing of a part of it.
+      const auto whole = store_.volumes().subspan(begin, end - begin);
+      if (std::all_of(whole.begin(), whole.end(), is_missed)) return;
+      begin = static_cast<std::uint32_t>(workspace.own.size());
+      add_part_volumes(workspace.builder, space, scene_, part, light, workspace.caster,
+                       workspace.own);
+      end = static_cast<std::uint32_t>(workspace.own.size());
+    }
+    const VolumeStore& store = cut ? workspace.own : store_;
+    for (std::uint32_t i = begin; i < end; ++i) {
+      workspace.volumes.push_back({i, umbra});
+      covered =
+          covered || (may_cover && workspace.cutter.is_inside(loop, store.penumbra(store[i])));
+    }
+  };
+  // Casters before the middle of the light are most likely to have all of the receiver in their
+  // penumbra; then only umbras remain to be looked for, which reach less far.
+  std::vector<std::uint32_t> asked;
+  if (is_area()) {
+    Box middle;
+    middle.add(std::array{(light_box.low[0] + light_box.high[0]) / 2,
+                          (light_box.low[1] + light_box.high[1]) / 2,
+                          (light_box.low[2] + light_box.high[2]) / 2});
+    tree_->find(shaft_to(box, middle), asked);
+    drop_behind(workspace, index, receiving, asked);
+    sort_by_shadow(index, asked);
+    if (asked.size() > kMostCovers) asked.resize(kMostCovers);
+    std::size_t tried = 0;
+    while (tried < asked.size() && !covered) add(asked[tried++], true);
+    asked.resize(tried);
+    std::sort(asked.begin(), asked.end());
+  }
+  workspace.parts.clear();
+  if (covered) {
+    tree_->find(shaft_to(box, light_box), reach, workspace.parts);
+  } else {
+    tree_->find(shaft_to(box, light_box), workspace.parts);
+  }
+  std::erase_if(workspace.parts, [&](std::uint32_t part) {
+    return std::binary_search(asked.begin(), asked.end(), part);
+  });
+  drop_behind(workspace, index, receiving, workspace.parts);
+  sort_by_shadow(index, workspace.parts);
+  for (const std::uint32_t part : workspace.parts) add(part, cut);
+}
+
+/// Only what is partly in front of the receiver can be in its light.
+template <VolumeSpaceModel Space>
+void LightInSpace<Space>::drop_behind(Workspace& workspace, std::uint32_t receiver,
+                                      PlaneRef receiving,
+                                      std::vector<std::uint32_t>& casters) const {
+  std::erase_if(casters, [&](std::uint32_t other) {
+    const Part& part = scene_.parts[other];
+    if (other == receiver || part.plane == scene_.parts[receiver].plane || !part.casts) return true;
+    const Loop loop = part_loop(workspace.space, scene_, other, workspace.caster);
+    for (std::uint32_t i = 0; i < loop.size(); ++i) {
+      if (workspace.space.side_of_plane(receiving, loop.corner(i)) == Side::kFront) return false;
+    }
+    return true;
+  });
+}
+
+template <VolumeSpaceModel Space>
+template <class Emit>
+bool LightInSpace<Space>::cut(Workspace& workspace, const Loop& piece, const Emit& emit) const {
+  const VolumeStore& store = workspace.own.size() > 0 ? workspace.own : store_;
+  if (!is_area()) {
+    return workspace.cutter.cut(piece, store, workspace.volumes, in_shadow(), emit);
+  }
+  constexpr PieceClass kBehind{LightState::kUmbra, Fragment::kNoCaster, ShadowReason::kBehindLight};
+  switch (workspace.record.decide(workspace.space, plane_, piece)) {
+    case Placement::kBack:
+    case Placement::kOn:
+      return emit(kBehind, piece);
+    case Placement::kFront:
+      return workspace.cutter.cut(piece, store, workspace.volumes, in_shadow(), emit);
+    case Placement::kSpanning:
+      break;
+  }
+  workspace.front.clear();
+  const SplitChildren children = make_children(workspace.space, plane_, piece, workspace.record,
+                                               workspace.crossings, workspace.front);
+  if (children.back.count >= 3 &&
+      !emit(kBehind, workspace.front.view(children.back, piece.support))) {
+    return false;
+  }
+  return children.front.count < 3 ||
+         workspace.cutter.cut(workspace.front.view(children.front, piece.support), store,
+                              workspace.volumes, in_shadow(), emit);
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SHADOW_VOLUMES_LIGHT_IN_SPACE_H

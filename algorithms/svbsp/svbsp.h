@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The shadow volume BSP tree (Chin & Feiner 1989, sec. 4): filter each polygon, front to back as
+// seen from the light, down the tree of shadow planes; what reaches an IN cell is in shadow, what
+// reaches an OUT cell is lit, and its shadow volume is added there.
+//
+// A front child is inside the node's plane. The tree starts as the balanced prefix. An IN cell
+// knows the part whose fragment made it: that part shadows everything in the cell, the witness of
+// the fragment. A fragment is bounded by the planes of its ancestors already, so only edges that
+// the fragment brought with it become nodes: the planes that cut it stand above it in the tree. (A
+// rounded kernel without identity does not know that, and makes a plane of every edge.)
+//
+// Guarantee on exact kernels: polygons given front to back, coplanar ones filtered before any of
+// them is inserted, every fragment has the class of the definition (docs: semantics). Explicit
+// stacks.
+#ifndef GNOMON_ALGORITHMS_SVBSP_SVBSP_H
+#define GNOMON_ALGORITHMS_SVBSP_SVBSP_H
+
+#include <cstdint>
+#include <vector>
+
+#include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/split.h"
+#include "algorithms/svbsp/balanced_prefix.h"
+#include "gnomon/algorithms/shadow_result.h"
+#include "kernel/concept/kernel_concept.h"
+
+namespace gnomon {
+
+/// A classified loop in SvbspOutput::loops.
+struct ClassifiedLoop {
+  LoopRange loop;
+  LightState state = LightState::kLit;
+  std::uint32_t caster = Fragment::kNoCaster;
+};
+
+template <class Vertex>
+struct SvbspOutput {
+  LoopStore<Vertex> loops;
+  std::vector<ClassifiedLoop> fragments;
+};
+
+/// What filtering one polygon shall do.
+struct FilterActions {
+  bool classify = true;  // append fragments to the output
+  bool insert = true;    // add the shadow volumes of lit fragments to the tree
+};
+
+template <LightSpaceModel Space>
+class SvbspTree {
+ public:
+  using Vertex = typename Space::Vertex;
+
+  /// `drops_slivers`: Mutation::kSliversDropped.
+  SvbspTree(Space& space, bool merge_siblings, bool drops_slivers = false);
+
+  /// Puts the balanced prefix at the top. Requires: nothing inserted yet.
+  void plant(const PrefixTree& prefix);
+
+  /// Filters a loop that is counter-clockwise seen from the light.
+  void filter(const LoopView<Vertex>& loop, FilterActions actions, SvbspOutput<Vertex>& output);
+
+  std::uint64_t node_count() const { return nodes_.size() - 1; }
+  /// Children with fewer than three vertices that were dropped (rounded kernels).
+  std::uint64_t vanished() const { return vanished_; }
+
+ private:
+  // Cells are encoded in the child links: OUT, or IN with its caster.
+  static constexpr std::int32_t kOut = -1;
+  static constexpr std::int32_t in_cell(std::uint32_t caster) {
+    return -2 - static_cast<std::int32_t>(caster);
+  }
+  static constexpr std::uint32_t caster_of(std::int32_t cell) {
+    return static_cast<std::uint32_t>(-2 - cell);
+  }
+  struct Node {
+    PlaneRef plane;
+    std::int32_t front = kOut, back = kOut;
+  };
+  struct Frame {
+    std::uint32_t node = 0;  // the cell or subtree is this node's front or back child
+    bool front = true;
+    bool leaving = false;            // children done: merge, drop the loop
+    LoopRange loop;                  // in work_
+    std::uint32_t first_output = 0;  // when leaving: outputs before the children's
+  };
+
+  std::int32_t& child(const Frame& frame) {
+    return frame.front ? nodes_[frame.node].front : nodes_[frame.node].back;
+  }
+  bool is_kept(const LoopRange& child, PlaneId support) const;
+  void insert(const Frame& frame, const LoopView<Vertex>& fragment,
+              const LoopView<Vertex>& original);
+  void try_merge(const Frame& frame, PlaneId support, SvbspOutput<Vertex>& output);
+
+  Space* space_;
+  bool merge_siblings_, drops_slivers_;
+  std::vector<Node> nodes_;  // 0 is a sentinel whose front child is the root
+  std::uint64_t vanished_ = 0;
+  // Workspace of filter(), kept to save allocations.
+  std::vector<Frame> stack_;
+  LoopStore<Vertex> work_, parent_;
+  SplitRecord record_;
+  std::vector<Vertex> crossings_;
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SVBSP_SVBSP_H

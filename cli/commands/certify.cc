@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// gnomon certify: run kernels on a scene, or read a foreign result, and let the oracle judge each.
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+#include "cli/commands/certify_corpus.h"
+#include "cli/commands/certify_report.h"
+#include "cli/common/algorithm_choice.h"
+#include "cli/common/commands.h"
+#include "cli/common/interrupt.h"
+#include "cli/common/jobs.h"
+#include "cli/common/messages.h"
+#include "cli/common/output.h"
+#include "cli/common/progress.h"
+#include "cli/common/scene_options.h"
+#include "fuzz/check/kernel_choice.h"
+#include "gnomon/algorithms/explain.h"
+#include "gnomon/algorithms/shadows.h"
+#include "gnomon/oracle/prepared_check.h"
+#include "gnomon/oracle/read_candidate.h"
+#include "gnomon/oracle/verdict.h"
+#include "gnomon/scene/digest.h"
+#include "report/certificate/certificate.h"
+#include "report/sides/candidate_from_result.h"
+#include "report/sides/polygon_sides.h"
+#include "report/text/number_text.h"
+
+namespace gnomon::cli {
+
+namespace {
+
+using fuzz::KernelChoice;
+using fuzz::parse_kernel_choice;
+
+/// Up to so many parts the slow exact kernels run without being asked for.
+constexpr std::size_t kSmallScene = 200;
+
+struct CertifyCommandOptions {
+  SceneOptions scene;
+  std::vector<std::string> kernels;
+  std::string algorithm{kAutomaticName};
+  std::vector<std::string> candidates;
+  double tolerance = 1e-9;
+  std::optional<double> width;
+  double thickness = kDefaultThickness;
+  double clearance = 0;
+  std::optional<std::uint64_t> leaks;
+  bool strict = false, subset = false, explain = false, times = false;
+  std::string report_directory;
+  std::string json;
+  CorpusCommandOptions corpus;  // what certify_corpus.h needs besides
+};
+
+Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& options,
+                                                   std::size_t parts) {
+  std::vector<KernelChoice> kernels;
+  for (const std::string& name : options.kernels) {
+    const auto kernel = parse_kernel_choice(name);
+    if (!kernel) return tl::unexpected(kernel.error());
+    if (std::ranges::find(kernels, *kernel) == kernels.end()) kernels.push_back(*kernel);
+  }
+  if (!kernels.empty() || !options.candidates.empty()) return kernels;
+  // With no thickness, as a program that compares with zero; then with the thickness that helps
+  // most.
+  kernels = {{.kernel = KernelId::kFloat},      {.kernel = KernelId::kDouble, .thin = true},
+             {.kernel = KernelId::kDouble},     {.kernel = KernelId::kDouble, .identity = true},
+             {.kernel = KernelId::kLongDouble}, {.kernel = KernelId::kEpick}};
+  if (parts <= kSmallScene) {
+    kernels.push_back({.kernel = KernelId::kEpeck});
+    kernels.push_back({.kernel = KernelId::kRational});
+  }
+  kernels.push_back({.kernel = KernelId::kPlane});
+  std::erase_if(kernels, [](const KernelChoice& choice) { return !has_kernel(choice.kernel); });
+  return kernels;
+}
+
+Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const CertifyCommandOptions& options) {
+  if (options.algorithm == kBothName) return both_algorithms();
+  const auto algorithm =
+      parse_algorithm_choice(options.algorithm, {{"--explain", options.explain}}, kBothName);
+  if (!algorithm) return tl::unexpected(algorithm.error());
+  return std::vector{*algorithm};
+}
+
+class CertifyRun {
+ public:
+  CertifyRun(const CertifyCommandOptions& options, const LoadedScene& loaded)
+      : options_(options),
+        loaded_(loaded),
+        answer_(loaded.scene, loaded.prepared),
+        progress_("certify") {
+    certificate_.scene = &loaded.scene;
+    certificate_.prepared = &loaded.prepared;
+    certificate_.geometry_digest = geometry_digest(loaded.scene);
+    certificate_.facing_area = report::facing_area(loaded.prepared, loaded.lights);
+    for (const oracle::PreparedFinding& finding :
+         oracle::check_prepared(loaded.scene, loaded.prepared)) {
+      certificate_.scene_findings.push_back(
+          (finding.polygon.empty() ? "" : "polygon " + finding.polygon + ": ") + finding.text);
+    }
+    for (std::uint32_t light : loaded.lights) {
+      certificate_.lights.push_back(loaded.scene.lights[light].id);
+    }
+  }
+
+  /// False on an interrupt. Errors: those of a candidate's file, and of options out of range.
+  Expected<void> run_candidate(const std::string& file) {
+    auto read = oracle::read_candidate(file, loaded_.scene);
+    if (!read) return tl::unexpected(read.error());
+    report::JudgedRun run;
+    run.name = file;
+    run.foreign = true;
+    for (const oracle::CandidateLight& light : read->lights) {
+      if (!light.per_caster_umbra) run.per_caster_umbra = false;
+      for (const oracle::CandidatePolygon& polygon : light.polygons) {
+        // Those that a tree made: what is in shadow as a whole for a reason is none.
+        run.fragments += static_cast<std::uint64_t>(std::ranges::count_if(
+            polygon.fragments, [](const auto& fragment) { return fragment.reason.empty(); }));
+      }
+    }
+    return judge(std::move(run), std::move(*read));
+  }
+
+  /// `full_name`: the run is named after its algorithm too.
+  Expected<void> run_kernel(const KernelChoice& kernel, const AlgorithmChoice& algorithm,
+                            bool full_name) {
+    report::JudgedRun run;
+    run.kernel = kernel.name();
+    run.algorithm = algorithm.name(loaded_);
+    run.name = full_name ? run.kernel + '/' + run.algorithm : run.kernel;
+    run.exact = kernel.exact();
+    run.identity = kernel.identity;
+    run.exact_decisions = kernel.exact() || kernel.kernel == KernelId::kEpick;
+    run.thickness = run.exact_decisions || kernel.thin ? 0 : options_.thickness;
+
+    progress_.set_label("kernel " + run.name);
+    ShadowOptions shadow_options = options_of(kernel, algorithm);
+    const auto seconds = cpu_time(shadow_options);
+    shadow_options.keep_exact_points = true;
+    auto result = seconds ? compute_shadows(loaded_.prepared, shadow_options)
+                          : Expected<ShadowResult>(tl::unexpected(seconds.error()));
+    progress_.clear();
+    if (!result) {
+      if (result.error().code == ErrorCode::kInterrupted) return tl::unexpected(result.error());
+      // A kernel that cannot finish is a finding about that kernel.
+      run.error = to_string(result.error());
+      limit_reached_ = limit_reached_ || result.error().code == ErrorCode::kLimit;
+      certificate_.runs.push_back(std::move(run));
+      return {};
+    }
+    run.cpu_seconds = *seconds;
+    run.algorithm = result->algorithm;
+    for (const LightResult& light : result->lights) {
+      run.fragments += light.fragment_total;
+      run.dropped_slivers += light.dropped_slivers;
+    }
+    auto candidate =
+        report::candidate_from_result(loaded_.scene, loaded_.prepared, *result, run.name, false);
+    const bool explained =
+        options_.explain && !kernel.exact() && algorithm.point == Algorithm::kSvbsp;
+    return judge(std::move(run), std::move(candidate),
+                 explained ? std::optional(kernel) : std::nullopt);
+  }
+
+  void set_interrupted() { certificate_.interrupted = true; }
+  const report::Certificate& certificate() const { return certificate_; }
+  const oracle::ExactAnswer& answer() const { return answer_; }
+  const std::vector<oracle::Candidate>& kept() const { return kept_; }
+
+  int status() const {
+    bool failed = false, disagree = !certificate_.scene_findings.empty();
+    for (const report::JudgedRun& run : certificate_.runs) {
+      if (!run.report) {
+        failed = failed || !run.exact;
+        continue;
+      }
+      if (run.report->oracle_fault) disagree = true;
+      if (run.report->interrupted) continue;
+      if (run.exact && !run.report->confirms_exact()) disagree = true;
+      if (!run.exact && run.failed()) failed = true;
+    }
+    if (certificate_.interrupted) return kInterruptedStatus;
+    if (disagree) return kDisagree;
+    if (limit_reached_) return kLimitReached;
+    return failed ? kFailed : kDone;
+  }
+
+ private:
+  ShadowOptions options_of(const KernelChoice& kernel, const AlgorithmChoice& algorithm) {
+    ShadowOptions shadow_options;
+    shadow_options.algorithm = algorithm.point;
+    shadow_options.area_algorithm = algorithm.area;
+    shadow_options.jobs = options_.scene.jobs;
+    shadow_options.kernel = kernel.kernel;
+    shadow_options.identity = kernel.identity;
+    shadow_options.thickness = kernel.thin ? 0 : options_.thickness;
+    shadow_options.lights = loaded_.lights;
+    shadow_options.progress = progress_.callback();
+    shadow_options.interrupted = &interrupted();
+    return shadow_options;
+  }
+
+  /// CPU seconds of the classification alone on one thread, without points for the oracle: the
+  /// median of a few runs where one is short.
+  Expected<double> cpu_time(ShadowOptions shadow_options) {
+    shadow_options.jobs = 1;
+    constexpr std::size_t kMostRuns = 5;
+    constexpr double kEnough = 0.05;
+    std::vector<double> seconds;
+    double total = 0;
+    while (seconds.size() < kMostRuns && total < kEnough) {
+      const auto result = compute_shadows(loaded_.prepared, shadow_options);
+      if (!result) return tl::unexpected(result.error());
+      seconds.push_back(result->scene_bsp_seconds + result->shadow_seconds);
+      total += seconds.back();
+    }
+    std::ranges::sort(seconds);
+    return seconds[seconds.size() / 2];
+  }
+
+  /// `explained`: the kernel to explain, unless it is right.
+  Expected<void> judge(report::JudgedRun run, oracle::Candidate candidate,
+                       const std::optional<KernelChoice>& explained = std::nullopt) {
+    oracle::CertifyOptions certify_options;
+    certify_options.tolerance = options_.tolerance;
+    certify_options.width = options_.width;
+    certify_options.strict = options_.strict;
+    certify_options.clearance = options_.clearance;
+    certify_options.subset = options_.subset;
+    certify_options.leaks = options_.leaks;
+    certify_options.lights = loaded_.lights;
+    certify_options.progress = progress_.callback();
+    certify_options.interrupted = &interrupted();
+    progress_.set_label("judging " + run.name);
+    auto report = oracle::certify(answer_, candidate, certify_options);
+    progress_.clear();
+    if (!report) return tl::unexpected(report.error());
+    const bool stopped = report->interrupted;
+    run.report = std::move(*report);
+    if (explained && run.report->verdict != oracle::Verdict::kIdentical) {
+      run.explanation = first_difference(*explained);
+    }
+    certificate_.runs.push_back(std::move(run));
+    if (!options_.report_directory.empty()) kept_.push_back(std::move(candidate));
+    if (stopped) return fail(ErrorCode::kInterrupted, "interrupted");
+    return {};
+  }
+
+  std::string first_difference(const KernelChoice& kernel) {
+    progress_.set_label("explaining " + kernel.name());
+    ShadowOptions shadow_options = options_of(kernel, {.point = Algorithm::kSvbsp});
+    // The lock-step knows the point and directional lights alone.
+    std::erase_if(shadow_options.lights, [&](std::uint32_t light) {
+      return loaded_.prepared.lights[light].type == LightType::kArea;
+    });
+    if (shadow_options.lights.empty())
+      return "not looked for: it is explained for point and directional lights alone";
+    const auto difference = explain(loaded_.prepared, shadow_options);
+    progress_.clear();
+    if (!difference) return to_string(difference.error());
+    if (!*difference) return "none: every decision was right, only vertices were rounded";
+    std::vector<std::string> names;
+    for (const Light& light : loaded_.scene.lights) names.push_back(light.id);
+    return to_sentence(**difference, loaded_.prepared, kernel.name(), names);
+  }
+
+  const CertifyCommandOptions& options_;
+  const LoadedScene& loaded_;
+  oracle::ExactAnswer answer_;
+  ProgressBar progress_;
+  report::Certificate certificate_;
+  std::vector<oracle::Candidate> kept_;  // one a run that was judged, for the pictures
+  bool limit_reached_ = false;
+};
+
+int run_corpus(const CertifyCommandOptions& options) {
+  CorpusCommandOptions corpus = options.corpus;
+  corpus.kernels = options.kernels;
+  corpus.tolerance = options.tolerance;
+  corpus.jobs = options.scene.jobs;
+  corpus.json = options.json;
+  return run_certify_corpus(corpus);
+}
+
+int run_certify(const CertifyCommandOptions& options) {
+  if (!options.corpus.corpus.empty()) return run_corpus(options);
+  if (options.scene.scene.empty()) {
+    return report_usage("neither a scene nor a corpus", "SCENE, or --corpus DIR");
+  }
+  const auto algorithms = chosen_algorithms(options);
+  if (!algorithms) return report_error(algorithms.error());
+  const ThreadLimit threads(options.scene.jobs);
+  auto loaded = load_scene(options.scene, true);
+  if (!loaded) return report_error(loaded.error());
+  const auto kernels = chosen_kernels(options, loaded->prepared.parts.size());
+  if (!kernels) return report_error(kernels.error());
+
+  CertifyRun run(options, *loaded);
+  for (const std::string& file : options.candidates) {
+    if (auto done = run.run_candidate(file); !done) {
+      if (done.error().code != ErrorCode::kInterrupted) return report_error(done.error());
+      run.set_interrupted();
+      break;
+    }
+  }
+  for (const AlgorithmChoice& algorithm : *algorithms) {
+    for (const KernelChoice& kernel : *kernels) {
+      if (interrupted()) run.set_interrupted();
+      if (run.certificate().interrupted) break;
+      if (auto done = run.run_kernel(kernel, algorithm, algorithms->size() > 1); !done) {
+        if (done.error().code != ErrorCode::kInterrupted) return report_error(done.error());
+        run.set_interrupted();
+      }
+    }
+  }
+
+  if (options.json != "-") {
+    const std::string text = report::certificate_text(run.certificate());
+    if (auto done = write_output({}, text); !done) return report_error(done.error());
+  }
+  if (!options.json.empty()) {
+    auto output = Output::open(options.json);
+    if (!output) return report_error(output.error());
+    report::write_certificate_json(*output, run.certificate(), options.times);
+    if (auto done = output->finish(); !done) return report_error(done.error());
+  }
+  if (!options.report_directory.empty()) {
+    const auto done = write_certificate_report(options.report_directory, *loaded, run.certificate(),
+                                               run.kept(), options.times);
+    if (!done) return report_error(done.error());
+  }
+  return run.status();
+}
+
+/// Options that --corpus does not go with, and those that go with nothing else.
+struct CorpusOptionRules {
+  std::vector<const CLI::Option*> excluded, needing;
+
+  Expected<void> check(bool corpus) const {
+    for (const CLI::Option* option : corpus ? excluded : needing) {
+      if (option->count() == 0) continue;
+      return fail(ErrorCode::kUsage, corpus
+                                         ? option->get_name() + " and --corpus do not go together"
+                                         : option->get_name() + " needs --corpus");
+    }
+    return {};
+  }
+};
+
+/// --corpus takes the place of SCENE, and few of the other options make sense with it.
+CorpusOptionRules add_corpus_options(CLI::App& command, CertifyCommandOptions& options,
+                                     CLI::Option* scene) {
+  CorpusOptionRules rules;
+  scene->required(false);
+  const std::vector<std::string> common = {"--help",      "--help-all", "--kernel",
+                                           "--tolerance", "--json",     "--jobs"};
+  for (const CLI::Option* other : command.get_options()) {
+    const bool is_common = std::ranges::any_of(
+        common, [&](const std::string& name) { return other->check_name(name); });
+    if (!is_common) rules.excluded.push_back(other);
+  }
+  command
+      .add_option("--corpus", options.corpus.corpus,
+                  "Instead of a scene: judge by a folder of scenes with recorded answers, by\n"
+                  "default all kernels under all policies; --kernel also takes algorithms, as in\n"
+                  "double/svbsp")
+      ->type_name("DIR");
+  rules.needing = {
+      repeatable(command.add_option("--candidate-command", options.corpus.commands,
+                                    "With --corpus: judge a program, which the shell runs with a\n"
+                                    "scene's file as its last argument (repeatable)"))
+          ->type_name("CMD"),
+      command
+          .add_option("--seconds", options.corpus.seconds,
+                      "With --corpus: time that a program or kernel has for each scene")
+          ->check(not_negative())
+          ->type_name("S")
+          ->default_str("10"),
+      command
+          .add_option("--megabytes", options.corpus.megabytes,
+                      "With --corpus: address space that it has; 0: no limit")
+          ->type_name("M")
+          ->default_str("2048"),
+      command.add_flag("--by-scene", options.corpus.by_scene,
+                       "With --corpus: a row a scene instead of a row a kind"),
+      command.add_flag("--in-process", options.corpus.in_process,
+                       "With --corpus: kernels in this process, not each scene in its own"),
+      command.add_flag("--record", options.corpus.record,
+                       "With --corpus: judge nothing, write the exact fractions into its scenes,\n"
+                       "and into i_ ones which kernels differ"),
+  };
+  return rules;
+}
+
+}  // namespace
+
+void add_certify_command(CLI::App& app, Action& action) {
+  auto options = std::make_shared<CertifyCommandOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "certify", "Judge kernels, or a foreign result, against the exact answer");
+  command.footer(
+      "Without --kernel and --candidate, every kernel that suits the size of the scene is run.\n"
+      "Verdicts: identical; within tolerance; failed, with the worst place as a witness.\n\n"
+      "Examples:\n"
+      "  gnomon certify room.json\n"
+      "  gnomon certify room.json --kernel double --kernel double+identity --explain\n"
+      "  gnomon certify room.json --kernel plane --algorithm both\n"
+      "  gnomon certify room.json --candidate other.result.json --tolerance 1e-6 --report out\n"
+      "  gnomon certify --corpus tests/regressions --candidate-command ./my-shadows");
+  CLI::Option* scene = add_scene_options(command, options->scene);
+  repeatable(command.add_option(
+                 "--kernel", options->kernels,
+                 "A kernel to run, such as double, double+identity or double+thin (thickness 0)\n"
+                 "(repeatable)"))
+      ->type_name("K");
+  add_algorithm_option(command, options->algorithm)
+      ->description(
+          "How kernels find shadows: sectors or svbsp (point and directional lights), receiver\n"
+          "or merged (area lights), both one after the other, or auto: sectors, or svbsp with\n"
+          "--explain, and receiver");
+  repeatable(command.add_option("--candidate", options->candidates,
+                                "A result file to judge instead (repeatable)"))
+      ->type_name("RESULT");
+  command
+      .add_option("--tolerance", options->tolerance, "Wrong share of a polygon that is tolerated")
+      ->check(not_negative())
+      ->type_name("F")
+      ->default_str("1e-9");
+  command
+      .add_option("--width", options->width,
+                  "Width of a region of error that is tolerated, scene units "
+                  "[1e-9 of the scene's diagonal]")
+      ->check(not_negative())
+      ->type_name("W");
+  command.add_flag("--strict", options->strict, "Tolerance and width 0: identical or failed");
+  command
+      .add_option("--clearance", options->clearance,
+                  "Errors that moving one vertex by this much would undo are apart, not failures")
+      ->check(not_negative())
+      ->type_name("C");
+  command
+      .add_option("--leaks", options->leaks, "Fail with more invented and lost regions than this")
+      ->type_name("N");
+  command.add_flag("--subset", options->subset,
+                   "A candidate need not have all lights and polygons");
+  command
+      .add_option(
+          "--thickness", options->thickness,
+          "Rounded kernels: half the thickness of a plane, relative to the scene's diagonal")
+      ->check(not_negative())
+      ->type_name("F")
+      ->default_str(report::shortest(kDefaultThickness));
+  command.add_flag("--explain", options->explain,
+                   "Name the first decision in which a failing kernel differs from the exact one\n"
+                   "(svbsp)");
+  command
+      .add_option("--report", options->report_directory,
+                  "Write verdict.json, table.txt and pictures to this directory")
+      ->type_name("DIR");
+  command.add_option("--json", options->json, "Write the verdicts as JSON; - is standard output")
+      ->type_name("FILE");
+  command.add_flag("--times", options->times, "CPU times in the JSON, which then is not stable");
+  const CorpusOptionRules rules = add_corpus_options(command, *options, scene);
+  command.callback([options, rules, &action] {
+    action = [options, rules]() -> int {
+      const auto checked = rules.check(!options->corpus.corpus.empty());
+      return checked ? run_certify(*options) : report_error(checked.error());
+    };
+  });
+}
+
+}  // namespace gnomon::cli

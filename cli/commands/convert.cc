@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// gnomon convert: a scene in another format, with the same values.
+#include <memory>
+
+#include "cli/common/commands.h"
+#include "cli/common/messages.h"
+#include "cli/common/output.h"
+#include "cli/common/scene_options.h"
+#include "gnomon/scene/read.h"
+#include "gnomon/scene/write.h"
+
+namespace gnomon::cli {
+
+namespace {
+
+struct ConvertOptions {
+  SceneOptions scene;
+  std::string target;
+  std::string format;
+};
+
+int run_convert(const ConvertOptions& options) {
+  std::optional<SceneFormat> format;
+  if (!options.format.empty()) {
+    format = format_by_name(options.format);
+  } else {
+    format = options.target == "-" ? SceneFormat::kJson : format_by_extension(options.target);
+  }
+  if (!format) {
+    return report_usage("the name does not say which format to write",
+                        "an extension .json, .obj, .off or .ply, or --format", options.target);
+  }
+  const auto scene = read_scene_with_lights(options.scene);
+  if (!scene) return report_error(scene.error());
+  const auto written = scene_to_text(*scene, *format);
+  if (!written) return report_error(written.error());
+  for (const std::string& warning : written->warnings) warn(options.target + ": " + warning);
+  if (auto done = write_output(options.target, written->text); !done) {
+    return report_error(done.error());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ConvertOptions>();
+  CLI::App& command = *app.add_subcommand("convert", "Write a scene in another format");
+  command.footer(
+      "The format of OUT is that of its extension. What it cannot hold (holes, ids, lights, flags) "
+      "is\n"
+      "named in warnings.\n\n"
+      "Examples:\n"
+      "  gnomon convert house.obj house.json --sun=1,2,3\n"
+      "  gnomon convert house.json house.ply --format ply-binary");
+  add_scene_options(command, options->scene);
+  command.remove_option(command.get_option("--light"));
+  command.add_option("OUT", options->target, "File to write; - is standard output")
+      ->required()
+      ->type_name("FILE");
+  command.add_option("--format", options->format, "Format of OUT, whatever its name")
+      ->check(CLI::IsMember({"json", "obj", "off", "ply", "ply-binary"}))
+      ->type_name("json|obj|off|ply|ply-binary");
+  command.callback([options, &action] { action = [options] { return run_convert(*options); }; });
+}
+
+}  // namespace gnomon::cli

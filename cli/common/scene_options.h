@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The options that say which scene and which of its lights: shared by all commands that read one.
+#ifndef GNOMON_CLI_COMMON_SCENE_OPTIONS_H
+#define GNOMON_CLI_COMMON_SCENE_OPTIONS_H
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/common/stopwatch.h"
+#include "gnomon/kernel/error.h"
+#include "gnomon/scene/prepare.h"
+#include "gnomon/scene/scene.h"
+
+namespace gnomon::cli {
+
+struct SceneOptions {
+  std::string scene;
+  std::string numbers;
+  std::vector<std::string> points, suns, areas;
+  std::string lights_file;
+  std::vector<std::string> lights;  // ids; empty: all
+  unsigned jobs = 0;                // threads; 0: one a processor
+};
+
+/// Also --jobs, since preparation takes all processors. The option of the scene's file is returned:
+/// a command may do without.
+CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options);
+/// --numbers alone, for commands that take no lights.
+void add_numbers_option(CLI::App& command, std::string& numbers);
+
+struct LoadedScene {
+  Scene scene;
+  PreparedScene prepared;
+  std::vector<std::uint32_t> lights;  // asked for, in file order: indices into both scenes' lights
+  Seconds reading, preparation;
+};
+
+/// The number meaning that was asked for, if any.
+std::optional<NumberMeaning> numbers_asked(const std::string& numbers);
+
+/// Reads the scene and adds the command line's lights; prints warnings.
+Expected<Scene> read_scene_with_lights(const SceneOptions& options);
+
+/// The same, prepared and with the lights chosen. Errors: those of reading and preparing; kUsage
+/// for an unknown --light, and for a scene that is left without any light if `needs_light`.
+Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light);
+
+}  // namespace gnomon::cli
+
+#endif  // GNOMON_CLI_COMMON_SCENE_OPTIONS_H

@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fuzz/check/check.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "fuzz/moves/metamorphic.h"
+#include "fuzz/process/command.h"
+#include "gnomon/algorithms/shadows.h"
+#include "gnomon/oracle/exact_answer.h"
+#include "gnomon/oracle/prepared_check.h"
+#include "gnomon/oracle/read_candidate.h"
+#include "gnomon/oracle/verdict.h"
+#include "gnomon/oracle/witness_check.h"
+#include "gnomon/scene/digest.h"
+#include "gnomon/scene/prepare.h"
+#include "gnomon/scene/read.h"
+#include "gnomon/scene/write.h"
+#include "report/json/result_json.h"
+#include "report/sides/candidate_from_result.h"
+
+namespace gnomon::fuzz {
+
+namespace {
+
+/// 64 bits over the text of all exact fractions (FNV-1a): equal answers have equal digests.
+class Digest {
+ public:
+  void add(std::string_view text) {
+    for (const char c : text) {
+      hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    }
+    hash_ = (hash_ ^ 0xffu) * 0x100000001b3u;
+  }
+  std::string text() const { return fmt::format("{:016x}", hash_); }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325u;
+};
+
+bool same_light(const Light& a, const Light& b) {
+  return a.id == b.id && a.type == b.type && a.position == b.position && a.loop == b.loop &&
+         a.intensity == b.intensity;
+}
+
+std::string scene_difference(const Scene& a, const Scene& b) {
+  if (a.numbers != b.numbers) return "the meaning of numbers";
+  if (a.vertices != b.vertices) return "vertices";
+  if (a.polygons.size() != b.polygons.size()) return "the number of polygons";
+  for (std::size_t i = 0; i < a.polygons.size(); ++i) {
+    const Polygon &p = a.polygons[i], &q = b.polygons[i];
+    if (p.id != q.id || p.loop != q.loop || p.holes != q.holes || p.casts != q.casts ||
+        a.is_two_sided(p) != b.is_two_sided(q)) {
+      return "polygon " + p.id;
+    }
+  }
+  if (a.lights.size() != b.lights.size()) return "the number of lights";
+  for (std::size_t i = 0; i < a.lights.size(); ++i) {
+    if (!same_light(a.lights[i], b.lights[i])) return "light " + a.lights[i].id;
+  }
+  return {};
+}
+
+std::string fragment_difference(const oracle::CandidatePolygon& a,
+                                const oracle::CandidatePolygon& b) {
+  if (a.lit_fraction != b.lit_fraction || a.penumbra_fraction != b.penumbra_fraction ||
+      a.umbra_fraction != b.umbra_fraction) {
+    return "fractions";
+  }
+  if (a.fragments.size() != b.fragments.size()) return "the number of fragments";
+  for (std::size_t i = 0; i < a.fragments.size(); ++i) {
+    const oracle::CandidateFragment &f = a.fragments[i], &g = b.fragments[i];
+    if (f.shade != g.shade || f.caster != g.caster || f.loop != g.loop) {
+      return "fragment " + std::to_string(i);
+    }
+  }
+  return {};
+}
+
+/// A scene's file for a foreign program, gone with this object.
+class TemporaryScene {
+ public:
+  explicit TemporaryScene(const std::string& text) {
+    std::string name = (std::filesystem::temp_directory_path() / "gnomon-XXXXXX.json").string();
+    const int descriptor = ::mkstemps(name.data(), 5);
+    if (descriptor < 0) throw std::runtime_error("no temporary file: " + name);
+    path_ = std::move(name);
+    std::FILE* file = ::fdopen(descriptor, "wb");
+    const bool whole = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    if (std::fclose(file) != 0 || !whole) {
+      std::filesystem::remove(path_);
+      throw std::runtime_error("cannot write " + path_);
+    }
+  }
+  TemporaryScene(const TemporaryScene&) = delete;
+  TemporaryScene& operator=(const TemporaryScene&) = delete;
+  ~TemporaryScene() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+class SceneCheck {
+ public:
+  SceneCheck(const Scene& scene, const CheckOptions& options) : scene_(scene), options_(options) {}
+
+  CaseReport run() {
+    report_.polygons = static_cast<std::uint32_t>(scene_.polygons.size());
+    report_.lights = static_cast<std::uint32_t>(scene_.lights.size());
+    report_.area_lights = static_cast<std::uint64_t>(std::ranges::count_if(
+        scene_.lights, [](const Light& light) { return light.type == LightType::kArea; }));
+    guarded("prepare", "preparation", [&] { check_preparation(); });
+    if (!prepared_ || scene_.lights.empty()) return std::move(report_);
+    answer_.emplace(scene_, *prepared_);
+    for (const Subject& subject : options_.subjects) {
+      const std::string name = name_of(subject);
+      report_.subjects.push_back(name);
+      guarded(name, "subject " + name, [&] { check_subject(subject, name); });
+    }
+    if (first_exact_ != nullptr && wanted(Property::kMetamorphic)) {
+      const std::string name = name_of(*first_exact_);
+      guarded(name, "relation", [&] { check_a_relation(name); });
+    }
+    return std::move(report_);
+  }
+
+ private:
+  template <class Step>
+  void guarded(const std::string& subject, const std::string& stage, const Step& step) {
+    tell(stage);
+    try {
+      step();
+    } catch (const std::bad_alloc&) {
+      add({Property::kBudget, subject, "memory", {}, {}, stage + ": out of memory"});
+    } catch (const std::exception& error) {
+      add({Property::kCrash, subject, "exception", {}, {}, stage + ": " + error.what()});
+    }
+  }
+
+  void tell(std::string_view stage) const {
+    if (options_.stage) options_.stage(stage);
+  }
+  bool is_left_out(Property property) const {
+    return property == Property::kClaims || property == Property::kRoundTrip ||
+           (property == Property::kMetamorphic && (options_.seed >> 48) % 2 != 0);
+  }
+  bool wanted(Property property) const {
+    if (options_.brief && is_left_out(property)) return false;
+    return options_.properties.empty() ||
+           std::ranges::find(options_.properties, property) != options_.properties.end();
+  }
+  void add(Failure failure) {
+    if (failure.property == Property::kCrash || wanted(failure.property)) {
+      report_.failures.push_back(std::move(failure));
+    }
+  }
+  void add_error(const Error& error, const std::string& subject) {
+    const bool limit = error.code == ErrorCode::kLimit;
+    add({limit ? Property::kBudget : Property::kRefusal,
+         subject,
+         limit ? "fragments" : "refused",
+         {},
+         {},
+         to_string(error)});
+  }
+
+  void check_preparation() {
+    if (wanted(Property::kRoundTrip)) check_scene_text();
+    Expected<PreparedScene> prepared = prepare(scene_);
+    if (!prepared) return add_error(prepared.error(), "prepare");
+    prepared_ = std::move(*prepared);
+    if (!wanted(Property::kPreparation)) return;
+    for (const oracle::PreparedFinding& finding : oracle::check_prepared(scene_, *prepared_, 1)) {
+      add({Property::kPreparation, "prepare", "wrong part", {}, finding.polygon, finding.text});
+    }
+  }
+
+  void check_scene_text() {
+    const Expected<WrittenScene> written = scene_to_text(scene_, SceneFormat::kJson);
+    // A scene made by rule may hold numbers that a file of doubles cannot.
+    if (!written) return;
+    const Expected<ReadResult> read = parse_scene(written->text, "scene.json");
+    if (!read) {
+      const bool limit = read.error().code == ErrorCode::kLimit;
+      add({limit ? Property::kBudget : Property::kRoundTrip,
+           "scene",
+           limit ? "memory" : "refused",
+           {},
+           {},
+           to_string(read.error())});
+      return;
+    }
+    const std::string difference = scene_difference(scene_, read->scene);
+    if (!difference.empty()) {
+      add({Property::kRoundTrip, "scene", "changed", {}, {}, difference + " read back otherwise"});
+    }
+  }
+
+  void check_subject(const Subject& subject, const std::string& name) {
+    if (subject.foreign()) return check_foreign(subject, name);
+    ShadowOptions options = shadow_options(subject);
+    options.max_fragments = options_.max_fragments;
+    Expected<ShadowResult> result = compute_shadows(*prepared_, options);
+    if (!result) return add_error(result.error(), name);
+    if (report_.fragments == 0) {
+      for (const LightResult& light : result->lights) report_.fragments += light.fragment_total;
+    }
+    const bool is_first = subject.exact() && first_exact_ == nullptr;
+    if (is_first) {
+      first_exact_ = &subject;
+      digest(*result);
+    } else if (subject.exact() && wanted(Property::kAgreement)) {
+      compare_with_first(*result, name);
+      if (options_.brief) return;
+    }
+    const oracle::Candidate candidate =
+        report::candidate_from_result(scene_, *prepared_, *result, name, subject.kernel.exact());
+    judge(subject, candidate, name);
+    if (is_first && wanted(Property::kRoundTrip)) check_result_text(*result, candidate, name);
+    if (is_first) first_ = std::move(*result);
+  }
+
+  void check_foreign(const Subject& subject, const std::string& name) {
+    const Expected<WrittenScene> written = scene_to_text(scene_, SceneFormat::kJson);
+    if (!written) return;
+    const TemporaryScene file(written->text);
+    CommandOptions options;
+    options.arguments = {file.path()};
+    options.seconds = options_.command_seconds;
+    options.megabytes = options_.command_megabytes;
+    const Expected<CommandResult> result = run_command(subject.command, options);
+    if (!result) return add_error(result.error(), name);
+    const auto ended = [&](Property property, std::string disagreement) {
+      add({property, name, std::move(disagreement), {}, {}, how_it_ended(*result)});
+    };
+    switch (result->end) {
+      case CommandEnd::kExited:
+        break;
+      case CommandEnd::kSignal:
+        return ended(Property::kCrash, fmt::format("signal {}", result->status));
+      case CommandEnd::kTimeout:
+        return ended(Property::kBudget, "time");
+      case CommandEnd::kTooLong:
+        return ended(Property::kBudget, "output");
+      case CommandEnd::kNotFound:
+        return ended(Property::kCrash, "not started");
+    }
+    if (result->status != 0) {
+      return ended(Property::kRefusal, fmt::format("status {}", result->status));
+    }
+    const Expected<oracle::Candidate> candidate =
+        oracle::parse_candidate(result->out, "result", scene_);
+    if (!candidate) {
+      return add({Property::kRoundTrip, name, "unreadable", {}, {}, to_string(candidate.error())});
+    }
+    judge(subject, *candidate, name);
+  }
+
+  void judge(const Subject& subject, const oracle::Candidate& candidate, const std::string& name) {
+    const bool must_be_exact = subject.exact() || options_.strict;
+    // How grave a false claim of a rounded result is, only the oracle can tell.
+    const bool claims = !subject.foreign() && wanted(Property::kClaims);
+    double share = 0, width = 0;
+    if (wanted(Property::kOracle) || wanted(Property::kSelf) || (claims && !must_be_exact)) {
+      tell("oracle on " + name);
+      oracle::CertifyOptions options;
+      options.tolerance = options_.tolerance;
+      options.width = options_.width;
+      options.strict = must_be_exact;
+      options.threads = 1;
+      options.most_regions = 4;
+      const Expected<oracle::Report> report = oracle::certify(*answer_, candidate, options);
+      if (!report) return add_error(report.error(), name);
+      if (report->oracle_fault) {
+        add({Property::kSelf, name, "contradiction", {}, {}, report->reason});
+      }
+      const bool wrong = must_be_exact ? report->verdict != oracle::Verdict::kIdentical
+                                       : report->verdict == oracle::Verdict::kFailed;
+      if (wrong) add_verdict(*report, name);
+      share = worst_share(report->totals);
+      width = report->totals.width.upper;
+    }
+    // Foreign results need not name casters, and have no claims then.
+    if (!claims) return;
+    ++report_.claims_checked;
+    tell("claims of " + name);
+    oracle::WitnessOptions options;
+    options.tolerance = must_be_exact ? 0 : options_.tolerance;
+    options.width = must_be_exact ? std::optional(0.0) : options_.width;
+    options.most = 1;
+    const oracle::WitnessReport checked =
+        oracle::check_witnesses(scene_, *prepared_, candidate, options);
+    for (const oracle::WitnessFinding& finding : checked.findings) {
+      add({Property::kClaims, name, "false claim", finding.light, finding.polygon, finding.text,
+           width, share});
+    }
+  }
+
+  static double worst_share(const oracle::ComparisonTotals& totals) {
+    return std::max({totals.worst_misclassified, totals.worst_uncovered, totals.worst_overlapping,
+                     totals.worst_outside});
+  }
+
+  void add_verdict(const oracle::Report& report, const std::string& name) {
+    Failure failure{Property::kOracle, name, "missing", {}, {}, report.reason};
+    const oracle::ComparisonTotals& totals = report.totals;
+    if (report.problems.empty()) failure.disagreement = "off-plane";
+    if (report.worst && report.worst->kind != oracle::ErrorKind::kNone) {
+      failure.disagreement = name_of(report.worst->kind);
+      failure.light = report.worst->light;
+      failure.polygon = report.worst->polygon;
+      const std::string& place = report.worst->text;
+      if (!place.empty() && place != report.reason) failure.text += "; " + place;
+    }
+    for (const std::string& problem : report.problems) failure.text += "; " + problem;
+    failure.width = totals.width.upper;
+    failure.share = worst_share(totals);
+    add(std::move(failure));
+  }
+
+  void digest(const ShadowResult& result) {
+    Digest sum;
+    for (const LightResult& light : result.lights) {
+      for (std::size_t i = 0; i < light.parts.size(); ++i) {
+        const PartResult& part = light.parts[i];
+        sum.add(part.exact_lit.get_str());
+        sum.add(part.exact_shadow.get_str());
+        if (light.area_fractions.empty()) continue;
+        sum.add(light.area_fractions[i].exact_penumbra.get_str());
+        sum.add(light.area_fractions[i].exact_umbra.get_str());
+      }
+    }
+    report_.digest = sum.text();
+  }
+
+  void compare_with_first(const ShadowResult& result, const std::string& name) {
+    const auto disagree = [&](std::string text, const LightResult* light = nullptr,
+                              const PartResult* part = nullptr) {
+      Failure failure{Property::kAgreement, name, "fractions", {}, {}, std::move(text)};
+      if (light != nullptr) failure.light = scene_.lights[prepared_->lights[light->light].light].id;
+      if (part != nullptr) {
+        failure.polygon = scene_.polygons[prepared_->parts[part->part].polygon].id;
+      }
+      failure.text = name + " against " + name_of(*first_exact_) + ": " + failure.text;
+      add(std::move(failure));
+    };
+    if (result.lights.size() != first_.lights.size()) return disagree("other lights");
+    for (std::size_t l = 0; l < result.lights.size(); ++l) {
+      const LightResult &one = first_.lights[l], &two = result.lights[l];
+      if (one.parts.size() != two.parts.size()) return disagree("other sides are listed", &one);
+      for (std::size_t i = 0; i < one.parts.size(); ++i) {
+        const PartResult &p = one.parts[i], &q = two.parts[i];
+        if (p.part != q.part || p.side != q.side || p.reason != q.reason) {
+          return disagree("other sides, or for another reason", &one, &p);
+        }
+        if (p.exact_lit != q.exact_lit || p.exact_shadow != q.exact_shadow) {
+          return disagree(
+              fmt::format("lit {} and {}", q.exact_lit.get_str(), p.exact_lit.get_str()), &one, &p);
+        }
+        if (one.area_fractions.empty()) continue;
+        const AreaFractions &a = one.area_fractions[i], &b = two.area_fractions[i];
+        if (a.exact_penumbra != b.exact_penumbra || a.exact_umbra != b.exact_umbra) {
+          return disagree(fmt::format("penumbra {} and {}", b.exact_penumbra.get_str(),
+                                      a.exact_penumbra.get_str()),
+                          &one, &p);
+        }
+      }
+    }
+  }
+
+  void check_result_text(const ShadowResult& result, const oracle::Candidate& candidate,
+                         const std::string& name) {
+    report::StringSink sink;
+    report::ResultJsonOptions options;
+    options.geometry_digest = "sha256:0";
+    options.fragments = false;
+    options.exact_fractions = options.exact_loops = true;
+    report::write_result_json(sink, scene_, *prepared_, result, options);
+    const Expected<oracle::Candidate> read =
+        oracle::parse_candidate(sink.text(), "result.json", scene_);
+    const auto differ = [&](std::string text) {
+      add({Property::kRoundTrip, name, "result", {}, {}, std::move(text)});
+    };
+    if (!read) return differ(to_string(read.error()));
+    if (read->lights.size() != candidate.lights.size()) return differ("other lights read back");
+    for (std::size_t l = 0; l < read->lights.size(); ++l) {
+      const oracle::CandidateLight &a = candidate.lights[l], &b = read->lights[l];
+      if (a.polygons.size() != b.polygons.size()) return differ("other sides read back");
+      for (std::size_t i = 0; i < a.polygons.size(); ++i) {
+        const std::string difference = fragment_difference(a.polygons[i], b.polygons[i]);
+        if (a.polygons[i].id == b.polygons[i].id && a.polygons[i].side == b.polygons[i].side &&
+            difference.empty()) {
+          continue;
+        }
+        return differ("light " + a.id + ", polygon " + a.polygons[i].id + ": " + difference +
+                      " read back otherwise");
+      }
+    }
+  }
+
+  void check_a_relation(const std::string& name) {
+    ShadowOptions options = shadow_options(*first_exact_);
+    options.max_fragments = options_.max_fragments;
+    // Seeds of a campaign are well mixed; those of people are 1, 2, 3.
+    const std::size_t relation = options_.seed % relations().size();
+    const RelationInfo& info = relations()[relation];
+    const auto broken = check_relation(relation, scene_, *prepared_, options, options_.seed);
+    if (!broken) {
+      if (broken.error().code == ErrorCode::kLimit) return;
+      add({Property::kMetamorphic, name, std::string(info.id), {}, {}, to_string(broken.error())});
+    } else if (*broken) {
+      add({Property::kMetamorphic, name, std::string(info.id), (*broken)->light, (*broken)->polygon,
+           std::string(info.meaning) + ": " + (*broken)->text});
+    }
+  }
+
+  const Scene& scene_;
+  const CheckOptions& options_;
+  CaseReport report_;
+  std::optional<PreparedScene> prepared_;
+  std::optional<oracle::ExactAnswer> answer_;
+  const Subject* first_exact_ = nullptr;
+  ShadowResult first_;
+};
+
+}  // namespace
+
+CaseReport check_scene(const Scene& scene, const CheckOptions& options) {
+  return SceneCheck(scene, options).run();
+}
+
+std::vector<Subject> exact_subjects() {
+  std::vector<Subject> subjects;
+  for (const std::string_view name :
+       {"plane", "plane/svbsp", "plane/receiver/merged", "rational", "epeck"}) {
+    subjects.push_back(*parse_subject(name));
+  }
+  return subjects;
+}
+
+}  // namespace gnomon::fuzz

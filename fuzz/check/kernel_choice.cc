@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fuzz/check/kernel_choice.h"
+
+namespace gnomon::fuzz {
+
+namespace {
+
+constexpr std::string_view kIdentitySuffix = "+identity";
+constexpr std::string_view kThinSuffix = "+thin";
+
+bool take_suffix(std::string_view& name, std::string_view suffix) {
+  if (!name.ends_with(suffix)) return false;
+  name.remove_suffix(suffix.size());
+  return true;
+}
+
+}  // namespace
+
+std::string KernelChoice::name() const {
+  std::string text(kernel_info(kernel).name);
+  if (identity) text += kIdentitySuffix;
+  if (thin) text += kThinSuffix;
+  return text;
+}
+
+Expected<KernelChoice> parse_kernel_choice(std::string_view text) {
+  KernelChoice choice;
+  std::string_view name = text;
+  for (bool more = true; more;) {
+    const bool identity = take_suffix(name, kIdentitySuffix);
+    const bool thin = take_suffix(name, kThinSuffix);
+    choice.identity |= identity;
+    choice.thin |= thin;
+    more = identity || thin;
+  }
+  const auto kernel = name == "exact" ? kDefaultExactKernel : kernel_by_name(name);
+  if (!kernel) {
+    std::string names;
+    for (const KernelInfo& info : kernel_list()) names += std::string(info.name) + ' ';
+    return fail(ErrorCode::kUsage, "--kernel " + std::string(text) + ": no such kernel",
+                "one of: " + names + "exact, rounded ones also with +identity, +thin");
+  }
+  choice.kernel = *kernel;
+  // An exact kernel answers the same with and without.
+  if (choice.exact()) choice.identity = false;
+  if (choice.exact() || choice.kernel == KernelId::kEpick) choice.thin = false;
+  return choice;
+}
+
+}  // namespace gnomon::fuzz

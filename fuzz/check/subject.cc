@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fuzz/check/subject.h"
+
+#include <array>
+#include <utility>
+
+namespace gnomon::fuzz {
+
+namespace {
+
+constexpr std::string_view kCommandPrefix = "command:";
+constexpr std::array kPointAlgorithms = {
+    std::pair{std::string_view("sectors"), Algorithm::kSectors},
+    std::pair{std::string_view("svbsp"), Algorithm::kSvbsp},
+    std::pair{std::string_view("receiver"), Algorithm::kReceiver},
+};
+constexpr std::array kAreaAlgorithms = {
+    std::pair{std::string_view("receiver"), AreaAlgorithm::kReceiver},
+    std::pair{std::string_view("merged"), AreaAlgorithm::kMerged},
+};
+
+template <class Table, class Value>
+std::string_view name_in(const Table& table, Value value) {
+  for (const auto& [name, own] : table) {
+    if (own == value) return name;
+  }
+  return table.front().first;
+}
+
+template <class Value, class Table>
+std::optional<Value> value_in(const Table& table, std::string_view name) {
+  for (const auto& [own, value] : table) {
+    if (own == name) return value;
+  }
+  return std::nullopt;
+}
+
+template <class Table>
+std::string names_in(const Table& table) {
+  std::string names;
+  for (const auto& entry : table) names += (names.empty() ? "" : ", ") + std::string(entry.first);
+  return names;
+}
+
+/// A mistake that its kernel and its algorithms cannot make would be looked for in vain.
+Expected<void> check_mutation(const Subject& subject, const std::string& whole) {
+  const std::string mutation(name_of(subject.mutation));
+  if (subject.mutation == Mutation::kTVerticesLeftIn) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': " + mutation + " is a mistake of meshes",
+                "a mistake of shadows; --zoo looks for this one");
+  }
+  if (subject.mutation == Mutation::kThicknessTooSmall && subject.kernel.thin) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': its planes have no thickness anyway",
+                "a kernel without +thin");
+  }
+  const KernelId kernel = subject.kernel.kernel;
+  if (!applies_to(subject.mutation, kernel, subject.algorithm) &&
+      !applies_to(subject.mutation, kernel, subject.area_algorithm)) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': " + mutation + " changes nothing there",
+                "a kernel and an algorithm that it applies to (docs/bug-zoo.md)");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string name_of(const Subject& subject) {
+  if (subject.foreign()) return std::string(kCommandPrefix) + subject.command;
+  std::string name = subject.kernel.name();
+  const bool usual_area = subject.area_algorithm == AreaAlgorithm::kReceiver;
+  if (subject.algorithm != Algorithm::kSectors || !usual_area) {
+    name += '/' + std::string(name_in(kPointAlgorithms, subject.algorithm));
+  }
+  if (!usual_area) name += '/' + std::string(name_in(kAreaAlgorithms, subject.area_algorithm));
+  if (subject.mutation != Mutation::kNone) name += '~' + std::string(name_of(subject.mutation));
+  return name;
+}
+
+Expected<Subject> parse_subject(std::string_view text) {
+  const std::string whole(text);
+  Subject subject;
+  if (text.starts_with(kCommandPrefix)) {
+    subject.command = text.substr(kCommandPrefix.size());
+    if (subject.command.empty()) return fail(ErrorCode::kUsage, "an empty command", "a program");
+    return subject;
+  }
+  if (const std::size_t at = text.find('~'); at != std::string_view::npos) {
+    const auto mutation = mutation_by_name(text.substr(at + 1));
+    if (!mutation) {
+      std::string names;
+      for (const MutationInfo& info : mutations()) {
+        names += (names.empty() ? "" : ", ") + std::string(info.name);
+      }
+      return fail(ErrorCode::kUsage, "'" + whole + "': no such mutation", "one of: " + names);
+    }
+    subject.mutation = *mutation;
+    text = text.substr(0, at);
+  }
+  std::array<std::string_view, 2> algorithms;
+  std::size_t slash = text.find('/');
+  std::string_view rest = slash == std::string_view::npos ? "" : text.substr(slash + 1);
+  if (slash != std::string_view::npos) {
+    text = text.substr(0, slash);
+    slash = rest.find('/');
+    algorithms[0] = rest.substr(0, slash);
+    if (slash != std::string_view::npos) algorithms[1] = rest.substr(slash + 1);
+    if (algorithms[0].empty() || (slash != std::string_view::npos && algorithms[1].empty())) {
+      return fail(ErrorCode::kUsage, "'" + whole + "': an algorithm is missing after '/'",
+                  "KERNEL/ALGORITHM/AREA-ALGORITHM");
+    }
+  }
+  const auto kernel = parse_kernel_choice(text);
+  if (!kernel) return tl::unexpected(kernel.error());
+  subject.kernel = *kernel;
+  if (!algorithms[0].empty()) {
+    const auto algorithm = value_in<Algorithm>(kPointAlgorithms, algorithms[0]);
+    if (!algorithm) {
+      return fail(ErrorCode::kUsage, "'" + whole + "': no such algorithm for point lights",
+                  "one of: " + names_in(kPointAlgorithms));
+    }
+    subject.algorithm = *algorithm;
+  }
+  if (!algorithms[1].empty()) {
+    const auto algorithm = value_in<AreaAlgorithm>(kAreaAlgorithms, algorithms[1]);
+    if (!algorithm) {
+      return fail(ErrorCode::kUsage, "'" + whole + "': no such algorithm for area lights",
+                  "one of: " + names_in(kAreaAlgorithms));
+    }
+    subject.area_algorithm = *algorithm;
+  }
+  if (const auto checked = check_mutation(subject, whole); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  return subject;
+}
+
+ShadowOptions shadow_options(const Subject& subject) {
+  ShadowOptions options;
+  options.kernel = subject.kernel.kernel;
+  options.identity = subject.kernel.identity;
+  if (subject.kernel.thin) options.thickness = 0;
+  options.algorithm = subject.algorithm;
+  options.area_algorithm = subject.area_algorithm;
+  options.mutation = subject.mutation;
+  options.jobs = 1;
+  options.keep_exact_points = true;
+  options.exact_fractions = subject.kernel.exact();
+  return options;
+}
+
+}  // namespace gnomon::fuzz

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fuzz/zoo/zoo_case.h"
+
+#include <utility>
+#include <vector>
+
+#include "gnomon/algorithms/illumination.h"
+#include "gnomon/oracle/witness_check.h"
+#include "report/sides/candidate_from_result.h"
+
+namespace gnomon::fuzz {
+
+namespace {
+
+constexpr std::uint64_t kMostFragments = 20'000;
+
+oracle::CertifyOptions certify_options() {
+  oracle::CertifyOptions options;
+  options.threads = 1;
+  options.most_regions = 1;
+  return options;
+}
+
+}  // namespace
+
+ZooCase::ZooCase(const ZooEntry& entry, const Scene& scene, PreparedScene prepared)
+    : scene_(scene),
+      prepared_(std::move(prepared)),
+      answer_(scene_, prepared_),
+      sound_(*parse_subject(entry.sound)) {}
+
+Expected<ShadowResult> ZooCase::shadows(Mutation mutation) const {
+  ShadowOptions options = shadow_options(sound_);
+  options.max_fragments = kMostFragments;
+  options.mutation = mutation;
+  return compute_shadows(prepared_, options);
+}
+
+oracle::Candidate ZooCase::candidate_of(const ShadowResult& result, std::string name) const {
+  return report::candidate_from_result(scene_, prepared_, result, std::move(name),
+                                       sound_.kernel.exact());
+}
+
+oracle::Report ZooCase::certified(const oracle::Candidate& candidate) const {
+  return *oracle::certify(answer_, candidate, certify_options());
+}
+
+oracle::Report ZooCase::certified_by_points(const oracle::Candidate& candidate) const {
+  oracle::CertifyOptions options = certify_options();
+  options.most_pairs = 0;
+  return *oracle::certify(answer_, candidate, options);
+}
+
+bool ZooCase::claims_hold(const oracle::Candidate& candidate) const {
+  oracle::WitnessOptions options;
+  options.most = 1;
+  return oracle::check_witnesses(scene_, prepared_, candidate, options).violations == 0;
+}
+
+Expected<ShadingMesh> ZooCase::mesh(std::uint32_t light, Mutation mutation) const {
+  ShadowOptions options = shadow_options(sound_);
+  options.max_fragments = kMostFragments;
+  options.lights = {light};
+  const auto result = compute_shadows(prepared_, options);
+  if (!result) return tl::unexpected(result.error());
+  const Illuminator illuminator(prepared_, light, 1);
+  ShadingOptions shading;
+  shading.mutation = mutation;
+  return make_shading_mesh(
+      prepared_, *result,
+      [&](const ShadeRequest& asked) {
+        const Illumination found =
+            illuminator.at(asked.part, asked.side, asked.point, asked.unobstructed, asked.inwards);
+        return PointShade{found.value, found.error_bound};
+      },
+      shading);
+}
+
+oracle::MeshReport ZooCase::check(const ShadingMesh& mesh) const {
+  std::vector<oracle::MeshFaceClaim> faces;
+  for (const MeshFace& face : mesh.faces) {
+    oracle::MeshFaceClaim claim;
+    claim.polygon = scene_.polygons[prepared_.parts[face.part].polygon].id;
+    claim.side =
+        face.side == Side::kFront ? oracle::PolygonSide::kFront : oracle::PolygonSide::kBack;
+    claim.dark = face.lit_by == 0 && face.penumbra_of == 0;
+    for (const MeshCorner& corner : mesh.loop(face)) {
+      claim.loop.push_back(mesh.exact_points[corner.vertex].rational());
+      claim.shades.push_back(mesh.shade(corner.sample));
+    }
+    faces.push_back(std::move(claim));
+  }
+  return oracle::check_mesh(faces, 1);
+}
+
+}  // namespace gnomon::fuzz

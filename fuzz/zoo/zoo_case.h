@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One scene with all that a mutant and its sound subject are asked against.
+#ifndef GNOMON_FUZZ_ZOO_ZOO_CASE_H
+#define GNOMON_FUZZ_ZOO_ZOO_CASE_H
+
+#include <cstdint>
+#include <string>
+
+#include "fuzz/check/subject.h"
+#include "fuzz/zoo/zoo.h"
+#include "gnomon/algorithms/shading_mesh.h"
+#include "gnomon/algorithms/shadows.h"
+#include "gnomon/oracle/candidate.h"
+#include "gnomon/oracle/exact_answer.h"
+#include "gnomon/oracle/mesh_check.h"
+#include "gnomon/oracle/verdict.h"
+#include "gnomon/scene/prepare.h"
+#include "gnomon/scene/scene.h"
+
+namespace gnomon::fuzz {
+
+class ZooCase {
+ public:
+  /// Keeps a reference to the scene.
+  ZooCase(const ZooEntry& entry, const Scene& scene, PreparedScene prepared);
+  ZooCase(const ZooCase&) = delete;
+  ZooCase& operator=(const ZooCase&) = delete;
+
+  const PreparedScene& prepared() const { return prepared_; }
+
+  /// What the subject comes to with that mistake. Errors: those of compute_shadows().
+  Expected<ShadowResult> shadows(Mutation mutation) const;
+  oracle::Candidate candidate_of(const ShadowResult& result, std::string name) const;
+  oracle::Report certified(const oracle::Candidate& candidate) const;
+  /// The same by the visibility of points alone.
+  oracle::Report certified_by_points(const oracle::Candidate& candidate) const;
+  bool claims_hold(const oracle::Candidate& candidate) const;
+
+  /// The illuminated mesh of the sound fragments of one light, made with that mistake.
+  Expected<ShadingMesh> mesh(std::uint32_t light, Mutation mutation) const;
+  oracle::MeshReport check(const ShadingMesh& mesh) const;
+
+ private:
+  const Scene& scene_;
+  PreparedScene prepared_;
+  oracle::ExactAnswer answer_;
+  Subject sound_;
+};
+
+}  // namespace gnomon::fuzz
+
+#endif  // GNOMON_FUZZ_ZOO_ZOO_CASE_H

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+#include "fuzz/findings/finding_picture.h"
+#include "fuzz/zoo/zoo_case.h"
+#include "gnomon/algorithms/painters_order.h"
+#include "report/pictures/picture.h"
+#include "report/pictures/shaded_picture.h"
+#include "report/text/text_sink.h"
+
+namespace gnomon::fuzz {
+
+namespace {
+
+tl::unexpected<Error> shows_nothing(const ZooEntry& entry) {
+  return fail(ErrorCode::kUsage, "the scene does not show " + std::string(entry.name),
+              "a scene that does, such as one of a hunt");
+}
+
+/// The number of an attribute of the first element.
+double attribute(const std::string& svg, const std::string& name) {
+  const std::size_t at = svg.find(' ' + name + "=\"");
+  return at == std::string::npos ? 0 : std::strtod(svg.c_str() + at + name.size() + 3, nullptr);
+}
+
+/// Pictures of the same size.
+std::string side_by_side(const std::string& left, const std::string& right) {
+  const double width = attribute(left, "width"), height = attribute(left, "height");
+  const auto placed = [](std::string svg, double x) {
+    svg.erase(0, svg.find("<svg"));
+    return svg.insert(4, fmt::format(" x=\"{}\"", x));
+  };
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
+      "{1}\">"
+      "\n{2}{3}</svg>\n",
+      2 * width, height, placed(left, 0), placed(right, width));
+}
+
+Expected<std::string> shadow_picture(const ZooEntry& entry, const Scene& scene,
+                                     const ZooCase& zoo_case) {
+  const auto wrong = zoo_case.shadows(entry.mutation);
+  if (!wrong) return tl::unexpected(wrong.error());
+  ShadowOptions exact;
+  exact.keep_exact_points = true;
+  const auto right = compute_shadows(zoo_case.prepared(), exact);
+  if (!right) return tl::unexpected(right.error());
+  const oracle::Candidate shown = zoo_case.candidate_of(*wrong, entry.mutant());
+  const oracle::Candidate truth = zoo_case.candidate_of(*right, "exact");
+  const oracle::Report report = zoo_case.certified(shown);
+  if (report.verdict != oracle::Verdict::kFailed || !report.worst) return shows_nothing(entry);
+  for (std::uint32_t light = 0; light < shown.lights.size(); ++light) {
+    if (shown.lights[light].id != report.worst->light) continue;
+    const FindingPicture picture(scene, light, report.worst);
+    return side_by_side(picture.paint("exact", truth.lights[light], nullptr),
+                        picture.paint(entry.mutant(), shown.lights[light], &truth.lights[light]));
+  }
+  return shows_nothing(entry);
+}
+
+Expected<std::string> mesh_picture(const ZooEntry& entry, const Scene& scene,
+                                   const ZooCase& zoo_case) {
+  const PreparedScene& prepared = zoo_case.prepared();
+  for (std::uint32_t light = 0; light < prepared.lights.size(); ++light) {
+    const auto wrong = zoo_case.mesh(light, entry.mutation);
+    if (!wrong) return tl::unexpected(wrong.error());
+    const auto right = zoo_case.mesh(light, Mutation::kNone);
+    if (!right) return tl::unexpected(right.error());
+    if (zoo_case.check(*wrong).t_vertices == 0) continue;
+    report::ShadedPictureOptions options;
+    options.picture.camera = report::default_camera(prepared);
+    options.picture.width = 480;
+    options.picture.height = 420;
+    options.picture.fragments = true;
+    options.picture.backs = true;
+    const auto pieces = back_to_front(prepared, options.picture.camera.eye);
+    const auto paint = [&](const ShadingMesh& mesh, std::string title) {
+      options.picture.title = std::move(title);
+      report::StringSink sink;
+      report::paint_shaded_scene(scene, prepared, pieces, mesh, options).write(sink);
+      return sink.text();
+    };
+    return side_by_side(paint(*right, "without T-vertices"), paint(*wrong, entry.mutant()));
+  }
+  return shows_nothing(entry);
+}
+
+}  // namespace
+
+Expected<std::string> zoo_picture(const ZooEntry& entry, const Scene& scene) {
+  Expected<PreparedScene> prepared = prepare(scene);
+  if (!prepared) return tl::unexpected(prepared.error());
+  const ZooCase zoo_case(entry, scene, std::move(*prepared));
+  return entry.mutation == Mutation::kTVerticesLeftIn ? mesh_picture(entry, scene, zoo_case)
+                                                      : shadow_picture(entry, scene, zoo_case);
+}
+
+}  // namespace gnomon::fuzz

@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "kernel/coordinate/coordinate_space.inl.h"
+
+namespace gnomon {
+GNOMON_INSTANTIATE_COORDINATE_SPACE(mpq_class);
+}  // namespace gnomon

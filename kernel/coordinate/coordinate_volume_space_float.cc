@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "kernel/coordinate/coordinate_volume_space.inl.h"
+
+namespace gnomon {
+GNOMON_INSTANTIATE_COORDINATE_VOLUME_SPACE(float);
+GNOMON_INSTANTIATE_COORDINATE_VOLUME_SPACE(double);
+GNOMON_INSTANTIATE_COORDINATE_VOLUME_SPACE(long double);
+}  // namespace gnomon

@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: LGPL-3.0-or-later
-#include "coordinate_space_impl.h"
-
-namespace gnomon {
-GNOMON_INSTANTIATE_COORDINATE_SPACE(float);
-GNOMON_INSTANTIATE_COORDINATE_SPACE(double);
-GNOMON_INSTANTIATE_COORDINATE_SPACE(long double);
-}  // namespace gnomon

@@ -1,6 +1,0 @@
-// SPDX-License-Identifier: LGPL-3.0-or-later
-#include "coordinate_space_impl.h"
-
-namespace gnomon {
-GNOMON_INSTANTIATE_COORDINATE_SPACE(mpq_class);
-}  // namespace gnomon

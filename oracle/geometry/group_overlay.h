@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One planar receiver (the coplanar parts of one polygon), its true shadows and a candidate's
+// fragments in one overlay, and areas of sets of its cells.
+#ifndef GNOMON_ORACLE_GEOMETRY_GROUP_OVERLAY_H
+#define GNOMON_ORACLE_GEOMETRY_GROUP_OVERLAY_H
+
+#include <functional>
+
+#include "gnomon/oracle/exact_answer.h"
+#include "oracle/geometry/chart.h"
+#include "oracle/geometry/overlay.h"
+
+namespace gnomon::oracle {
+
+std::vector<Integers3> grid_loop(const PreparedScene& scene, std::uint32_t part);
+/// Of the part's own loop, reduced: equal planes with equal fronts are equal as data.
+ExactPlane support_of(const PreparedScene& scene, std::uint32_t part);
+/// In scene units squared.
+Enclosure group_area(const PreparedScene& scene, const ReceiverGroup& group);
+/// |a| / |b| without overflow on the way.
+Enclosure enclose_ratio(const mpz_class& a, const mpz_class& b);
+
+class GroupOverlay {
+ public:
+  GroupOverlay(const ExactAnswer& answer, std::uint32_t light, const ReceiverGroup& group);
+
+  const Chart& chart() const { return chart_; }
+  Overlay& overlay() { return overlay_; }
+  const Overlay& overlay() const { return overlay_; }
+  /// After all fragments have been added to overlay().
+  void build();
+  using Choice = std::function<bool(const Winding&)>;
+  /// Area of the cells chosen, as a share of the receiver; exact if the boundary has at most
+  /// `exact_limit` edges.
+  AreaShare share(const Choice& choice, std::size_t exact_limit) const;
+  AreaShare share(const std::vector<bool>& faces, std::size_t exact_limit) const;
+  std::vector<bool> choose(const Choice& choice) const;
+  Enclosure whole_area() const { return whole_area_; }
+
+ private:
+  Chart chart_;
+  Overlay overlay_;
+  Enclosure whole_area_;
+  Overlay::FixedArea whole_fixed_;
+  std::vector<bool> receiver_faces_;
+};
+
+/// Sums shares of several planes of one polygon; exact as long as there is only one.
+class ShareSum {
+ public:
+  void add(const AreaShare& share, Enclosure whole_area);
+  AreaShare result() const;
+
+ private:
+  AreaShare only_;
+  Enclosure area_, whole_;
+  int count_ = 0;
+  bool zero_ = true, full_ = true;
+};
+
+}  // namespace gnomon::oracle
+
+#endif  // GNOMON_ORACLE_GEOMETRY_GROUP_OVERLAY_H

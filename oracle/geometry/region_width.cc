@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "oracle/geometry/region_width.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <queue>
+
+namespace gnomon::oracle {
+
+namespace {
+
+constexpr std::size_t kMostTrapezoids = 100'000;
+constexpr std::size_t kStepsAnEdge = 400;  // a break between two edges takes some 160 to isolate
+constexpr std::size_t kMostSteps = 40'000;
+constexpr double kCloseEnough = 1.05;  // ratio of the bounds
+constexpr int kBits = 256;             // of coordinates relative to the overlay's box
+
+struct Planar {
+  double x = 0, y = 0;
+};
+
+struct BoundaryEdge {
+  ChartPoint left, right;  // in the order x, y
+  ChartLine line;
+  Planar a, b;
+};
+
+struct Piece {
+  std::array<Planar, 4> corners;
+  int count = 4;
+  double upper = 0;      // bound of the radius
+  bool refined = false;  // against all edges, not only its own
+  bool operator<(const Piece& other) const { return upper < other.upper; }
+};
+
+double distance(Planar p, Planar a, Planar b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double px = p.x - a.x, py = p.y - a.y;
+  const double squared = dx * dx + dy * dy;
+  if (squared == 0) return std::hypot(px, py);
+  const double t = std::clamp((px * dx + py * dy) / squared, 0.0, 1.0);
+  if (t > 0 && t < 1) return std::fabs(px * dy - py * dx) / std::sqrt(squared);
+  return std::hypot(px - t * dx, py - t * dy);
+}
+
+double farthest(const Piece& piece, const BoundaryEdge& edge) {
+  double result = 0;
+  for (int i = 0; i < piece.count; ++i) {
+    result = std::max(result, distance(piece.corners[i], edge.a, edge.b));
+  }
+  return result;
+}
+
+Planar centre_of(const Piece& piece) {
+  Planar sum;
+  for (int i = 0; i < piece.count; ++i) {
+    sum.x += piece.corners[i].x / piece.count;
+    sum.y += piece.corners[i].y / piece.count;
+  }
+  return sum;
+}
+
+std::array<Piece, 2> halve(const Piece& piece) {
+  std::array<Piece, 2> halves{piece, piece};
+  for (Piece& half : halves) half.count = 3, half.refined = false;
+  if (piece.count == 4) {
+    halves[0].corners = {piece.corners[0], piece.corners[1], piece.corners[2], Planar{}};
+    halves[1].corners = {piece.corners[0], piece.corners[2], piece.corners[3], Planar{}};
+    return halves;
+  }
+  int longest = 0;
+  double length = -1;
+  for (int i = 0; i < 3; ++i) {
+    const Planar &p = piece.corners[i], &q = piece.corners[(i + 1) % 3];
+    const double own = std::hypot(p.x - q.x, p.y - q.y);
+    if (own > length) length = own, longest = i;
+  }
+  const Planar p = piece.corners[longest], q = piece.corners[(longest + 1) % 3],
+               r = piece.corners[(longest + 2) % 3];
+  const Planar middle{p.x + (q.x - p.x) / 2, p.y + (q.y - p.y) / 2};
+  halves[0].corners = {p, middle, r, Planar{}};
+  halves[1].corners = {middle, q, r, Planar{}};
+  return halves;
+}
+
+/// An integer of kBits binary places as a double.
+double scaled(const mpz_class& value) {
+  long exponent = 0;
+  const double mantissa = mpz_get_d_2exp(&exponent, value.get_mpz_t());
+  return std::ldexp(mantissa, static_cast<int>(std::clamp(exponent - kBits, -5000L, 5000L)));
+}
+
+/// y of a line that is not vertical, at x: exactly.
+mpq_class height_at(const ChartLine& line, const mpq_class& x) {
+  mpq_class y = (mpq_class(line.a) * x + line.c) / line.b;
+  return -y;
+}
+
+}  // namespace
+
+ChartMetric::ChartMetric(const Chart& chart) {
+  const Integers3& normal = chart.support().normal;
+  const int k = chart.axis();
+  const auto slope = [&](int axis) {
+    const double size = enclose(mpq_class(abs(normal[axis])) / mpq_class(abs(normal[k]))).middle();
+    return sgn(normal[axis]) * sgn(normal[k]) < 0 ? -size : size;
+  };
+  const double g = slope((k + 1) % 3), h = slope((k + 2) % 3);
+  a = std::sqrt(1 + g * g);
+  b = g * h / a;
+  c = std::sqrt((1 + g * g + h * h) / (1 + g * g));
+}
+
+namespace {
+
+/// Slabs are cut along a direction (p, q) that is as far from parallel to all long edges as
+/// possible: then the two edges that bound a trapezoid are near everywhere in it, however the
+/// region winds.
+struct SlabDirection {
+  int p = 0, q = 1;
+  ChartPoint turn(const ChartPoint& point) const {
+    return {q * point.x - p * point.y, p * point.x + q * point.y, point.w};
+  }
+  /// The inverse: back to the chart.
+  void turn_back(mpq_class& x, mpq_class& y) const {
+    const mpq_class u = x;
+    x = (q * u + p * y) / (p * p + q * q);
+    y = (q * y - p * u) / (p * p + q * q);
+  }
+};
+
+SlabDirection best_direction(const std::vector<Planar>& edges) {
+  constexpr int kReach = 7;       // some 70 directions, none special to axes or diagonals alone
+  constexpr double kLong = 1e-6;  // of the longest edge
+  double longest = 0;
+  for (const Planar& edge : edges) longest = std::max(longest, std::hypot(edge.x, edge.y));
+  SlabDirection best;
+  double best_sine = -1;
+  for (int p = -kReach; p <= kReach; ++p) {
+    for (int q = p > 0 ? 0 : 1; q <= kReach; ++q) {
+      if (std::gcd(p, q) != 1) continue;
+      double least = 1;
+      for (const Planar& edge : edges) {
+        const double length = std::hypot(edge.x, edge.y);
+        if (length <= kLong * longest) continue;
+        least = std::min(least, std::fabs(p * edge.y - q * edge.x) / (length * std::hypot(p, q)));
+        if (least <= best_sine) break;
+      }
+      if (least > best_sine) best_sine = least, best = {p, q};
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
+                           const std::vector<std::uint32_t>& boundary, double resolution) {
+  RegionShape result;
+  const ChartPoint& base = overlay.point(overlay.halfedges()[boundary.front()].origin);
+  const mpz_class base_x = overlay.fixed_value(base.x, base.w, kBits);
+  const mpz_class base_y = overlay.fixed_value(base.y, base.w, kBits);
+  const double unit = overlay.box_unit();
+  // Coordinates relative to the base, subtracted exactly, in units of the overlay's box.
+  const auto planar = [&](const mpz_class& x, const mpz_class& x_w, const mpz_class& y,
+                          const mpz_class& y_w) {
+    const mpz_class dx = overlay.fixed_value(x, x_w, kBits) - base_x;
+    const mpz_class dy = overlay.fixed_value(y, y_w, kBits) - base_y;
+    const double u = scaled(dx), v = scaled(dy);
+    return Planar{metric.a * u + metric.b * v, metric.c * v};
+  };
+  const auto planar_point = [&](const ChartPoint& point) {
+    return planar(point.x, point.w, point.y, point.w);
+  };
+  std::vector<BoundaryEdge> edges;
+  std::vector<Planar> directions;
+  double size = 0;
+  for (std::uint32_t halfedge : boundary) {
+    const ChartPoint& p = overlay.point(overlay.halfedges()[halfedge].origin);
+    const ChartPoint& q = overlay.point(overlay.target(halfedge));
+    edges.push_back({p, q, {}, planar_point(p), planar_point(q)});
+    const Planar &a = edges.back().a, &b = edges.back().b;
+    const double v = (b.y - a.y) / metric.c;
+    directions.push_back({(b.x - a.x - metric.b * v) / metric.a, v});
+    size = std::max({size, std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y)});
+  }
+  const SlabDirection direction = best_direction(directions);
+  std::vector<ChartPoint> stops;
+  for (BoundaryEdge& edge : edges) {
+    edge.left = direction.turn(edge.left);
+    edge.right = direction.turn(edge.right);
+    if (compare(edge.left, edge.right) > 0) std::swap(edge.left, edge.right);
+    edge.line = line_through(edge.left, edge.right);
+    stops.push_back(edge.left);
+    stops.push_back(edge.right);
+  }
+  const auto before_x = [](const ChartPoint& p, const ChartPoint& q) {
+    return compare_x(p, q) < 0;
+  };
+  std::sort(stops.begin(), stops.end(), before_x);
+  stops.erase(
+      std::unique(stops.begin(), stops.end(),
+                  [](const ChartPoint& p, const ChartPoint& q) { return compare_x(p, q) == 0; }),
+      stops.end());
+  std::sort(edges.begin(), edges.end(),
+            [&](const BoundaryEdge& p, const BoundaryEdge& q) { return before_x(p.left, q.left); });
+
+  std::priority_queue<Piece> queue;
+  std::vector<std::size_t> active;
+  std::size_t next = 0, made = 0;
+  double widest = -1;
+  bool complete = true;
+  for (std::size_t s = 0; s + 1 < stops.size() && complete; ++s) {
+    const ChartPoint &from = stops[s], &to = stops[s + 1];
+    std::erase_if(active, [&](std::size_t e) { return compare_x(edges[e].right, from) <= 0; });
+    while (next < edges.size() && compare_x(edges[next].left, from) <= 0) {
+      if (compare_x(edges[next].right, from) > 0) active.push_back(next);
+      ++next;
+    }
+    mpq_class low_x(from.x, from.w), high_x(to.x, to.w);
+    low_x.canonicalize();
+    high_x.canonicalize();
+    const mpq_class middle_x = (low_x + high_x) / 2;
+    std::vector<std::pair<mpq_class, std::size_t>> across;
+    for (std::size_t e : active) across.emplace_back(height_at(edges[e].line, middle_x), e);
+    std::sort(across.begin(), across.end());
+    for (std::size_t i = 0; i + 1 < across.size(); i += 2) {
+      const BoundaryEdge &below = edges[across[i].second], &above = edges[across[i + 1].second];
+      Piece piece;
+      const auto corner = [&](const BoundaryEdge& edge, mpq_class x) {
+        mpq_class y = height_at(edge.line, x);
+        direction.turn_back(x, y);
+        return planar(x.get_num(), x.get_den(), y.get_num(), y.get_den());
+      };
+      piece.corners = {corner(below, low_x), corner(below, high_x), corner(above, high_x),
+                       corner(above, low_x)};
+      // Along the slab's direction every point of the piece is near one of the two edges.
+      const auto apart = [&](int i, int j) {
+        return std::hypot(piece.corners[i].x - piece.corners[j].x,
+                          piece.corners[i].y - piece.corners[j].y);
+      };
+      piece.upper = std::min(
+          {farthest(piece, below), farthest(piece, above), std::max(apart(0, 3), apart(1, 2)) / 2});
+      const double area_like =
+          std::min(piece.upper, std::hypot(piece.corners[1].x - piece.corners[0].x,
+                                           piece.corners[1].y - piece.corners[0].y));
+      if (area_like > widest) {
+        widest = area_like;
+        mpq_class x = middle_x, y = (across[i].first + across[i + 1].first) / 2;
+        direction.turn_back(x, y);
+        const mpz_class w = lcm(x.get_den(), y.get_den());
+        result.interior = {x.get_num() * (w / x.get_den()), y.get_num() * (w / y.get_den()), w};
+        reduce(result.interior);
+      }
+      queue.push(piece);
+      if (++made > kMostTrapezoids) complete = false;
+    }
+  }
+
+  const double rounding = 0x1p-47 * size;
+  const double fine = std::max(4 * rounding, unit > 0 ? resolution / 2 / unit : 0.0);
+  const std::size_t most_steps = std::min(kMostSteps, 600 + kStepsAnEdge * edges.size());
+  double lower = 0;
+  for (std::size_t step = 0; step < most_steps && !queue.empty(); ++step) {
+    Piece piece = queue.top();
+    if (piece.upper <= std::max(lower * kCloseEnough, fine)) break;
+    queue.pop();
+    if (!piece.refined) {
+      for (const BoundaryEdge& edge : edges) {
+        piece.upper = std::min(piece.upper, farthest(piece, edge));
+      }
+      const Planar centre = centre_of(piece);
+      double radius = std::numeric_limits<double>::infinity();
+      for (const BoundaryEdge& edge : edges) {
+        radius = std::min(radius, distance(centre, edge.a, edge.b));
+      }
+      lower = std::max(lower, radius);
+      piece.refined = true;
+      queue.push(piece);
+      continue;
+    }
+    for (Piece& half : halve(piece)) queue.push(half);
+  }
+  double upper = queue.empty() ? lower : std::max(lower, queue.top().upper);
+  if (!complete) upper = 2 * size;  // said as it is: no better bound was computed
+  result.width = {std::max(0.0, 2 * (lower - rounding)) * unit, 2 * (upper + rounding) * unit};
+  return result;
+}
+
+}  // namespace gnomon::oracle

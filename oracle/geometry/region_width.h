@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The diameter of the largest disc inside a region of the overlay, enclosed by bounds, and a point
+// inside the region.
+//
+// Method: the region is cut exactly into trapezoids between its boundary edges. For a convex piece
+// T and a boundary edge e no disc centred in T has a radius above max dist(corner of T, e), since
+// the distance to a convex set is convex; the least of these over all e bounds T from above, a disc
+// around a point of T from below. Pieces are halved, worst first, until both bounds are close.
+// Guarantee: the bounds hold up to the rounding of the coordinates, which is added to them.
+#ifndef GNOMON_ORACLE_GEOMETRY_REGION_WIDTH_H
+#define GNOMON_ORACLE_GEOMETRY_REGION_WIDTH_H
+
+#include "gnomon/oracle/enclosure.h"
+#include "oracle/geometry/chart.h"
+#include "oracle/geometry/overlay.h"
+
+namespace gnomon::oracle {
+
+/// Lengths in a chart: |(dx, dy)| in space is |(a dx + b dy, c dy)|, grid units.
+struct ChartMetric {
+  double a = 1, b = 0, c = 1;
+  explicit ChartMetric(const Chart& chart);
+};
+
+struct RegionShape {
+  Enclosure width;      // grid units
+  ChartPoint interior;  // strictly inside the region
+};
+
+/// `boundary`: the halfedges that have the region on their left and something else on their right.
+/// Bounds closer than `resolution` (grid units) are not made closer.
+RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
+                           const std::vector<std::uint32_t>& boundary, double resolution);
+
+}  // namespace gnomon::oracle
+
+#endif  // GNOMON_ORACLE_GEOMETRY_REGION_WIDTH_H

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "oracle/geometry/space_loop.h"
+
+#include <utility>
+
+namespace gnomon::oracle::space {
+
+ExactPoint minus(const ExactPoint& a, const ExactPoint& b) {
+  return {mpq_class(a[0] - b[0]), mpq_class(a[1] - b[1]), mpq_class(a[2] - b[2])};
+}
+mpq_class dot(const ExactPoint& a, const ExactPoint& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+ExactPoint cross(const ExactPoint& a, const ExactPoint& b) {
+  return {mpq_class(a[1] * b[2] - a[2] * b[1]), mpq_class(a[2] * b[0] - a[0] * b[2]),
+          mpq_class(a[0] * b[1] - a[1] * b[0])};
+}
+
+ExactPoint negated(const ExactPoint& a) {
+  return {mpq_class(-a[0]), mpq_class(-a[1]), mpq_class(-a[2])};
+}
+
+HalfSpace::HalfSpace(ExactPoint n, const ExactPoint& b) : normal(std::move(n)), base(b) {
+  // Scaled first: a normal is a product of lengths, and may leave the range of doubles.
+  mpq_class most = 0;
+  for (const mpq_class& c : normal) {
+    if (cmp(abs(c), most) > 0) most = abs(c);
+  }
+  for (int k = 0; k < 3 && most != 0; ++k) near_normal[k] = mpq_class(normal[k] / most).get_d();
+  for (int k = 0; k < 3; ++k) near_base[k] = base[k].get_d();
+}
+
+double HalfSpace::near_value(const std::array<double, 3>& p) const {
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) sum += near_normal[k] * (p[k] - near_base[k]);
+  return sum;
+}
+
+Loop cut(const Loop& loop, const HalfSpace& half) {
+  Loop result;
+  std::vector<mpq_class> values;
+  bool inside = false, outside = false;
+  for (const ExactPoint& point : loop) {
+    values.push_back(half.value(point));
+    inside = inside || values.back() > 0;
+    outside = outside || values.back() < 0;
+  }
+  if (!inside) return {};
+  if (!outside) return loop;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const std::size_t j = (i + 1) % loop.size();
+    if (values[i] >= 0) result.push_back(loop[i]);
+    if (sgn(values[i]) * sgn(values[j]) < 0) {
+      const mpq_class t = values[i] / (values[i] - values[j]);
+      ExactPoint crossing;
+      for (int k = 0; k < 3; ++k) crossing[k] = loop[i][k] + t * (loop[j][k] - loop[i][k]);
+      result.push_back(std::move(crossing));
+    }
+  }
+  return result;
+}
+
+mpq_class area_along(const ExactPoint& normal, const Loop& loop) {
+  ExactPoint sum;
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    const ExactPoint term = cross(minus(loop[i], loop[0]), minus(loop[i + 1], loop[0]));
+    for (int k = 0; k < 3; ++k) sum[k] += term[k];
+  }
+  return dot(normal, sum) / 2;
+}
+
+}  // namespace gnomon::oracle::space

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "oracle/judge/clearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "gnomon/oracle/enclosure.h"
+
+namespace gnomon::oracle {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kExamined = 6;  // casters looked at exactly, nearest first
+
+template <class Number>
+using Vector = std::array<Number, 3>;
+
+template <class Number>
+Vector<Number> minus(const Vector<Number>& a, const Vector<Number>& b) {
+  return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};
+}
+
+template <class Number>
+Number dot(const Vector<Number>& a, const Vector<Number>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class Number>
+Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
+  return {Number(a[1] * b[2] - a[2] * b[1]), Number(a[2] * b[0] - a[0] * b[2]),
+          Number(a[0] * b[1] - a[1] * b[0])};
+}
+
+double upper_root(double squared) { return std::sqrt(squared); }
+double upper_root(const mpq_class& squared) { return enclose_square_root(squared).upper; }
+
+/// How a caster stands to one point: whether it covers it, and how far x is from its border.
+struct Standing {
+  bool between = false;  // the line meets the caster's plane between point and light
+  bool inside = false;   // and inside the caster
+  double border = kInfinity;
+};
+
+template <class Number>
+Vector<Number> loop_normal(const std::vector<Vector<Number>>& loop) {
+  return cross(minus(loop[1], loop[0]), minus(loop[2], loop[0]));
+}
+
+template <class Number>
+Standing stand(const std::vector<Vector<Number>>& loop, bool directional,
+               const Vector<Number>& light, const Vector<Number>& point) {
+  Standing result;
+  const Vector<Number> normal = loop_normal(loop);
+  const Vector<Number> ray = directional ? light : minus(light, point);
+  const Number height = dot(normal, minus(point, loop[0]));
+  const Number rise = dot(normal, ray);
+  if (rise == 0) return result;
+  const Number t = -height / rise;
+  if (!(t > 0) || (!directional && !(t < 1))) return result;
+  result.between = true;
+  result.inside = true;
+  Vector<Number> x;
+  for (int k = 0; k < 3; ++k) x[k] = point[k] + t * ray[k];
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vector<Number>& a = loop[i];
+    const Vector<Number> edge = minus(loop[(i + 1) % loop.size()], a);
+    const Vector<Number> from = minus(x, a);
+    if (!(dot(cross(normal, edge), from) > 0)) result.inside = false;
+    Number along = dot(from, edge) / dot(edge, edge);
+    if (along < 0) along = 0;
+    if (along > 1) along = 1;
+    Vector<Number> apart;
+    for (int k = 0; k < 3; ++k) apart[k] = from[k] - along * edge[k];
+    result.border = std::min(result.border, upper_root(Number(dot(apart, apart))));
+  }
+  return result;
+}
+
+class Decider {
+ public:
+  Decider(const PreparedScene& scene, const PreparedLight& light, std::uint32_t receiver,
+          const ExactPoint& point)
+      : scene_(scene), receiver_(receiver), point_(point), directional_(light.point.directional) {
+    for (int k = 0; k < 3; ++k) {
+      light_[k] =
+          directional_
+              ? mpq_class(light.point.grid[k])
+              : mpq_class(scene.geometry.origin[k] + scene.geometry.step * light.point.grid[k]);
+    }
+    own_loop_ = exact_loop(receiver);
+    for (int k = 0; k < 3; ++k) {
+      near_point_[k] = point_[k].get_d();
+      near_light_[k] = light_[k].get_d();
+    }
+    if (directional_) {
+      // A primitive integer vector may be beyond doubles.
+      const double longest = std::max(
+          {std::fabs(near_light_[0]), std::fabs(near_light_[1]), std::fabs(near_light_[2])});
+      if (!std::isfinite(longest)) near_light_ = light.point.nearest;
+    }
+  }
+
+  Decision decide();
+
+ private:
+  std::vector<ExactPoint> exact_loop(std::uint32_t part) const {
+    const Geometry& geometry = scene_.geometry;
+    std::vector<ExactPoint> loop;
+    for (VertexId vertex : scene_.loop(scene_.parts[part])) {
+      ExactPoint position;
+      for (int k = 0; k < 3; ++k) {
+        position[k] = geometry.origin[k] + geometry.step * geometry.grid.at(vertex, k);
+      }
+      loop.push_back(position);
+    }
+    return loop;
+  }
+  bool casts(std::uint32_t part, const std::vector<ExactPoint>& loop) const {
+    if (part == receiver_ || !scene_.parts[part].casts) return false;
+    const ExactPoint normal = loop_normal(loop);
+    const mpq_class height =
+        directional_ ? dot(normal, light_) : dot(normal, minus(light_, loop[0]));
+    if (!(height > 0 || (height < 0 && scene_.parts[part].two_sided))) return false;
+    return std::any_of(own_loop_.begin(), own_loop_.end(), [&](const ExactPoint& vertex) {
+      return dot(normal, minus(vertex, loop[0])) != 0;
+    });
+  }
+  bool covers(std::uint32_t part, const ExactPoint& point) const {
+    const std::vector<ExactPoint> loop = exact_loop(part);
+    return casts(part, loop) && stand(loop, directional_, light_, point).inside;
+  }
+  /// (b) for one caster: 3 s, if moving R's point across the caster's plane changes whether it
+  /// covers.
+  double move_receiver(std::uint32_t part, const std::vector<ExactPoint>& loop, bool covered) const;
+
+  const PreparedScene& scene_;
+  std::uint32_t receiver_;
+  ExactPoint point_, light_;
+  std::vector<ExactPoint> own_loop_;
+  Vector<double> near_point_{}, near_light_{};
+  bool directional_;
+  std::vector<std::uint32_t> near_casters_;
+};
+
+double Decider::move_receiver(std::uint32_t part, const std::vector<ExactPoint>& loop,
+                              bool covered) const {
+  const ExactPoint normal = loop_normal(loop), own = loop_normal(own_loop_);
+  const mpq_class along = dot(normal, own);
+  if (along == 0) return kInfinity;
+  mpq_class s = -dot(normal, minus(point_, loop[0])) / along;
+  s *= mpq_class(1048577, 1048576);  // a little beyond the plane
+  if (s == 0) s = mpq_class(1, 1) / (mpz_class(1) << 200);
+  ExactPoint moved;
+  for (int k = 0; k < 3; ++k) moved[k] = point_[k] + s * own[k];
+  if (covers(part, moved) == covered) return kInfinity;
+  if (covered) {
+    for (std::uint32_t other : near_casters_) {
+      if (covers(other, moved)) return kInfinity;
+    }
+  }
+  return round_up(3 * upper_root(mpq_class(s * s * dot(own, own))));
+}
+
+Decision Decider::decide() {
+  struct Estimate {
+    std::uint32_t part;
+    double distance;
+    bool maybe_covers;
+  };
+  std::vector<Estimate> estimates;
+  for (std::uint32_t part = 0; part < scene_.parts.size(); ++part) {
+    if (part == receiver_ || !scene_.parts[part].casts) continue;
+    std::vector<Vector<double>> loop;
+    double size = 0;
+    for (VertexId vertex : scene_.loop(scene_.parts[part])) {
+      loop.push_back(scene_.geometry.positions[vertex]);
+      for (double coordinate : loop.back()) size = std::max(size, std::fabs(coordinate));
+    }
+    const Standing standing = stand(loop, directional_, near_light_, near_point_);
+    const Vector<double> normal = loop_normal(loop);
+    const double length = std::sqrt(dot(normal, normal));
+    const double height =
+        std::fabs(dot(normal, minus(near_point_, loop[0]))) / (length > 0 ? length : 1);
+    const double slack = 1e-9 * size;
+    const bool near_plane = !(height > slack);
+    if (!standing.between && !near_plane) continue;
+    const double distance = near_plane ? std::min(standing.border, height) : standing.border;
+    estimates.push_back(
+        {part, distance, standing.inside || near_plane || !(standing.border > slack)});
+  }
+  std::sort(estimates.begin(), estimates.end(),
+            [](const Estimate& a, const Estimate& b) { return a.distance < b.distance; });
+  for (const Estimate& estimate : estimates) {
+    if (estimate.maybe_covers) near_casters_.push_back(estimate.part);
+  }
+  std::vector<std::uint32_t> covering;
+  for (std::uint32_t part : near_casters_) {
+    if (covers(part, point_)) covering.push_back(part);
+  }
+  std::vector<std::uint32_t> looked_at = covering;
+  if (covering.empty()) {
+    for (std::size_t i = 0; i < std::min(kExamined, estimates.size()); ++i) {
+      looked_at.push_back(estimates[i].part);
+    }
+  }
+  Decision decision;
+  double best = kInfinity;
+  for (std::uint32_t part : looked_at) {
+    const std::vector<ExactPoint> loop = exact_loop(part);
+    if (!casts(part, loop)) continue;
+    double own = move_receiver(part, loop, !covering.empty());
+    if (covering.size() <= 1) {
+      const Standing standing = stand(loop, directional_, light_, point_);
+      if (standing.between) own = std::min(own, round_up(2 * standing.border));
+    }
+    if (own < best || !decision.caster) decision.caster = part;
+    best = std::min(best, own);
+  }
+  if (best < kInfinity) decision.clearance = best;
+  return decision;
+}
+
+}  // namespace
+
+Decision decide(const PreparedScene& scene, const PreparedLight& light, std::uint32_t receiver,
+                const ExactPoint& point) {
+  return Decider(scene, light, receiver, point).decide();
+}
+
+}  // namespace gnomon::oracle

@@ -1,0 +1,630 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gnomon/oracle/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "oracle/answer/deep_umbra.h"
+#include "oracle/geometry/group_overlay.h"
+#include "oracle/geometry/region_width.h"
+#include "oracle/judge/clearance.h"
+
+namespace gnomon::oracle {
+
+namespace {
+
+/// What a candidate's classes are judged by.
+struct Rules {
+  bool area = false;        // of an area light
+  bool per_caster = false;  // umbra is what one caster alone hides
+};
+
+/// What one cell of the overlay says.
+struct Cell {
+  bool inside = false;  // of the receiver
+  ShadeClass truth = ShadeClass::kLit;
+  bool deep = false;              // certified: no light arrives
+  std::array<bool, 4> claimed{};  // by ShadeClass
+  bool misclassified = false, uncovered = false, overlapping = false, outside = false;
+  bool missing_umbra = false;
+
+  bool errs() const { return misclassified || overlapping || outside; }
+  bool claims(ShadeClass shade) const { return claimed[static_cast<std::size_t>(shade)]; }
+  bool accepts(ShadeClass shade, const Rules& rules) const {
+    if (shade == truth) return true;
+    if (!rules.area || rules.per_caster) return false;
+    return (truth == ShadeClass::kUmbra && shade == ShadeClass::kPenumbra) ||
+           (truth == ShadeClass::kPenumbra && shade == ShadeClass::kUmbra && deep);
+  }
+};
+
+constexpr ShadeClass kClasses[] = {ShadeClass::kLit, ShadeClass::kShadow, ShadeClass::kPenumbra,
+                                   ShadeClass::kUmbra};
+
+Cell read_cell(const Winding& winding, std::optional<ShadeClass> background, bool optional,
+               const Rules& rules) {
+  constexpr Layer kLayerOf[] = {kLit, kShadow, kPenumbra, kUmbra};
+  Cell cell;
+  int claims = 0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    claims += winding[kLayerOf[c]];
+    cell.claimed[c] = winding[kLayerOf[c]] > 0;
+  }
+  cell.inside = winding[kReceiver] != 0;
+  cell.truth = winding[kTrueUmbra] != 0 ? ShadeClass::kUmbra
+               : winding[kTruth] == 0   ? ShadeClass::kLit
+               : rules.area             ? ShadeClass::kPenumbra
+                                        : ShadeClass::kShadow;
+  cell.deep = winding[kDeep] != 0;
+  cell.overlapping = claims > 1;
+  if (!cell.inside) {
+    cell.outside = claims > 0;
+    return cell;
+  }
+  if (claims == 0) {
+    if (optional) return cell;
+    cell.uncovered = !background;
+    if (background) cell.claimed[static_cast<std::size_t>(*background)] = true;
+  }
+  const auto classes = std::count(cell.claimed.begin(), cell.claimed.end(), true);
+  const bool right =
+      classes == 1 && std::any_of(std::begin(kClasses), std::end(kClasses), [&](ShadeClass shade) {
+        return cell.claims(shade) && cell.accepts(shade, rules);
+      });
+  cell.misclassified = !right;
+  cell.missing_umbra = !rules.per_caster && cell.truth == ShadeClass::kUmbra && classes == 1 &&
+                       cell.claims(ShadeClass::kPenumbra);
+  return cell;
+}
+
+ErrorKind kind_of(const Cell& cell) {
+  if (cell.uncovered) return ErrorKind::kUncovered;
+  if (cell.misclassified) return ErrorKind::kMisclassified;
+  if (cell.outside) return ErrorKind::kOutside;
+  return cell.overlapping ? ErrorKind::kOverlapping : ErrorKind::kNone;
+}
+
+/// Faces joined across edges between two faces that `joined` both accepts. Returns a region a face.
+template <class Joined>
+std::vector<std::uint32_t> connect(const Overlay& overlay, const Joined& joined) {
+  std::vector<std::uint32_t> parent(overlay.faces().size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto find = [&](std::uint32_t f) {
+    while (parent[f] != f) f = parent[f] = parent[parent[f]];
+    return f;
+  };
+  for (std::uint32_t h = 0; h < overlay.halfedges().size(); h += 2) {
+    const std::uint32_t a = overlay.halfedges()[h].face;
+    const std::uint32_t b = overlay.halfedges()[Overlay::twin(h)].face;
+    if (a != b && joined(a, b)) parent[find(a)] = find(b);
+  }
+  for (std::uint32_t f = 0; f < parent.size(); ++f) parent[f] = find(f);
+  return parent;
+}
+
+/// Regions that claim class c where it is false and touch no region where it is true; and true
+/// regions of class c in which it was found nowhere.
+void count_leaks(const Overlay& overlay, const std::vector<Cell>& cells, ShadeClass shade,
+                 const Rules& rules, PolygonComparison& result) {
+  const auto claims = [&](std::uint32_t f) { return cells[f].claims(shade); };
+  const auto is_true = [&](std::uint32_t f) { return cells[f].inside && cells[f].truth == shade; };
+  const auto claims_wrongly = [&](std::uint32_t f) {
+    return cells[f].inside && claims(f) && !cells[f].accepts(shade, rules);
+  };
+  const std::vector<std::uint32_t> wrong = connect(overlay, [&](std::uint32_t a, std::uint32_t b) {
+    return claims_wrongly(a) && claims_wrongly(b);
+  });
+  const std::vector<std::uint32_t> right =
+      connect(overlay, [&](std::uint32_t a, std::uint32_t b) { return is_true(a) && is_true(b); });
+  std::vector<bool> touches(cells.size(), false), found(cells.size(), false);
+  for (std::uint32_t h = 0; h < overlay.halfedges().size(); ++h) {
+    const std::uint32_t here = overlay.halfedges()[h].face;
+    const std::uint32_t there = overlay.halfedges()[Overlay::twin(h)].face;
+    if (claims_wrongly(here) && is_true(there)) touches[wrong[here]] = true;
+  }
+  for (std::uint32_t f = 1; f < cells.size(); ++f) {
+    // Where another class is as good, it counts as found.
+    if (is_true(f) && (claims(f) || !cells[f].misclassified)) found[right[f]] = true;
+  }
+  for (std::uint32_t f = 1; f < cells.size(); ++f) {
+    if (claims_wrongly(f) && wrong[f] == f && !touches[f]) ++result.invented;
+    if (is_true(f) && right[f] == f && !found[f]) ++result.lost;
+  }
+}
+
+bool contains(const std::vector<ChartPoint>& convex, const ChartPoint& point) {
+  for (std::size_t i = 0; i < convex.size(); ++i) {
+    if (orientation(convex[i], convex[(i + 1) % convex.size()], point) <= 0) return false;
+  }
+  return true;
+}
+
+struct ProjectedFragment {
+  const CandidateFragment* fragment = nullptr;
+  NormalisedLoop loop;
+};
+
+class GroupComparison {
+ public:
+  GroupComparison(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
+                  const ReceiverGroup& group, const ClaimedTerms& terms,
+                  const ComparisonOptions& options, PolygonComparison& result)
+      : answer_(answer),
+        light_(light),
+        entry_(entry),
+        group_(group),
+        background_(terms.background),
+        rules_{answer.is_area(light), terms.per_caster_umbra},
+        options_(options),
+        result_(result),
+        overlay_(answer, light, group) {}
+
+  void add(const CandidateFragment& fragment);
+  void compare();
+
+  struct Shares {
+    AreaShare lit, shadow, penumbra, umbra, missing_umbra, misclassified, uncovered, overlapping,
+        outside, ill_conditioned;
+    AreaShare judged_misclassified, judged_uncovered, judged_overlapping, judged_outside;
+  };
+  const Shares& shares() const { return shares_; }
+  Enclosure whole_area() const { return overlay_.whole_area(); }
+
+ private:
+  Layer layer_of(ShadeClass shade) const;
+  void add_deep_umbra();
+  void examine_regions(const std::vector<Cell>& cells, std::vector<bool>& ill_conditioned);
+  ErrorRegion examine(const std::vector<std::uint32_t>& faces,
+                      const std::vector<std::uint32_t>& boundary, const std::vector<Cell>& cells);
+  void describe(Witness& witness, const Cell& cell, const ChartPoint& point) const;
+  std::string describe_shadow(Witness& witness, const std::string& claimed,
+                              const ChartPoint& point) const;
+  std::string describe_area(Witness& witness, const std::string& claimed,
+                            const ChartPoint& point) const;
+  const std::string& id_of(std::uint32_t part) const {
+    return answer_.scene().polygons[answer_.prepared().parts[part].polygon].id;
+  }
+
+  const ExactAnswer& answer_;
+  std::uint32_t light_;
+  const AnswerEntry& entry_;
+  const ReceiverGroup& group_;
+  std::optional<ShadeClass> background_;
+  Rules rules_;
+  const ComparisonOptions& options_;
+  PolygonComparison& result_;
+  GroupOverlay overlay_;
+  std::vector<ProjectedFragment> fragments_;
+  Shares shares_;
+};
+
+// A class that the light does not have fails the candidate elsewhere; here it is some darkness.
+Layer GroupComparison::layer_of(ShadeClass shade) const {
+  if (shade == ShadeClass::kLit) return kLit;
+  if (!rules_.area) return kShadow;
+  return shade == ShadeClass::kUmbra ? kUmbra : kPenumbra;
+}
+
+void GroupComparison::add(const CandidateFragment& fragment) {
+  const Geometry& geometry = answer_.prepared().geometry;
+  const Chart& chart = overlay_.chart();
+  std::vector<ChartPoint> loop;
+  Enclosure most;
+  for (const ExactPoint& point : fragment.loop) {
+    const HomogeneousPoint place = to_grid(geometry, point);
+    const mpz_class value = value_at(chart.support(), place);
+    if (value != 0) most = greater_of(most, enclose_ratio(value, place.w));
+    loop.push_back(chart.project(place));
+  }
+  if (!most.is_zero()) {
+    const Integers3& normal = chart.support().normal;
+    const Enclosure length = enclose_square_root(mpq_class(dot(normal, normal)));
+    result_.off_plane = greater_of(result_.off_plane, most / length * enclose(geometry.step));
+  }
+  ProjectedFragment projected{&fragment, normalise(std::move(loop))};
+  if (projected.loop.crosses_itself) ++result_.self_crossing;
+  const Layer layer = layer_of(fragment.shade);
+  overlay_.overlay().add_loop(projected.loop.loop, layer);
+  for (const auto& [a, b] : projected.loop.edges) overlay_.overlay().add_edge(a, b, layer);
+  fragments_.push_back(std::move(projected));
+}
+
+void GroupComparison::compare() {
+  if (rules_.area && !rules_.per_caster && group_.faces) add_deep_umbra();
+  overlay_.build();
+  const Overlay& overlay = overlay_.overlay();
+  if (!overlay.consistent()) {
+    result_.inconsistent = true;
+    return;
+  }
+  std::vector<Cell> cells;
+  std::optional<ShadeClass> background = background_;
+  if (background && layer_of(*background) == kShadow) background = ShadeClass::kShadow;
+  for (const Overlay::Face& face : overlay.faces()) {
+    cells.push_back(read_cell(face.winding, background, group_.optional, rules_));
+  }
+  cells[0] = Cell{};
+  result_.t_vertices += overlay.t_vertices();
+  std::vector<bool> ill_conditioned(cells.size(), false);
+  if (std::any_of(cells.begin(), cells.end(), [](const Cell& cell) { return cell.errs(); })) {
+    examine_regions(cells, ill_conditioned);
+  }
+  if (!group_.optional) {
+    for (const ShadeClass shade : kClasses) count_leaks(overlay, cells, shade, rules_, result_);
+  }
+  const auto share = [&](const auto& choice) {
+    std::vector<bool> chosen(cells.size());
+    for (std::size_t f = 1; f < cells.size(); ++f) chosen[f] = choice(cells[f], f);
+    return overlay_.share(chosen, options_.exact_limit);
+  };
+  const auto truth = [&](ShadeClass shade) {
+    return share([=](const Cell& cell, std::size_t) { return cell.inside && cell.truth == shade; });
+  };
+  shares_.lit = truth(ShadeClass::kLit);
+  shares_.shadow = truth(ShadeClass::kShadow);
+  shares_.penumbra = truth(ShadeClass::kPenumbra);
+  shares_.umbra = truth(ShadeClass::kUmbra);
+  shares_.missing_umbra = share([](const Cell& cell, std::size_t) { return cell.missing_umbra; });
+  const bool some_ill =
+      std::find(ill_conditioned.begin(), ill_conditioned.end(), true) != ill_conditioned.end();
+  const auto both = [&](bool Cell::*member, AreaShare& all, AreaShare& judged) {
+    all = share([&](const Cell& cell, std::size_t) { return cell.*member; });
+    judged = all;
+    if (!some_ill) return;
+    judged =
+        share([&](const Cell& cell, std::size_t f) { return cell.*member && !ill_conditioned[f]; });
+  };
+  both(&Cell::misclassified, shares_.misclassified, shares_.judged_misclassified);
+  both(&Cell::uncovered, shares_.uncovered, shares_.judged_uncovered);
+  both(&Cell::overlapping, shares_.overlapping, shares_.judged_overlapping);
+  both(&Cell::outside, shares_.outside, shares_.judged_outside);
+  shares_.ill_conditioned =
+      share([&](const Cell&, std::size_t f) { return bool{ill_conditioned[f]}; });
+}
+
+void GroupComparison::add_deep_umbra() {
+  DeepUmbra deep(answer_, light_, group_, overlay_.chart());
+  for (const ProjectedFragment& fragment : fragments_) {
+    if (fragment.fragment->shade != ShadeClass::kUmbra) continue;
+    if (fragment.loop.convex) {
+      deep.certify(fragment.loop.loop);
+      continue;
+    }
+    std::vector<ChartPoint> corners;
+    for (const auto& [a, b] : fragment.loop.edges) corners.push_back(a);
+    deep.certify_box_of(corners);
+  }
+  if (background_ == ShadeClass::kUmbra) deep.certify_whole();
+  for (const std::vector<ChartPoint>& loop : deep.certified()) {
+    overlay_.overlay().add_loop(loop, kDeep);
+  }
+}
+
+void GroupComparison::examine_regions(const std::vector<Cell>& cells,
+                                      std::vector<bool>& ill_conditioned) {
+  const Overlay& overlay = overlay_.overlay();
+  const std::vector<std::uint32_t> region_of =
+      connect(overlay,
+              [&](std::uint32_t a, std::uint32_t b) { return cells[a].errs() && cells[b].errs(); });
+  std::vector<std::vector<std::uint32_t>> faces(cells.size()), boundaries(cells.size());
+  for (std::uint32_t f = 1; f < cells.size(); ++f) {
+    if (cells[f].errs()) faces[region_of[f]].push_back(f);
+  }
+  for (std::uint32_t h = 0; h < overlay.halfedges().size(); ++h) {
+    const std::uint32_t here = overlay.halfedges()[h].face;
+    const std::uint32_t there = overlay.halfedges()[Overlay::twin(h)].face;
+    if (cells[here].errs() && region_of[here] != region_of[there]) {
+      boundaries[region_of[here]].push_back(h);
+    }
+  }
+  for (std::size_t r = 0; r < faces.size(); ++r) {
+    if (faces[r].empty()) continue;
+    ++result_.regions;
+    ErrorRegion region = examine(faces[r], boundaries[r], cells);
+    result_.width = greater_of(result_.width, region.witness.width);
+    if (region.ill_conditioned) {
+      ++result_.ill_conditioned_regions;
+      for (std::uint32_t face : faces[r]) ill_conditioned[face] = true;
+    } else {
+      result_.judged_width = greater_of(result_.judged_width, region.witness.width);
+    }
+    // Kept: the widest, those that count before those that are ill-conditioned.
+    const auto worse = [](const ErrorRegion& a, const ErrorRegion& b) {
+      if (a.ill_conditioned != b.ill_conditioned) return b.ill_conditioned;
+      return a.witness.width.middle() > b.witness.width.middle();
+    };
+    auto place = std::upper_bound(result_.worst.begin(), result_.worst.end(), region, worse);
+    if (place == result_.worst.end() && result_.worst.size() >= options_.most_regions) continue;
+    result_.worst.insert(place, std::move(region));
+    if (result_.worst.size() > options_.most_regions) result_.worst.pop_back();
+  }
+  for (ErrorRegion& region : result_.worst) {
+    if (!region.witness.text.empty()) continue;
+    const ChartPoint point =
+        overlay_.chart().project(to_grid(answer_.prepared().geometry, region.witness.point));
+    Cell cell;
+    cell.inside = region.witness.truth.has_value();
+    cell.truth = region.witness.truth.value_or(ShadeClass::kLit);
+    describe(region.witness, cell, point);
+  }
+}
+
+ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
+                                     const std::vector<std::uint32_t>& boundary,
+                                     const std::vector<Cell>& cells) {
+  const Overlay& overlay = overlay_.overlay();
+  const Geometry& geometry = answer_.prepared().geometry;
+  const ChartMetric metric(overlay_.chart());
+  ErrorRegion region;
+  std::vector<bool> chosen;
+  if (result_.worst.size() < options_.most_regions || boundary.size() > 8) {
+    chosen.assign(cells.size(), false);
+    for (std::uint32_t face : faces) chosen[face] = true;
+  }
+  const double resolution = options_.width_resolution / geometry.step.get_d();
+  const RegionShape shape = measure_region(overlay, metric, boundary, resolution);
+  Witness& witness = region.witness;
+  witness.width = not_negative(shape.width * enclose(geometry.step));
+  // The point belongs to one of the faces: say what is wrong right there. A region of several faces
+  // is represented by the face that errs worst.
+  std::uint32_t worst = faces.front();
+  for (std::uint32_t face : faces) {
+    if (kind_of(cells[face]) > kind_of(cells[worst])) worst = face;
+  }
+  ChartPoint inner = shape.interior;
+  if (faces.size() > 1) {
+    std::vector<std::uint32_t> own;
+    overlay.for_each_halfedge(worst, [&](std::uint32_t h) {
+      if (overlay.halfedges()[Overlay::twin(h)].face != worst) own.push_back(h);
+    });
+    inner = measure_region(overlay, metric, own, resolution).interior;
+  }
+  const Cell& cell = cells[worst];
+  witness.kind = kind_of(cell);
+  if (cell.inside) witness.truth = cell.truth;
+  // Of several classes one that is wrong.
+  bool wrong = false;
+  for (const ShadeClass shade : kClasses) {
+    if (!cell.claims(shade) || wrong) continue;
+    witness.found = shade;
+    wrong = !cell.accepts(shade, rules_);
+  }
+  witness.point = overlay_.chart().lift_to_scene(geometry, inner);
+  for (int k = 0; k < 3; ++k) witness.nearest[k] = enclose(witness.point[k]).middle();
+  witness.light = answer_.scene().lights[answer_.prepared().lights[light_].light].id;
+  witness.polygon = result_.polygon;
+  witness.side = entry_.side;
+  if (options_.clearance > 0 && group_.faces && !rules_.area &&
+      witness.kind == ErrorKind::kMisclassified) {
+    witness.clearance = decide(answer_.prepared(), answer_.prepared().lights[light_],
+                               group_.parts.front(), witness.point)
+                            .clearance;
+    region.ill_conditioned = witness.clearance && *witness.clearance < options_.clearance;
+  }
+  if (!chosen.empty()) region.area = overlay_.share(chosen, options_.exact_limit);
+  return region;
+}
+
+/// Names the caster that decides, and what follows the true class in a sentence.
+std::string GroupComparison::describe_shadow(Witness& witness, const std::string& claimed,
+                                             const ChartPoint& point) const {
+  if (!group_.faces) {
+    return group_.light_in_plane ? " (the light is in its plane)" : " (it faces away)";
+  }
+  const PreparedScene& prepared = answer_.prepared();
+  for (std::uint32_t part : group_.parts) {
+    for (const ShadowPiece& piece : answer_.shadows(light_, part)) {
+      if (witness.caster.empty() && contains(piece.loop, point)) {
+        witness.caster = id_of(piece.caster);
+      }
+    }
+  }
+  const Decision decision =
+      decide(prepared, prepared.lights[light_], group_.parts.front(), witness.point);
+  if (!witness.clearance) witness.clearance = decision.clearance;
+  if (witness.caster.empty()) {
+    witness.caster = !claimed.empty()  ? claimed
+                     : decision.caster ? id_of(*decision.caster)
+                                       : std::string();
+  }
+  return witness.truth == ShadeClass::kShadow ? " behind '" + witness.caster + "'" : std::string();
+}
+
+std::string GroupComparison::describe_area(Witness& witness, const std::string& claimed,
+                                           const ChartPoint& point) const {
+  if (!group_.faces) return " (it sees nothing of the light)";
+  bool penumbra = false;
+  for (std::uint32_t part : group_.parts) {
+    const AreaShade& shade = answer_.area_shade(light_, part, group_.side);
+    if (!shade.behind.empty() && contains(shade.behind, point)) return " (behind the light)";
+    for (const ShadowPiece& piece : shade.umbra) {
+      if (!contains(piece.loop, point)) continue;
+      witness.caster = id_of(piece.caster);
+      return " behind '" + witness.caster + "'";
+    }
+    for (const ShadowPiece& piece : shade.penumbra) {
+      if (penumbra || !contains(piece.loop, point)) continue;
+      penumbra = true;
+      witness.caster = id_of(piece.caster);
+    }
+  }
+  if (!penumbra) {
+    witness.caster = claimed;
+    return {};
+  }
+  std::string text = " of '" + witness.caster + "'";
+  if (witness.found == ShadeClass::kUmbra && !rules_.per_caster) {
+    const Side side = group_.side == PolygonSide::kFront ? Side::kFront : Side::kBack;
+    const AreaPointVisibility seen =
+        answer_.area_visibility(light_).at(group_.parts.front(), side, witness.point);
+    text += seen.deep() ? "; that no light arrives nearby could not be certified"
+                        : fmt::format("; {:.3g} of the light is seen", seen.visible.get_d());
+  }
+  return text;
+}
+
+void GroupComparison::describe(Witness& witness, const Cell& cell, const ChartPoint& point) const {
+  std::string claimed;
+  for (const ProjectedFragment& fragment : fragments_) {
+    if (fragment.loop.convex && contains(fragment.loop.loop, point)) {
+      claimed = fragment.fragment->caster;
+      if (!claimed.empty()) break;
+    }
+  }
+  std::string truth = "outside the polygon";
+  if (cell.inside) {
+    truth = std::string("truly ") + name_of(cell.truth);
+    truth += rules_.area ? describe_area(witness, claimed, point)
+                         : describe_shadow(witness, claimed, point);
+  }
+  std::string found = "nothing found";
+  if (witness.kind == ErrorKind::kOverlapping) {
+    found = "covered more than once";
+  } else if (witness.found) {
+    found = std::string("found ") + name_of(*witness.found);
+    if (!claimed.empty() && *witness.found != ShadeClass::kLit) {
+      found += " (caster '" + claimed + "')";
+    }
+  }
+  witness.text = found + ", " + truth;
+}
+
+}  // namespace
+
+const char* name_of(ShadeClass shade) {
+  switch (shade) {
+    case ShadeClass::kLit:
+      return "lit";
+    case ShadeClass::kShadow:
+      return "shadow";
+    case ShadeClass::kPenumbra:
+      return "penumbra";
+    case ShadeClass::kUmbra:
+      return "umbra";
+  }
+  return "";
+}
+
+const char* name_of(PolygonSide side) { return side == PolygonSide::kFront ? "front" : "back"; }
+
+const char* name_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::kNone:
+      return "none";
+    case ErrorKind::kOverlapping:
+      return "overlapping";
+    case ErrorKind::kOutside:
+      return "outside";
+    case ErrorKind::kUncovered:
+      return "uncovered";
+    case ErrorKind::kMisclassified:
+      return "misclassified";
+  }
+  return "";
+}
+
+namespace {
+
+/// The group whose plane a fragment is nearest to; of several nearly as near, one that it lies in.
+std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
+                      const std::vector<Chart>& charts, const CandidateFragment& fragment) {
+  if (entry.groups.size() == 1) return 0;
+  const PreparedScene& prepared = answer.prepared();
+  std::vector<HomogeneousPoint> points;
+  ExactPoint centre;
+  for (const ExactPoint& point : fragment.loop) {
+    points.push_back(to_grid(prepared.geometry, point));
+    for (int k = 0; k < 3; ++k) centre[k] += point[k];
+  }
+  if (fragment.loop.empty()) return 0;
+  for (mpq_class& coordinate : centre) coordinate /= fragment.loop.size();
+  const HomogeneousPoint middle = to_grid(prepared.geometry, centre);
+  std::vector<double> distances;
+  for (const Chart& chart : charts) {
+    const Integers3& normal = chart.support().normal;
+    const double length = enclose_square_root(mpq_class(dot(normal, normal))).middle();
+    double most = 0;
+    for (const HomogeneousPoint& point : points) {
+      most =
+          std::max(most, enclose_ratio(value_at(chart.support(), point), point.w).upper / length);
+    }
+    distances.push_back(most);
+  }
+  const double nearest = *std::min_element(distances.begin(), distances.end());
+  const double near = nearest + std::ldexp(1.0, static_cast<int>(prepared.position_bits) - 30);
+  std::size_t best = entry.groups.size();
+  for (std::size_t g = 0; g < entry.groups.size(); ++g) {
+    if (distances[g] > near) continue;
+    const ChartPoint point = charts[g].project(middle);
+    for (std::uint32_t part : entry.groups[g].parts) {
+      std::vector<ChartPoint> loop;
+      for (const Integers3& vertex : grid_loop(prepared, part))
+        loop.push_back(charts[g].at(vertex));
+      if (orientation(loop[0], loop[1], loop[2]) < 0) std::reverse(loop.begin(), loop.end());
+      if (contains(loop, point) &&
+          (best == entry.groups.size() || distances[g] < distances[best])) {
+        best = g;
+      }
+    }
+  }
+  if (best < entry.groups.size()) return best;
+  return static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) -
+                                  distances.begin());
+}
+
+}  // namespace
+
+PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
+                                const AnswerEntry& entry, const CandidatePolygon* candidate,
+                                const ClaimedTerms& terms, const ComparisonOptions& options) {
+  PolygonComparison result;
+  result.polygon = answer.scene().polygons[entry.polygon].id;
+  result.side = entry.side;
+  std::vector<std::vector<const CandidateFragment*>> fragments(entry.groups.size());
+  std::vector<Chart> charts;
+  for (const ReceiverGroup& group : entry.groups) {
+    charts.emplace_back(support_of(answer.prepared(), group.parts.front()));
+  }
+  if (candidate) {
+    result.fragments = candidate->fragments.size();
+    for (const CandidateFragment& fragment : candidate->fragments) {
+      fragments[group_for(answer, entry, charts, fragment)].push_back(&fragment);
+    }
+  }
+  using Shares = GroupComparison::Shares;
+  constexpr std::pair<AreaShare Shares::*, AreaShare PolygonComparison::*> kShares[] = {
+      {&Shares::lit, &PolygonComparison::lit},
+      {&Shares::shadow, &PolygonComparison::shadow},
+      {&Shares::penumbra, &PolygonComparison::penumbra},
+      {&Shares::umbra, &PolygonComparison::umbra},
+      {&Shares::missing_umbra, &PolygonComparison::missing_umbra},
+      {&Shares::misclassified, &PolygonComparison::misclassified},
+      {&Shares::uncovered, &PolygonComparison::uncovered},
+      {&Shares::overlapping, &PolygonComparison::overlapping},
+      {&Shares::outside, &PolygonComparison::outside},
+      {&Shares::ill_conditioned, &PolygonComparison::ill_conditioned},
+      {&Shares::judged_misclassified, &PolygonComparison::judged_misclassified},
+      {&Shares::judged_uncovered, &PolygonComparison::judged_uncovered},
+      {&Shares::judged_overlapping, &PolygonComparison::judged_overlapping},
+      {&Shares::judged_outside, &PolygonComparison::judged_outside}};
+  std::array<ShareSum, std::size(kShares)> sums;
+  for (std::size_t g = 0; g < entry.groups.size(); ++g) {
+    const ReceiverGroup& group = entry.groups[g];
+    if (group.optional && fragments[g].empty()) continue;
+    GroupComparison comparison(answer, light, entry, group, terms, options, result);
+    for (const CandidateFragment* fragment : fragments[g]) comparison.add(*fragment);
+    comparison.compare();
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      sums[i].add(comparison.shares().*kShares[i].first, comparison.whole_area());
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) result.*kShares[i].second = sums[i].result();
+  return result;
+}
+
+}  // namespace gnomon::oracle

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "gnomon/oracle/verdict.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <unordered_map>
+
+#include "gnomon/oracle/visibility.h"
+#include "oracle/judge/point_check.h"
+
+namespace gnomon::oracle {
+
+namespace {
+
+/// One comparison to be made.
+struct Task {
+  std::uint32_t light = 0;
+  AnswerEntry entry;
+  const CandidatePolygon* candidate = nullptr;
+  ClaimedTerms terms;
+};
+
+bool is_class_of(ShadeClass shade, bool area) {
+  return shade == ShadeClass::kLit || (shade != ShadeClass::kShadow) == area;
+}
+
+class Certifier {
+ public:
+  Certifier(const ExactAnswer& answer, const Candidate& candidate, const CertifyOptions& options)
+      : answer_(answer), candidate_(candidate), options_(options) {}
+
+  Report run();
+
+ private:
+  void match_light(std::uint32_t light, const CandidateLight* found);
+  void match_lights();
+  void compare_all();
+  void sum_up();
+  void judge();
+  bool fails(const PolygonComparison& comparison) const;
+  void problem(std::string text) { report_.problems.push_back(std::move(text)); }
+
+  const ExactAnswer& answer_;
+  const Candidate& candidate_;
+  const CertifyOptions& options_;
+  Report report_;
+  std::vector<Task> tasks_;
+  std::vector<PolygonComparison> comparisons_;
+  std::vector<PointCheck> point_checks_;
+  std::vector<bool> done_;
+};
+
+void Certifier::match_light(std::uint32_t light, const CandidateLight* found) {
+  const Scene& scene = answer_.scene();
+  const std::string& light_id = scene.lights[answer_.prepared().lights[light].light].id;
+  const std::vector<AnswerEntry>& entries = answer_.entries(light);
+  std::map<std::string, std::vector<const CandidatePolygon*>> by_id;
+  for (const CandidatePolygon& polygon : found->polygons) by_id[polygon.id].push_back(&polygon);
+  std::unordered_map<std::string, std::uint32_t> known;
+  for (std::uint32_t i = 0; i < scene.polygons.size(); ++i) known.emplace(scene.polygons[i].id, i);
+  const bool area = answer_.is_area(light);
+  if (found->background && !is_class_of(*found->background, area)) {
+    problem(fmt::format("light '{}': background '{}' is no class of {} light", light_id,
+                        name_of(*found->background), area ? "an area" : "a point or directional"));
+  }
+  std::unordered_map<std::string, std::size_t> sides;
+  for (const AnswerEntry& entry : entries) ++sides[scene.polygons[entry.polygon].id];
+
+  std::map<const CandidatePolygon*, bool> used;
+  for (const AnswerEntry& entry : entries) {
+    const std::string& id = scene.polygons[entry.polygon].id;
+    const CandidatePolygon* match = nullptr;
+    const auto place = by_id.find(id);
+    if (place != by_id.end()) {
+      for (const CandidatePolygon* polygon : place->second) {
+        const bool same_side = polygon->side_given ? polygon->side == entry.side
+                                                   : sides[id] == 1 || polygon->side == entry.side;
+        if (!same_side) continue;
+        if (match) {
+          problem(fmt::format("light '{}': polygon '{}' ({}) is listed twice", light_id, id,
+                              name_of(entry.side)));
+          used[polygon] = true;
+          continue;
+        }
+        match = polygon;
+        used[polygon] = true;
+      }
+    }
+    if (!match && !found->background) {
+      if (!options_.subset) {
+        problem(fmt::format("light '{}': polygon '{}' ({}) is missing", light_id, id,
+                            name_of(entry.side)));
+      }
+      continue;
+    }
+    tasks_.push_back({light, entry, match, {found->background, found->per_caster_umbra}});
+  }
+  for (const CandidatePolygon& polygon : found->polygons) {
+    bool known_classes = true;
+    for (const CandidateFragment& fragment : polygon.fragments) {
+      if (is_class_of(fragment.shade, area) || !known_classes) continue;
+      known_classes = false;
+      problem(fmt::format("light '{}': polygon '{}' has a fragment of class '{}'; {} was expected",
+                          light_id, polygon.id, name_of(fragment.shade),
+                          area ? "lit, penumbra or umbra" : "lit or shadow"));
+    }
+    if (used[&polygon]) continue;
+    const auto place = known.find(polygon.id);
+    if (place == known.end()) {
+      problem(fmt::format("light '{}': no polygon '{}' in the scene", light_id, polygon.id));
+      continue;
+    }
+    // A side that the light does not reach, or a polygon without area: shadow or umbra if anything.
+    AnswerEntry entry;
+    entry.polygon = place->second;
+    entry.side = polygon.side;
+    for (const AnswerEntry& other : entries) {
+      if (other.polygon == entry.polygon && entry.groups.empty()) entry.groups = other.groups;
+    }
+    for (ReceiverGroup& group : entry.groups) {
+      group.faces = false;
+      group.optional = true;
+      group.side = polygon.side;
+    }
+    if (!entry.groups.empty()) {
+      tasks_.push_back({light, entry, &polygon, {std::nullopt, found->per_caster_umbra}});
+    }
+  }
+}
+
+void Certifier::match_lights() {
+  const Scene& scene = answer_.scene();
+  const PreparedScene& prepared = answer_.prepared();
+  std::vector<std::uint32_t> wanted = options_.lights;
+  if (wanted.empty()) {
+    for (std::uint32_t i = 0; i < prepared.lights.size(); ++i) wanted.push_back(i);
+  }
+  std::map<std::string, const CandidateLight*> by_id;
+  for (const CandidateLight& light : candidate_.lights) {
+    if (!by_id.emplace(light.id, &light).second) {
+      problem(fmt::format("light '{}' is listed twice", light.id));
+    }
+    const bool known = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                   [&](const Light& own) { return own.id == light.id; });
+    if (!known) problem(fmt::format("no light '{}' in the scene", light.id));
+  }
+  for (std::uint32_t light : wanted) {
+    const std::string& id = scene.lights[prepared.lights[light].light].id;
+    const auto place = by_id.find(id);
+    if (place == by_id.end()) {
+      if (!options_.subset) problem(fmt::format("light '{}' is missing", id));
+      continue;
+    }
+    match_light(light, place->second);
+  }
+}
+
+void Certifier::compare_all() {
+  const PreparedScene& prepared = answer_.prepared();
+  report_.pairs = static_cast<std::uint64_t>(prepared.parts.size()) * prepared.parts.size();
+  report_.most_pairs = options_.most_pairs;
+  report_.by_points = report_.pairs > options_.most_pairs;
+  comparisons_.resize(tasks_.size());
+  point_checks_.resize(tasks_.size());
+  std::vector<char> done(tasks_.size(), 0);
+  std::map<std::uint32_t, VisibilityTest> visibility;
+  if (report_.by_points) {
+    for (const Task& task : tasks_) {
+      if (answer_.is_area(task.light)) continue;
+      visibility.try_emplace(task.light, prepared, prepared.lights[task.light]);
+    }
+  }
+  ComparisonOptions comparison_options;
+  comparison_options.clearance = options_.clearance;
+  comparison_options.width_resolution = report_.width / 16;
+  comparison_options.exact_limit = options_.exact_limit;
+  comparison_options.most_regions = options_.most_regions;
+  // Fragments' points and as many random ones, each against every part.
+  const std::uint64_t point_pairs =
+      2 * std::uint64_t{options_.points_a_polygon} * tasks_.size() * prepared.parts.size();
+  const std::uint64_t stride =
+      1 + point_pairs / std::max<std::uint64_t>(1, options_.most_point_pairs);
+  std::mutex mutex;
+  std::size_t finished = 0;
+  const auto compare_one = [&](std::size_t i) {
+    if (options_.interrupted && options_.interrupted->load(std::memory_order_relaxed)) return;
+    const Task& task = tasks_[i];
+    if (report_.by_points) {
+      comparisons_[i].polygon = answer_.scene().polygons[task.entry.polygon].id;
+      comparisons_[i].side = task.entry.side;
+      comparisons_[i].fragments = task.candidate ? task.candidate->fragments.size() : 0;
+      if ((i + options_.seed) % stride == 0) {
+        point_checks_[i] =
+            check_points(answer_, task.light, task.entry, task.candidate, task.terms,
+                         answer_.is_area(task.light) ? nullptr : &visibility.at(task.light),
+                         options_.points_a_polygon, options_.seed);
+      }
+    } else {
+      comparisons_[i] = compare_entry(answer_, task.light, task.entry, task.candidate, task.terms,
+                                      comparison_options);
+    }
+    done[i] = 1;
+    const std::lock_guard lock(mutex);
+    ++finished;
+    if (options_.progress) {
+      options_.progress(static_cast<double>(finished) / static_cast<double>(tasks_.size()));
+    }
+  };
+  tbb::task_arena arena(options_.threads == 0 ? tbb::task_arena::automatic
+                                              : static_cast<int>(options_.threads));
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, tasks_.size(), compare_one, tbb::simple_partitioner());
+  });
+  done_.assign(done.begin(), done.end());
+  report_.interrupted = std::find(done_.begin(), done_.end(), false) != done_.end();
+}
+
+bool Certifier::fails(const PolygonComparison& comparison) const {
+  for (const AreaShare* share : {&comparison.judged_misclassified, &comparison.judged_uncovered,
+                                 &comparison.judged_overlapping, &comparison.judged_outside}) {
+    if (!share->zero && !(share->fraction.upper <= report_.tolerance)) return true;
+  }
+  return !(comparison.judged_width.upper <= report_.width) ||
+         !(comparison.off_plane.upper <= report_.width);
+}
+
+void Certifier::sum_up() {
+  ComparisonTotals& totals = report_.totals;
+  std::optional<std::uint32_t> light;
+  // The witness: of a polygon that fails before one that does not, then the widest.
+  bool worst_fails = false;
+  for (std::size_t i = 0; i < tasks_.size(); ++i) {
+    if (light != tasks_[i].light) {
+      light = tasks_[i].light;
+      report_.lights.emplace_back();
+      report_.lights.back().id = answer_.scene().lights[answer_.prepared().lights[*light].light].id;
+    }
+    if (!done_[i]) continue;
+    const PolygonComparison& own = comparisons_[i];
+    ++totals.polygons;
+    totals.area = totals.area + own.lit.area + own.shadow.area + own.penumbra.area + own.umbra.area;
+    totals.lit = totals.lit + own.lit.area;
+    totals.shadow = totals.shadow + own.shadow.area;
+    totals.penumbra = totals.penumbra + own.penumbra.area;
+    totals.umbra = totals.umbra + own.umbra.area;
+    totals.missing_umbra = totals.missing_umbra + own.missing_umbra.area;
+    totals.misclassified = totals.misclassified + own.misclassified.area;
+    totals.uncovered = totals.uncovered + own.uncovered.area;
+    totals.overlapping = totals.overlapping + own.overlapping.area;
+    totals.outside = totals.outside + own.outside.area;
+    totals.ill_conditioned = totals.ill_conditioned + own.ill_conditioned.area;
+    const auto raise = [](double& worst, const AreaShare& share) {
+      worst = std::max(worst, share.fraction.upper);
+    };
+    raise(totals.worst_misclassified, own.misclassified);
+    raise(totals.worst_uncovered, own.uncovered);
+    raise(totals.worst_overlapping, own.overlapping);
+    raise(totals.worst_outside, own.outside);
+    totals.width = greater_of(totals.width, own.width);
+    totals.off_plane = greater_of(totals.off_plane, own.off_plane);
+    totals.fragments += own.fragments;
+    totals.regions += own.regions;
+    totals.ill_conditioned_regions += own.ill_conditioned_regions;
+    totals.invented += own.invented;
+    totals.lost += own.lost;
+    totals.t_vertices += own.t_vertices;
+    totals.self_crossing += own.self_crossing;
+    report_.oracle_fault = report_.oracle_fault || own.inconsistent;
+    const PointCheck& points = point_checks_[i];
+    report_.points_checked += points.checked;
+    report_.points_wrong += points.wrong;
+    report_.points_on_boundary += points.on_boundary;
+    if (points.wrong > 0 && !report_.worst) report_.worst = points.worst;
+    const bool wrong = own.regions > 0 || points.wrong > 0;
+    if (wrong) ++totals.wrong_polygons;
+    const bool own_fails = fails(own);
+    if (!own.worst.empty()) {
+      const Witness& witness = own.worst.front().witness;
+      const bool wider = !report_.worst || witness.width.middle() > report_.worst->width.middle();
+      if ((own_fails && !worst_fails) || (own_fails == worst_fails && wider)) {
+        report_.worst = witness;
+        worst_fails = own_fails;
+      }
+    }
+    report_.lights.back().polygons.push_back(std::move(comparisons_[i]));
+  }
+}
+
+void Certifier::judge() {
+  bool identical = true, within = true;
+  const PolygonComparison* off_plane = nullptr;
+  for (const LightComparison& light : report_.lights) {
+    for (const PolygonComparison& own : light.polygons) {
+      identical = identical && own.misclassified.zero && own.uncovered.zero &&
+                  own.overlapping.zero && own.outside.zero;
+      within = within && !fails(own);
+      if (!(own.off_plane.upper <= report_.width) &&
+          (!off_plane || own.off_plane.upper > off_plane->off_plane.upper)) {
+        off_plane = &own;
+      }
+    }
+  }
+  const auto failed = [&](std::string reason) {
+    report_.verdict = Verdict::kFailed;
+    report_.reason = std::move(reason);
+  };
+  if (report_.oracle_fault) {
+    failed("the oracle's overlay contradicts itself; this is a fault of the oracle");
+  } else if (!report_.problems.empty()) {
+    failed(report_.problems.front() +
+           (report_.problems.size() > 1 ? fmt::format(" (and {} more)", report_.problems.size() - 1)
+                                        : std::string()));
+  } else if (report_.interrupted) {
+    failed("interrupted before everything was compared");
+  } else if (report_.points_wrong > 0) {
+    failed(report_.worst ? report_.worst->text : "a point is wrong");
+  } else if (options_.leaks && report_.totals.invented + report_.totals.lost > *options_.leaks) {
+    failed(fmt::format("{} regions invented and {} lost, more than {} in all",
+                       report_.totals.invented, report_.totals.lost, *options_.leaks));
+  } else if (report_.by_points) {
+    report_.verdict = Verdict::kWithinTolerance;
+    report_.notes.push_back(fmt::format(
+        "{} pairs of parts are above the limit of {}: {} exact points were compared instead",
+        report_.pairs, report_.most_pairs, report_.points_checked));
+  } else if (identical) {
+    report_.verdict = Verdict::kIdentical;
+  } else if (within) {
+    report_.verdict = Verdict::kWithinTolerance;
+  } else {
+    report_.verdict = Verdict::kFailed;
+    if (report_.worst && !(report_.totals.regions == 0)) {
+      report_.reason = report_.worst->text;
+    }
+    if (report_.reason.empty() && off_plane) {
+      report_.reason = fmt::format("a vertex on polygon '{}' is {:.3g} off its plane",
+                                   off_plane->polygon, off_plane->off_plane.upper);
+    }
+  }
+}
+
+Report Certifier::run() {
+  report_.candidate = candidate_.name;
+  report_.diagonal = scene_diagonal(answer_.prepared());
+  report_.tolerance = options_.strict ? 0 : options_.tolerance;
+  report_.width = options_.strict ? 0 : options_.width.value_or(1e-9 * report_.diagonal);
+  report_.clearance = options_.clearance;
+  match_lights();
+  compare_all();
+  sum_up();
+  judge();
+  return std::move(report_);
+}
+
+}  // namespace
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kIdentical:
+      return "identical";
+    case Verdict::kWithinTolerance:
+      return "within tolerance";
+    case Verdict::kFailed:
+      return "failed";
+  }
+  return "";
+}
+
+double scene_diagonal(const PreparedScene& prepared) {
+  std::array<double, 3> low{}, high{};
+  bool first = true;
+  for (VertexId vertex : prepared.loop_vertices) {
+    const std::array<double, 3>& position = prepared.geometry.positions[vertex];
+    for (int k = 0; k < 3; ++k) {
+      low[k] = first ? position[k] : std::min(low[k], position[k]);
+      high[k] = first ? position[k] : std::max(high[k], position[k]);
+    }
+    first = false;
+  }
+  return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+}
+
+Expected<Report> certify(const ExactAnswer& answer, const Candidate& candidate,
+                         const CertifyOptions& options) {
+  if (!(options.tolerance >= 0)) {
+    return fail(ErrorCode::kUsage, "tolerance is negative", "a fraction of at least 0");
+  }
+  if (options.width && !(*options.width >= 0)) {
+    return fail(ErrorCode::kUsage, "width is negative", "scene units of at least 0");
+  }
+  if (!(options.clearance >= 0)) {
+    return fail(ErrorCode::kUsage, "clearance is negative", "scene units of at least 0");
+  }
+  return Certifier(answer, candidate, options).run();
+}
+
+Expected<Report> certify(const Scene& scene, const PreparedScene& prepared,
+                         const Candidate& candidate, const CertifyOptions& options) {
+  const ExactAnswer answer(scene, prepared);
+  return certify(answer, candidate, options);
+}
+
+}  // namespace gnomon::oracle

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Writes JSON in one stable layout: what is told to stand on lines stands one element a line, what
+// is inline stays on one line, so that a result can be read, searched and compared line by line.
+//
+// Guarantees: doubles read back to the same value, in every locale; NaN and infinity become null;
+// the output is valid UTF-8 whatever the strings hold (a broken byte becomes U+FFFD).
+#ifndef GNOMON_REPORT_JSON_JSON_WRITER_H
+#define GNOMON_REPORT_JSON_JSON_WRITER_H
+
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "report/text/text_sink.h"
+
+namespace gnomon::report {
+
+enum class JsonLayout : std::uint8_t { kLines, kInline };
+
+class JsonWriter {
+ public:
+  explicit JsonWriter(TextSink& sink) : sink_(sink) {}
+  JsonWriter(const JsonWriter&) = delete;
+  JsonWriter& operator=(const JsonWriter&) = delete;
+  /// Writes what is still buffered.
+  ~JsonWriter();
+
+  void begin_object(JsonLayout layout = JsonLayout::kLines) { begin('{', layout); }
+  void end_object() { end('}'); }
+  void begin_array(JsonLayout layout = JsonLayout::kLines) { begin('[', layout); }
+  void end_array() { end(']'); }
+
+  void key(std::string_view name);
+  void value(std::string_view text);
+  void value(const char* text) { value(std::string_view(text)); }
+  void value(double number);
+  void value(bool truth);
+  template <std::integral Integer>
+  requires(!std::same_as<Integer, bool>) void value(Integer number) {
+    element();
+    buffer_ += std::to_string(number);
+    flush_if_full();
+  }
+  void null();
+
+  template <class Value>
+  void member(std::string_view name, const Value& content) {
+    key(name);
+    value(content);
+  }
+
+  /// Ends the document with a line break.
+  void finish();
+
+ private:
+  struct Level {
+    JsonLayout layout;
+    bool empty = true;
+  };
+
+  void begin(char bracket, JsonLayout layout);
+  void end(char bracket);
+  void element();
+  void append_string(std::string_view text);
+  void new_line();
+  void flush_if_full();
+
+  TextSink& sink_;
+  std::string buffer_;
+  std::vector<Level> levels_;
+  bool after_key_ = false;
+};
+
+}  // namespace gnomon::report
+
+#endif  // GNOMON_REPORT_JSON_JSON_WRITER_H

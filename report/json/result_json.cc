@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/json/result_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "kernel/signs/nearest_double.h"
+#include "report/json/json_writer.h"
+#include "report/sides/polygon_sides.h"
+#include "report/text/number_text.h"
+
+namespace gnomon::report {
+
+namespace {
+
+/// Where a share is certain to less than this, one number says it all.
+constexpr double kTight = 1e-12;
+
+class ResultWriter {
+ public:
+  ResultWriter(TextSink& sink, const Scene& scene, const PreparedScene& prepared,
+               const ShadowResult& result, const ResultJsonOptions& options)
+      : json_(sink), scene_(scene), prepared_(prepared), result_(result), options_(options) {}
+
+  void write() {
+    json_.begin_object();
+    json_.member("format", "gnomon-result");
+    json_.member("version", 1);
+    json_.member("scene", scene_.name);
+    json_.member("geometry", options_.geometry_digest);
+    json_.member("kernel", result_.kernel);
+    json_.member("algorithm", result_.algorithm);
+    json_.member("exact", result_.exact);
+    json_.member("identity", result_.identity);
+    json_.member("thickness", result_.thickness);
+    write_dropped();
+    json_.key("lights");
+    json_.begin_array();
+    for (const LightResult& light : result_.lights) write_light(light);
+    json_.end_array();
+    if (options_.combined) write_combined();
+    write_findings();
+    json_.end_object();
+    json_.finish();
+  }
+
+ private:
+  void write_dropped() {
+    json_.key("dropped");
+    json_.begin_array();
+    for (const PreparationNote& note : prepared_.notes) {
+      if (note.repair != Repair::kZeroArea) continue;
+      json_.begin_object(JsonLayout::kInline);
+      json_.member("id", scene_.polygons[note.polygon].id);
+      json_.member("detail", note.detail);
+      json_.end_object();
+    }
+    json_.end_array();
+  }
+
+  /// The ids of the lights whose bits are set.
+  void write_lights(std::string_view name, std::uint64_t bits) {
+    json_.key(name);
+    json_.begin_array(JsonLayout::kInline);
+    for (std::size_t light = 0; light < result_.lights.size(); ++light) {
+      if (bits >> light & 1) json_.value(light_id(result_.lights[light]));
+    }
+    json_.end_array();
+  }
+
+  /// Fragments of each polygon's side with the lights that reach all of them, and those that they
+  /// are in the penumbra of: the pipeline of lights.
+  void write_combined() {
+    const bool any_area = std::ranges::any_of(
+        result_.lights, [&](const LightResult& light) { return is_area(light); });
+    json_.key("combined");
+    json_.begin_array();
+    for (std::size_t i = 0; i < result_.combined.size();) {
+      const std::uint32_t polygon = prepared_.parts[result_.combined[i].part].polygon;
+      const Side side = result_.combined[i].side;
+      json_.begin_object();
+      json_.member("id", scene_.polygons[polygon].id);
+      json_.member("side", side_name(side));
+      json_.key("fragments");
+      json_.begin_array();
+      for (; i < result_.combined.size() &&
+             prepared_.parts[result_.combined[i].part].polygon == polygon &&
+             result_.combined[i].side == side;
+           ++i) {
+        const CombinedFragment& fragment = result_.combined[i];
+        json_.begin_object(JsonLayout::kInline);
+        write_lights("lit_by", fragment.lit_by);
+        if (any_area) write_lights("penumbra_of", fragment.penumbra_of);
+        write_loops(result_.combined_points, result_.combined_exact_points, fragment.first,
+                    fragment.count);
+        json_.end_object();
+      }
+      json_.end_array();
+      json_.end_object();
+    }
+    json_.end_array();
+  }
+
+  void write_findings() {
+    for (const LightResult& light : result_.lights) {
+      if (light.dropped_slivers == 0) continue;
+      findings_.push_back("light " + light_id(light) + ": " +
+                          std::to_string(light.dropped_slivers) +
+                          " loops vanished in rounding and were dropped");
+    }
+    if (findings_.empty()) return;
+    json_.key("findings");
+    json_.begin_array();
+    for (const std::string& finding : findings_) json_.value(finding);
+    json_.end_array();
+  }
+
+  /// A piece of a light is named by its number: "panel/0".
+  std::string light_id(const LightResult& light) const {
+    const std::string& id = scene_.lights[prepared_.lights[light.light].light].id;
+    return light.piece == LightResult::kWhole ? id : id + "/" + std::to_string(light.piece);
+  }
+
+  bool is_area(const LightResult& light) const {
+    return prepared_.lights[light.light].type == LightType::kArea;
+  }
+
+  void write_light(const LightResult& light) {
+    json_.begin_object();
+    json_.member("id", light_id(light));
+    // Umbra is where one caster alone hides all of the light.
+    if (is_area(light)) json_.member("umbra", "per-caster");
+    const FacingShare facing = facing_share(prepared_, light);
+    json_.key("facing");
+    json_.begin_object(JsonLayout::kInline);
+    json_.member("polygons", facing.facing);
+    json_.member("away", facing.away);
+    json_.member("light_in_plane", facing.in_plane);
+    json_.member("away_share", facing.away_share());
+    json_.end_object();
+    json_.key("polygons");
+    json_.begin_array();
+    for (std::uint32_t polygon = 0; polygon + 1 < prepared_.first_part.size(); ++polygon) {
+      if (options_.interrupted != nullptr && *options_.interrupted) break;
+      for (const ClassifiedSide& side :
+           polygon_sides(prepared_, light, polygon, options_.exact_fractions)) {
+        write_side(light, side);
+      }
+    }
+    json_.end_array();
+    json_.end_object();
+  }
+
+  void write_side(const LightResult& light, const ClassifiedSide& side) {
+    const bool has_parts = side.parts.size() > 1 && !side.coplanar;
+    const bool lines = options_.fragments || options_.exact_loops || has_parts;
+    const std::string& id = scene_.polygons[side.polygon].id;
+    json_.begin_object(lines ? JsonLayout::kLines : JsonLayout::kInline);
+    json_.member("id", id);
+    json_.member("side", side_name(side.side));
+    const double area = nearest_double(side.area);
+    if (!std::isfinite(area)) find("polygon " + id + ": its area is beyond the range of doubles");
+    json_.member("area", area);
+    for (const LightState state : light_states(side.area_light)) {
+      write_share(state_name(state), light, side, area, share_of(side, state),
+                  exact_share_of(side, state));
+    }
+    if (side.area_light && !options_.deep_umbra.empty()) {
+      const auto index = static_cast<std::size_t>(&light - result_.lights.data());
+      const Interval deep = deep_umbra_share(prepared_, light, side, options_.deep_umbra[index]);
+      json_.key("deep_umbra");
+      json_.begin_object(JsonLayout::kInline);
+      json_.member("lower", deep.lower);
+      json_.member("upper", deep.upper);
+      json_.end_object();
+    }
+    if (side.reason != ShadowReason::kNone) json_.member("reason", reason_name(side.reason));
+    if (has_parts) write_parts(side);
+    if (options_.fragments || options_.exact_loops) write_fragments(light, side);
+    json_.end_object();
+  }
+
+  /// `area`: of the whole side.
+  void write_share(std::string_view name, const LightResult& light, const ClassifiedSide& side,
+                   double area, const Interval& share, const std::optional<mpq_class>& exact) {
+    json_.key(name);
+    json_.begin_object(JsonLayout::kInline);
+    if (options_.exact_fractions && exact) {
+      json_.member("fraction", exact->get_str());
+    } else {
+      if (!std::isfinite(share.middle())) {
+        find("light " + light_id(light) + ", polygon " + scene_.polygons[side.polygon].id +
+             ": its " + std::string(name) + " fraction is not a number");
+      }
+      json_.member("fraction", share.middle());
+      // A whole that has no one exact fraction says how certain its number is.
+      if ((options_.exact_fractions && !exact) || share.upper - share.lower > kTight) {
+        json_.key("enclosure");
+        json_.begin_array(JsonLayout::kInline);
+        json_.value(share.lower);
+        json_.value(share.upper);
+        json_.end_array();
+      }
+    }
+    if (share.lower == share.upper && (share.lower == 0 || share.lower == 1)) {
+      json_.member("area", share.lower == 0 ? 0.0 : area);
+    } else if (exact) {
+      json_.member("area", nearest_double(*exact * side.area));
+    } else if (std::isfinite(share.middle())) {
+      json_.member("area", nearest_double(mpq_class(share.middle()) * side.area));
+    } else {
+      json_.key("area");
+      json_.null();
+    }
+    json_.end_object();
+  }
+
+  void write_parts(const ClassifiedSide& side) {
+    json_.key("parts");
+    json_.begin_array();
+    const std::uint32_t first = prepared_.first_part[side.polygon];
+    for (std::uint32_t i = 0; i < side.parts.size(); ++i) {
+      const PartSide& part = side.parts[i];
+      json_.begin_object(JsonLayout::kInline);
+      json_.member("part", i);
+      json_.member("area", nearest_area(prepared_, prepared_.parts[first + i]));
+      for (const LightState state : light_states(side.area_light)) {
+        if (options_.exact_fractions) {
+          json_.member(state_name(state), exact_share(part, state).get_str());
+        } else {
+          json_.member(state_name(state), share_of(part, state).middle());
+        }
+      }
+      if (part.reason != ShadowReason::kNone) json_.member("reason", reason_name(part.reason));
+      json_.end_object();
+    }
+    json_.end_array();
+  }
+
+  void write_fragments(const LightResult& light, const ClassifiedSide& side) {
+    json_.key("fragments");
+    json_.begin_array();
+    const std::uint32_t first = prepared_.first_part[side.polygon];
+    for (std::uint32_t i = 0; i < side.parts.size(); ++i) {
+      const PartSide& part = side.parts[i];
+      if (part.reason != ShadowReason::kNone) {
+        const LightState dark = side.area_light ? LightState::kUmbra : LightState::kShadow;
+        if (is_listed(dark)) write_whole_part(prepared_.parts[first + i], dark, part.reason);
+        continue;
+      }
+      for (std::uint32_t f = 0; f < part.result->fragment_count; ++f) {
+        const Fragment& fragment = light.fragments[part.result->first_fragment + f];
+        if (is_listed(fragment.state)) write_fragment(light, fragment);
+      }
+    }
+    json_.end_array();
+  }
+
+  /// kShadow stands for all that is not lit.
+  bool is_listed(LightState state) const {
+    return !options_.only || *options_.only == state ||
+           (*options_.only == LightState::kShadow && state != LightState::kLit);
+  }
+
+  void write_point(const std::array<double, 3>& point) {
+    json_.begin_array(JsonLayout::kInline);
+    for (double coordinate : point) {
+      if (!std::isfinite(coordinate)) find("a fragment has a vertex that is not a number");
+      json_.value(coordinate);
+    }
+    json_.end_array();
+  }
+
+  void write_exact_point(const std::array<mpq_class, 3>& point) {
+    json_.begin_array(JsonLayout::kInline);
+    for (const mpq_class& coordinate : point) json_.value(coordinate.get_str());
+    json_.end_array();
+  }
+
+  template <class Points, class Write>
+  void write_loop(std::string_view name, const Points& points, Write write) {
+    json_.key(name);
+    json_.begin_array(JsonLayout::kInline);
+    for (const auto& point : points) write(point);
+    json_.end_array();
+  }
+
+  void write_loops(const std::vector<std::array<double, 3>>& points,
+                   const std::vector<std::array<mpq_class, 3>>& exact_points, std::uint32_t first,
+                   std::uint32_t count) {
+    if (!points.empty()) {
+      write_loop("loop", std::span(points).subspan(first, count),
+                 [&](const auto& point) { write_point(point); });
+    }
+    if (options_.exact_loops && !exact_points.empty()) {
+      write_loop("exact_loop", std::span(exact_points).subspan(first, count),
+                 [&](const auto& point) { write_exact_point(point); });
+    }
+  }
+
+  void write_whole_part(const Part& part, LightState dark, ShadowReason reason) {
+    const Geometry& geometry = prepared_.geometry;
+    json_.begin_object(JsonLayout::kInline);
+    json_.member("class", state_name(dark));
+    if (options_.fragments) {
+      write_loop("loop", prepared_.loop(part),
+                 [&](VertexId vertex) { write_point(geometry.positions[vertex]); });
+    }
+    if (options_.exact_loops) {
+      write_loop("exact_loop", prepared_.loop(part), [&](VertexId vertex) {
+        std::array<mpq_class, 3> point;
+        for (int k = 0; k < 3; ++k) {
+          point[k] = geometry.origin[k] + geometry.step * geometry.grid.at(vertex, k);
+        }
+        write_exact_point(point);
+      });
+    }
+    json_.member("reason", reason_name(reason));
+    json_.end_object();
+  }
+
+  void write_fragment(const LightResult& light, const Fragment& fragment) {
+    json_.begin_object(JsonLayout::kInline);
+    json_.member("class", state_name(fragment.state));
+    write_loops(light.points, light.exact_points, fragment.first, fragment.count);
+    if (fragment.caster != Fragment::kNoCaster) {
+      json_.member("caster", scene_.polygons[prepared_.parts[fragment.caster].polygon].id);
+    }
+    if (fragment.reason != ShadowReason::kNone) {
+      json_.member("reason", reason_name(fragment.reason));
+    }
+    json_.end_object();
+  }
+
+  void find(std::string finding) {
+    // A scene that breaks a kernel breaks it everywhere; a few places say enough.
+    constexpr std::size_t kMost = 20;
+    if (findings_.size() < kMost && (findings_.empty() || findings_.back() != finding)) {
+      findings_.push_back(std::move(finding));
+    }
+  }
+
+  JsonWriter json_;
+  const Scene& scene_;
+  const PreparedScene& prepared_;
+  const ShadowResult& result_;
+  const ResultJsonOptions& options_;
+  std::vector<std::string> findings_;
+};
+
+}  // namespace
+
+void write_result_json(TextSink& sink, const Scene& scene, const PreparedScene& prepared,
+                       const ShadowResult& result, const ResultJsonOptions& options) {
+  ResultWriter(sink, scene, prepared, result, options).write();
+}
+
+}  // namespace gnomon::report

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "scene/base/text_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <system_error>
+
+namespace gnomon {
+
+namespace {
+
+constexpr std::size_t kChunk = std::size_t{1} << 16;
+/// Of a pipe or device, whose length nobody knows beforehand.
+constexpr std::size_t kMostStreamBytes = std::size_t{1} << 32;
+
+tl::unexpected<Error> file_error(const std::string& name, const std::string& what,
+                                 std::string expected = {}) {
+  return fail(ErrorCode::kFile, what, std::move(expected), ErrorPlace{name, 0, 0, {}});
+}
+
+std::string system_message(int error) { return std::generic_category().message(error); }
+
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int number) : number_(number) {}
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+  ~FileDescriptor() {
+    if (number_ > STDERR_FILENO) ::close(number_);
+  }
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+Expected<void> not_utf8(std::string_view text, const std::string& file, std::size_t offset) {
+  return fail(ErrorCode::kSyntax, "this byte is not valid UTF-8", "a file in UTF-8",
+              place_in_text(file, text, offset));
+}
+
+/// The length of the valid UTF-8 sequence at `at`, 0 if there is none.
+std::size_t utf8_length(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : 0u;
+  };
+  const auto continues = [&](std::size_t i) { return (byte(i) & 0xC0u) == 0x80u; };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return 1;
+  if (lead < 0xC2) return 0;
+  if (lead < 0xE0) return continues(1) ? 2 : 0;
+  if (lead < 0xF0) {
+    if (!continues(1) || !continues(2)) return 0;
+    if (lead == 0xE0 && byte(1) < 0xA0) return 0;   // overlong
+    if (lead == 0xED && byte(1) >= 0xA0) return 0;  // surrogate
+    return 3;
+  }
+  if (lead > 0xF4 || !continues(1) || !continues(2) || !continues(3)) return 0;
+  if (lead == 0xF0 && byte(1) < 0x90) return 0;
+  if (lead == 0xF4 && byte(1) >= 0x90) return 0;
+  return 4;
+}
+
+}  // namespace
+
+std::string shown_name(const std::filesystem::path& path) {
+  return path == "-" ? "<stdin>" : path.string();
+}
+
+Expected<std::string> read_file(const std::filesystem::path& path) {
+  const std::string name = shown_name(path);
+  if (path.empty()) return file_error("", "no file name", "a file, or - for standard input");
+  const bool standard = path == "-";
+  const FileDescriptor file(standard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.number() < 0) return file_error(name, "cannot open: " + system_message(errno));
+  struct stat status {};
+  if (::fstat(file.number(), &status) != 0) {
+    return file_error(name, "cannot read: " + system_message(errno));
+  }
+  if (S_ISDIR(status.st_mode)) return file_error(name, "is a directory", "a file");
+  const bool regular = S_ISREG(status.st_mode);
+
+  std::string text;
+  if (regular && status.st_size > 0) text.reserve(static_cast<std::size_t>(status.st_size) + 1);
+  const auto chunk = std::make_unique<char[]>(kChunk);
+  for (;;) {
+    const ssize_t count = ::read(file.number(), chunk.get(), kChunk);
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      return file_error(name, "cannot read: " + system_message(errno));
+    }
+    if (count == 0) return text;
+    text.append(chunk.get(), static_cast<std::size_t>(count));
+    if (text.size() <= kChunk && !text.starts_with("ply") && text.find('\0') != std::string::npos) {
+      return text;
+    }
+    if (!regular && text.size() > kMostStreamBytes) {
+      return fail(ErrorCode::kLimit, "the stream does not end", "at most 4 GiB",
+                  ErrorPlace{name, 0, 0, {}});
+    }
+  }
+}
+
+ErrorPlace place_in_text(std::string file, std::string_view text, std::size_t offset,
+                         std::string pointer) {
+  offset = std::min(offset, text.size());
+  ErrorPlace place{std::move(file), 1, 1, std::move(pointer)};
+  std::size_t line_start = byte_order_mark(text);
+  if (offset < line_start) offset = line_start;
+  for (;;) {
+    const std::size_t end = text.find('\n', line_start);
+    if (end == std::string_view::npos || end >= offset) break;
+    ++place.line;
+    line_start = end + 1;
+  }
+  for (std::size_t at = line_start; at < offset; ++at) {
+    if ((static_cast<unsigned char>(text[at]) & 0xC0u) != 0x80u) ++place.column;
+  }
+  return place;
+}
+
+std::string quoted_text(std::string_view text) {
+  constexpr std::size_t kMostShown = 40;
+  constexpr char kHex[] = "0123456789ABCDEF";
+  std::string result = "'";
+  std::size_t at = 0;
+  while (at < text.size() && at < kMostShown) {
+    const auto byte = static_cast<unsigned char>(text[at]);
+    const std::size_t length = utf8_length(text, at);
+    const bool control =
+        byte < 0x20 || byte == 0x7F ||
+        (length == 2 && byte == 0xC2 && static_cast<unsigned char>(text[at + 1]) < 0xA0);
+    if (length != 0 && !control) {
+      result += text.substr(at, length);
+      at += length;
+    } else {
+      ++at;
+      result += "\\x";
+      result += kHex[byte >> 4];
+      result += kHex[byte & 15];
+    }
+  }
+  if (at < text.size()) result += "...";
+  result += '\'';
+  return result;
+}
+
+std::size_t byte_order_mark(std::string_view text) {
+  return text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+}
+
+Expected<void> check_is_text(std::string_view text, const std::string& file) {
+  if (text.find_first_not_of(" \t\r\n", byte_order_mark(text)) == std::string_view::npos) {
+    return fail(ErrorCode::kSyntax, "the file is empty", "a scene", ErrorPlace{file, 1, 1, {}});
+  }
+  const std::size_t nul = text.find('\0');
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") || nul == 0 ||
+      (nul == 1 && text.size() > 3 && text[3] == '\0')) {
+    return fail(ErrorCode::kSyntax, "the file is not UTF-8 (UTF-16 or UTF-32, it seems)",
+                "a file in UTF-8", ErrorPlace{file, 1, 1, {}});
+  }
+  if (nul != std::string_view::npos) {
+    return fail(ErrorCode::kSyntax, "a NUL byte", "text", place_in_text(file, text, nul));
+  }
+  return {};
+}
+
+Expected<void> check_is_utf8(std::string_view text, const std::string& file) {
+  if (auto is_text = check_is_text(text, file); !is_text) return is_text;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    // Eight ASCII bytes at a time.
+    std::uint64_t word = 0;
+    if (at + sizeof word <= text.size()) {
+      std::memcpy(&word, text.data() + at, sizeof word);
+      if ((word & 0x8080808080808080u) == 0) {
+        at += sizeof word;
+        continue;
+      }
+    }
+    const std::size_t length = utf8_length(text, at);
+    if (length == 0) return not_utf8(text, file, at);
+    at += length;
+  }
+  return {};
+}
+
+}  // namespace gnomon

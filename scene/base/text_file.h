@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Files as bytes, and places in them: what every reader needs before it knows a format. Nothing
+// here allocates more than a small multiple of what is there to be read.
+#ifndef GNOMON_SCENE_BASE_TEXT_FILE_H
+#define GNOMON_SCENE_BASE_TEXT_FILE_H
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "gnomon/kernel/error.h"
+
+namespace gnomon {
+
+/// How a file is called in messages: its path, or <stdin> for `-`.
+std::string shown_name(const std::filesystem::path& path);
+
+/// All bytes of a file; `-` is standard input. A file that holds a NUL byte in its first 64 KiB and
+/// is no PLY is not read to its end, since no text format goes on from there. Errors: kFile
+/// (absent, unreadable, a directory), kLimit (an endless stream).
+Expected<std::string> read_file(const std::filesystem::path& path);
+
+/// Line and column of a byte offset, both from 1; a column counts characters (UTF-8), and a byte
+/// order mark is none. Cost: O(offset).
+ErrorPlace place_in_text(std::string file, std::string_view text, std::size_t offset,
+                         std::string pointer = {});
+
+/// 'text' for a message: about 40 bytes of it, control characters and broken UTF-8 as \xHH.
+std::string quoted_text(std::string_view text);
+
+/// The length of a UTF-8 byte order mark at the start of the text: 3 or 0.
+std::size_t byte_order_mark(std::string_view text);
+
+/// An error if the text is empty, UTF-16 or UTF-32, or holds a NUL byte.
+Expected<void> check_is_text(std::string_view text, const std::string& file);
+
+/// check_is_text, and an error at the first byte that is not valid UTF-8.
+Expected<void> check_is_utf8(std::string_view text, const std::string& file);
+
+}  // namespace gnomon
+
+#endif  // GNOMON_SCENE_BASE_TEXT_FILE_H

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What the readers of OBJ, OFF and PLY have in common: tokens with their places, and a scene that
+// grows by vertices and faces. No line is copied, no count in a file is believed.
+#ifndef GNOMON_SCENE_FILES_MESH_TEXT_H
+#define GNOMON_SCENE_FILES_MESH_TEXT_H
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gnomon/scene/read.h"
+#include "scene/files/readers.h"
+
+namespace gnomon {
+
+struct Token {
+  std::string_view text;
+  std::size_t offset = 0;  // in the file
+};
+
+/// Words between blanks, line by line; `#` begins a comment.
+class Tokens {
+ public:
+  enum class Continuation : std::uint8_t { kNone, kBackslash };
+
+  Tokens(std::string_view text, std::size_t start, Continuation continuation)
+      : text_(text), at_(start), continuation_(continuation) {}
+
+  /// The next word of this line; nothing at its end.
+  std::optional<Token> in_line();
+  /// Goes to the next line; false at the end of the file.
+  bool next_line();
+  /// The next word on this or a later line.
+  std::optional<Token> anywhere();
+  std::size_t offset() const { return at_; }
+
+ private:
+  std::string_view text_;
+  std::size_t at_;
+  Continuation continuation_;
+};
+
+/// Any integer of a mesh file; nothing if the text is none or does not fit.
+std::optional<std::int64_t> to_integer(std::string_view text);
+
+class MeshBuilder {
+ public:
+  MeshBuilder(std::string_view text, const std::string& file, const ReadOptions& options);
+
+  /// An error at a byte of the file: line and column, or in binary data the byte's number.
+  tl::unexpected<Error> error(ErrorCode code, std::string what, std::string expected,
+                              std::size_t offset) const;
+  /// From here on the file has no lines.
+  void binary_data_begin() { is_binary_ = true; }
+
+  Expected<Number> number(const Token& token);
+  void add_vertex(Position position) { scene_.vertices.push_back(std::move(position)); }
+  std::size_t vertex_count() const { return scene_.vertices.size(); }
+  std::size_t face_count() const { return scene_.polygons.size(); }
+
+  /// How many vertices there will be: a greater index is an error at once. Faces may come first.
+  void expect_vertices(std::uint64_t count) { expected_vertices_ = count; }
+  /// One index of the face under construction, counted from 0.
+  Expected<void> add_index(std::int64_t index, std::size_t offset);
+  std::size_t index_count() const { return indices_.size(); }
+  Expected<void> end_face(std::size_t offset);
+
+  void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
+  /// What numbers the messages count from: 1 in OBJ.
+  void count_indices_from(std::int64_t first) { first_index_ = first; }
+
+  Expected<ReadResult> finish();
+
+ private:
+  tl::unexpected<Error> index_error(std::int64_t index, std::uint64_t count,
+                                    std::size_t offset) const;
+
+  std::string_view text_;
+  const std::string& file_;
+  Scene scene_;
+  std::vector<std::string> warnings_;
+  UnderflowCount underflow_;
+  bool is_binary_ = false;
+  std::vector<VertexId> indices_;
+  std::int64_t first_index_ = 0;
+  std::uint64_t expected_vertices_ = 0;
+  std::int64_t greatest_index_ = -1;
+  std::size_t greatest_offset_ = 0;
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_SCENE_FILES_MESH_TEXT_H

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gnomon/scene/read.h"
+
+#include <new>
+
+#include "scene/base/text_file.h"
+#include "scene/files/readers.h"
+
+namespace gnomon {
+
+std::string name_from_file(const std::string& file) {
+  if (file == "<stdin>") return "";
+  std::string stem = std::filesystem::path(file).stem().string();
+  // A file name may hold any bytes, a scene's name is UTF-8.
+  if (!stem.empty() && !check_is_utf8(stem, file)) stem = "scene";
+  return stem;
+}
+
+void UnderflowCount::report(std::string_view text, std::vector<std::string>& warnings) const {
+  if (count == 0) return;
+  const ErrorPlace place = place_in_text({}, text, first_offset);
+  warnings.push_back(std::to_string(count) + (count == 1 ? " number is" : " numbers are") +
+                     " too small for full double precision; first at line " +
+                     std::to_string(place.line) + ", column " + std::to_string(place.column));
+}
+
+Expected<ReadResult> parse_scene(std::string text, const std::string& file,
+                                 const ReadOptions& options) {
+  std::optional<SceneFormat> format = options.format;
+  if (!format && file == "<stdin>") format = SceneFormat::kJson;
+  if (!format) format = format_by_extension(file);
+  if (!format) format = format_by_content(text);
+  if (options.lights_only && format && *format != SceneFormat::kJson) {
+    return fail(ErrorCode::kFormat, "lights come from JSON only", "a scene file with lights",
+                ErrorPlace{file, 0, 0, {}});
+  }
+  if (!format) {
+    if (auto readable = check_is_text(text, file); !readable) {
+      return tl::unexpected(std::move(readable.error()));
+    }
+    return fail(ErrorCode::kFormat, "neither the name nor the content tells the format",
+                "JSON, OBJ, OFF or PLY", ErrorPlace{file, 0, 0, {}});
+  }
+  try {
+    switch (*format) {
+      case SceneFormat::kJson:
+        return read_json(std::move(text), file, options);
+      case SceneFormat::kObj:
+        return read_obj(text, file, options);
+      case SceneFormat::kOff:
+        return read_off(text, file, options);
+      default:
+        return read_ply(text, file, options);
+    }
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kLimit, "the scene does not fit into memory", {},
+                ErrorPlace{file, 0, 0, {}});
+  }
+}
+
+Expected<ReadResult> read_scene(const std::filesystem::path& path, const ReadOptions& options) {
+  Expected<std::string> text;
+  try {
+    text = read_file(path);
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kLimit, "the file does not fit into memory", {},
+                ErrorPlace{shown_name(path), 0, 0, {}});
+  }
+  if (!text) return tl::unexpected(std::move(text.error()));
+  return parse_scene(*std::move(text), shown_name(path), options);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The JSON reader: one pass of RapidJSON's SAX parser into the scene; structure is checked
+// afterwards by validate.h, and only then is a JSON pointer turned into a line, by a second pass
+// over the text.
+#include <rapidjson/reader.h>
+
+#include <optional>
+#include <utility>
+
+#include "gnomon/scene/validate.h"
+#include "scene/base/text_file.h"
+#include "scene/files/json_scene_handler.h"
+#include "scene/files/json_text.h"
+#include "scene/files/readers.h"
+
+namespace gnomon {
+
+namespace {
+
+std::optional<Error> check_structure(const std::string& text, const Scene& scene,
+                                     bool lights_only) {
+  if (lights_only && !scene.polygons.empty()) {
+    return Error{ErrorCode::kFormat, ErrorPlace{scene.file, 0, 0, "/polygons"},
+                 "polygons in a file of lights", "lights only"};
+  }
+  auto valid = lights_only ? validate_lights(scene) : validate_scene(scene);
+  if (valid) return std::nullopt;
+  Error error = std::move(valid.error());
+  error.where = place_in_text(scene.file, text, locate_pointer(text, error.where.pointer),
+                              error.where.pointer);
+  return error;
+}
+
+}  // namespace
+
+Expected<ReadResult> read_json(std::string text, const std::string& file,
+                               const ReadOptions& options) {
+  if (auto readable = check_is_utf8(text, file); !readable) {
+    return tl::unexpected(std::move(readable.error()));
+  }
+  const std::size_t start = byte_order_mark(text);
+  NumberMeaning meaning = options.numbers.value_or(NumberMeaning::kDouble);
+  bool meaning_is_fixed = options.numbers.has_value();
+  LongNumbers long_numbers;
+  // Twice at most for a meaning found late, and once more for long numbers.
+  for (;;) {
+    rapidjson::StringStream stream(text.c_str() + start);
+    SceneHandler handler(text, file, start, stream, long_numbers, meaning, meaning_is_fixed,
+                         options.lights_only);
+    rapidjson::Reader reader;
+    const rapidjson::ParseResult parsed = reader.Parse<kJsonFlags>(stream, handler);
+    if (handler.meaning_found_late()) {
+      meaning = *handler.meaning_found_late();
+      meaning_is_fixed = true;
+      continue;
+    }
+    if (parsed.Code() == rapidjson::kParseErrorNumberTooBig && long_numbers.empty()) {
+      long_numbers.hide_in(text);
+      if (!long_numbers.empty()) continue;
+    }
+    if (handler.error()) return tl::unexpected(*std::move(handler.error()));
+    if (parsed.IsError()) {
+      return tl::unexpected(
+          json_syntax_error(parsed.Code(), text, start + parsed.Offset(), file, handler.pointer()));
+    }
+    ReadResult result{std::move(handler.scene()), {}};
+    if (!handler.has_name()) result.scene.name = name_from_file(file);
+    if (auto error = check_structure(text, result.scene, options.lights_only)) {
+      return tl::unexpected(*std::move(error));
+    }
+    handler.underflow().report(text, result.warnings);
+    if (!options.lights_only && result.scene.polygons.empty()) {
+      result.warnings.emplace_back("the scene has no polygons");
+    }
+    return result;
+  }
+}
+
+}  // namespace gnomon

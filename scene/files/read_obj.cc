@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The Wavefront OBJ reader: `v` and `f`, with continued lines and indices relative to the last
+// vertex. Whatever else a file holds has no surface and is passed over; elements that draw
+// something are counted in a warning.
+#include <algorithm>
+#include <array>
+
+#include "scene/base/text_file.h"
+#include "scene/files/mesh_text.h"
+
+namespace gnomon {
+
+namespace {
+
+struct Drawn {
+  std::string_view keyword;
+  const char* name;
+  std::size_t count = 0;
+};
+
+Expected<void> read_vertex(Tokens& tokens, MeshBuilder& mesh, const Token& keyword) {
+  Position position;
+  std::size_t count = 0;
+  while (auto token = tokens.in_line()) {
+    // Behind the coordinates: a weight, or a colour. It has to be a number, and is not used.
+    auto value = mesh.number(*token);
+    if (!value) return tl::unexpected(std::move(value.error()));
+    if (count < position.size()) position[count] = *std::move(value);
+    ++count;
+  }
+  constexpr std::size_t kMostValues = 8;  // coordinates, weight, colour with alpha
+  if (count < position.size() || count > kMostValues) {
+    return mesh.error(ErrorCode::kFormat, "a vertex of " + std::to_string(count) + " numbers",
+                      "three coordinates", keyword.offset);
+  }
+  mesh.add_vertex(std::move(position));
+  return {};
+}
+
+/// "i", "i/t", "i//n" or "i/t/n"; only i counts.
+Expected<void> read_corner(MeshBuilder& mesh, const Token& token) {
+  std::string_view rest = token.text;
+  const std::string_view first = rest.substr(0, rest.find('/'));
+  const auto index = to_integer(first);
+  rest.remove_prefix(first.size());
+  bool well_formed = index.has_value();
+  for (int part = 0; well_formed && !rest.empty(); ++part) {
+    rest.remove_prefix(1);  // the slash
+    const std::string_view other = rest.substr(0, rest.find('/'));
+    rest.remove_prefix(other.size());
+    well_formed = part < 2 && (other.empty() || to_integer(other));
+  }
+  if (!well_formed) {
+    return mesh.error(ErrorCode::kSyntax, quoted_text(token.text) + " is not a vertex of a face",
+                      "an index such as 7, 7/1 or 7//2", token.offset);
+  }
+  if (*index == 0) {
+    return mesh.error(ErrorCode::kIndex, "index 0", "indices from 1, or from -1 backwards",
+                      token.offset);
+  }
+  const auto count = static_cast<std::int64_t>(mesh.vertex_count());
+  if (*index < 0 && *index < -count) {
+    return mesh.error(
+        ErrorCode::kIndex, "index " + std::to_string(*index) + " goes back beyond the first vertex",
+        count == 0 ? "vertices" : "-" + std::to_string(count) + " to -1", token.offset);
+  }
+  return mesh.add_index(*index > 0 ? *index - 1 : count + *index, token.offset);
+}
+
+Expected<void> read_face(Tokens& tokens, MeshBuilder& mesh, const Token& keyword) {
+  while (auto token = tokens.in_line()) {
+    if (auto corner = read_corner(mesh, *token); !corner) return corner;
+  }
+  return mesh.end_face(keyword.offset);
+}
+
+/// Faces may name vertices that come later. Too many at worst, where a line that begins with v goes
+/// on with another.
+std::uint64_t count_vertex_lines(std::string_view text) {
+  std::uint64_t count = 0;
+  std::size_t at = byte_order_mark(text);
+  while (at < text.size()) {
+    at = std::min(text.find_first_not_of(" \t\r\v\f", at), text.size());
+    if (at + 1 < text.size() && text[at] == 'v' &&
+        std::string_view(" \t\r\v\f\\").find(text[at + 1]) != std::string_view::npos) {
+      ++count;
+    }
+    at = std::min(text.find('\n', at), text.size() - 1) + 1;
+  }
+  return count;
+}
+
+}  // namespace
+
+Expected<ReadResult> read_obj(std::string_view text, const std::string& file,
+                              const ReadOptions& options) {
+  if (auto readable = check_is_text(text, file); !readable) {
+    return tl::unexpected(std::move(readable.error()));
+  }
+  MeshBuilder mesh(text, file, options);
+  mesh.count_indices_from(1);
+  mesh.expect_vertices(count_vertex_lines(text));
+  std::array<Drawn, 4> passed_over{{{"l", "line elements (l)"},
+                                    {"p", "point elements (p)"},
+                                    {"curv", "curves (curv)"},
+                                    {"surf", "free-form surfaces (surf)"}}};
+  Tokens tokens(text, byte_order_mark(text), Tokens::Continuation::kBackslash);
+  do {
+    const auto keyword = tokens.in_line();
+    if (!keyword) continue;
+    Expected<void> done;
+    if (keyword->text == "v") {
+      done = read_vertex(tokens, mesh, *keyword);
+    } else if (keyword->text == "f") {
+      done = read_face(tokens, mesh, *keyword);
+    } else {
+      for (Drawn& drawn : passed_over) {
+        if (drawn.keyword == keyword->text) ++drawn.count;
+      }
+    }
+    if (!done) return tl::unexpected(std::move(done.error()));
+  } while (tokens.next_line());
+  if (mesh.vertex_count() == 0 && mesh.face_count() == 0) {
+    return mesh.error(ErrorCode::kFormat, "no vertex and no face", "an OBJ file: v and f lines", 0);
+  }
+  for (const Drawn& drawn : passed_over) {
+    if (drawn.count != 0) mesh.warn(std::to_string(drawn.count) + " " + drawn.name + " ignored");
+  }
+  return mesh.finish();
+}
+
+}  // namespace gnomon

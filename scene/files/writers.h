@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The writers behind scene_to_text, and what they share.
+#ifndef GNOMON_SCENE_FILES_WRITERS_H
+#define GNOMON_SCENE_FILES_WRITERS_H
+
+#include <string>
+
+#include "gnomon/scene/write.h"
+
+namespace gnomon {
+
+Expected<std::string> write_json(const Scene& scene);
+Expected<std::string> write_obj(const Scene& scene);
+Expected<std::string> write_off(const Scene& scene);
+Expected<std::string> write_ply_ascii(const Scene& scene);
+Expected<std::string> write_ply_binary(const Scene& scene);
+
+/// Appends three numbers with `separator` between them. Errors: kNumber, kLimit, at `pointer`.
+Expected<void> append_position(std::string& text, const Position& position, NumberMeaning meaning,
+                               const char* separator, const std::string& pointer);
+
+}  // namespace gnomon
+
+#endif  // GNOMON_SCENE_FILES_WRITERS_H

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Cuts a projected polygon with holes into triangles, and merges these into convex parts. Private
+// to scene/src; prepare.h says what it is for.
+//
+// Which loops are legal: no ring crosses itself or another, none runs round an area twice; holes
+// lie inside the loop, and their interiors do not overlap. Rings may touch themselves and each
+// other, in points and along edges: a loop that reaches a hole along an edge and comes back on it
+// (a keyhole) is legal. Everything else is a CutProblem that names the place. In a polygon that is
+// not planar, rings may touch only in vertices that they share.
+//
+// The rule, by vertex indices of the scene alone (`key`), so that it depends neither on where a
+// loop starts nor on its direction:
+//  1. Edges that two rings share cancel, and rings that touch in vertices become one
+//  (region_loops.h); a
+//     polygon that its holes cut apart falls into components.
+//  2. Holes inside a component are joined to its ring by bridges: holes in order of their smallest
+//  key,
+//     the vertices of the hole and then of the ring in order of key, the first pair that sees each
+//     other.
+//  3. The ear at the smallest key is clipped, again and again. An ear is a strictly convex corner
+//  whose
+//     *closed* triangle holds no other vertex of the ring, but for vertices at its own three
+//     corners: so a vertex that only touches an ear's edge or its diagonal forbids the ear, and no
+//     triangle ever has a vertex of the polygon inside one of its edges.
+//  4. For planar polygons, parts are merged across diagonals (bridges among them), in order of the
+//     diagonals' sorted pairs of keys, while the union is convex; then collinear vertices are
+//     dropped.
+#ifndef GNOMON_SCENE_PREPARE_POLYGON_CUT_H
+#define GNOMON_SCENE_PREPARE_POLYGON_CUT_H
+
+#include <cstdint>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace gnomon::scene_detail {
+
+/// Vertices of one polygon in the projection, and its rings over them: the loop first, then the
+/// holes. The loop is counter-clockwise; holes are of either orientation.
+template <class Int>
+struct CutInput {
+  std::vector<Int> x, y;
+  std::vector<std::uint32_t> key;
+  std::vector<std::vector<std::uint32_t>> rings;
+  bool planar = true;  // in space: then parts are merged, and holes may touch inside of edges
+};
+
+struct CutProblem {
+  std::size_t ring = 0;  // 0 is the loop, j + 1 is hole j
+  std::string what;      // "crosses itself between vertices 3-4 and 7-8"
+};
+
+/// Convex counter-clockwise loops of indices into the input's vertices, each starting at its
+/// smallest key, sorted by their keys. Cost: O(n^2).
+template <class Int>
+tl::expected<std::vector<std::vector<std::uint32_t>>, CutProblem> cut_into_convex_parts(
+    CutInput<Int> input);
+
+}  // namespace gnomon::scene_detail
+
+#endif  // GNOMON_SCENE_PREPARE_POLYGON_CUT_H

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "scene/prepare/polygon_parts.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <unordered_map>
+
+#include "scene/base/parallel.h"
+#include "scene/base/prefetch.h"
+#include "scene/geometry/loop_geometry.h"
+#include "scene/geometry/numbering.h"
+#include "scene/geometry/plane_key.h"
+#include "scene/prepare/polygon_cut.h"
+
+namespace gnomon::scene_detail {
+namespace {
+
+/// What became of a run of polygons: loops and parts as in PreparedScene, but counted from the
+/// run's first, without planes and edges.
+template <class Int>
+struct Run {
+  std::vector<VertexId> loop_vertices;
+  std::vector<Part> parts;
+  std::vector<PlaneKey<Int>> keys;  // of parts
+  std::vector<PreparationNote> notes;
+  std::optional<Error> error;  // that of the first polygon that has one; later ones are left out
+};
+
+/// Makes the parts of polygons first .. last - 1.
+template <class Int>
+class RunMaker {
+ public:
+  RunMaker(const Scene& scene, const PreparedScene& prepared)
+      : scene_(scene), prepared_(prepared), grid_(prepared.geometry.grid) {}
+
+  Run<Int> make(std::size_t first, std::size_t last) {
+    run_.parts.reserve(last - first);
+    run_.keys.reserve(last - first);
+    run_.loop_vertices.reserve(4 * (last - first));
+    for (std::size_t p = first; p < last && !run_.error; ++p) {
+      look_ahead(p, last);
+      run_.error = add_polygon(static_cast<std::uint32_t>(p));
+    }
+    return std::move(run_);
+  }
+
+ private:
+  using Point = Vec3<Int>;
+
+  /// Polygons may name vertices in random order: asks for those of the next ones early.
+  void look_ahead(std::size_t p, std::size_t last) const {
+    constexpr std::size_t kAhead = 4;
+    if (p + 4 * kAhead < last) prefetch(scene_.polygons[p + 4 * kAhead].loop.data());
+    if (p + 2 * kAhead < last) {
+      for (const VertexId v : scene_.polygons[p + 2 * kAhead].loop) {
+        prefetch(&prepared_.vertex_of_input[v]);
+      }
+    }
+    if (p + kAhead < last && grid_.is_narrow()) {
+      for (const VertexId v : scene_.polygons[p + kAhead].loop) {
+        prefetch(grid_.narrow_point(prepared_.vertex_of_input[v]));
+      }
+    }
+  }
+
+  Error error_at(std::uint32_t polygon, std::size_t ring, const std::string& what,
+                 std::string expected) const {
+    const std::string where = ring == 0 ? fmt::format("/polygons/{}/loop", polygon)
+                                        : fmt::format("/polygons/{}/holes/{}", polygon, ring - 1);
+    const std::string name = ring == 0 ? "the loop" : fmt::format("hole {}", ring - 1);
+    Error error;
+    error.code = ErrorCode::kGeometry;
+    error.where.file = scene_.file;
+    error.where.pointer = where;
+    error.what = fmt::format("polygon '{}': {} {}", scene_.polygons[polygon].id, name, what);
+    error.expected = std::move(expected);
+    return error;
+  }
+
+  void note(std::uint32_t polygon, Repair repair, std::string detail) {
+    run_.notes.push_back({polygon, repair, std::move(detail)});
+  }
+
+  void load(const std::vector<VertexId>& input, std::vector<Corner>& corners) const {
+    corners.clear();
+    for (const VertexId v : input) corners.push_back({prepared_.vertex_of_input[v], v});
+  }
+
+  void load_points(const std::vector<Corner>& corners, std::vector<Point>& points) const {
+    points.clear();
+    for (const Corner& corner : corners) points.push_back(point<Int>(grid_, corner.vertex));
+  }
+
+  /// Neither repeated nor collinear vertices.
+  static bool is_clean(const std::vector<Point>& loop) {
+    const std::size_t n = loop.size();
+    Point last = loop[0] - loop[n - 1];
+    for (std::size_t i = 0; i < n; ++i) {
+      const Point next = loop[i + 1 == n ? 0 : i + 1] - loop[i];
+      if (cross(last, next).is_zero()) return false;
+      last = next;
+    }
+    return true;
+  }
+
+  std::optional<Error> add_polygon(std::uint32_t p) {
+    const Polygon& polygon = scene_.polygons[p];
+    load(polygon.loop, loop_);
+    load_points(loop_, points_);
+    // The usual case first: a strictly convex loop has neither repeated nor collinear vertices.
+    if (points_.size() >= 3 && polygon.holes.empty() && add_if_convex(p)) return std::nullopt;
+    if (points_.size() < 3 || !is_clean(points_)) {
+      clean_and_note(p);
+      if (loop_.size() < 3) {
+        note(p, Repair::kZeroArea, "dropped: all vertices on one line");
+        return std::nullopt;
+      }
+      load_points(loop_, points_);
+      if (polygon.holes.empty() && add_if_convex(p)) return std::nullopt;
+    }
+    const Point area = area_vector(points_);
+    if (area.is_zero()) {
+      return error_at(p, 0, "crosses itself: it runs as much clockwise as counter-clockwise",
+                      "a simple closed curve");
+    }
+    return cut(p, area, lies_in_plane(points_, points_[0], area));
+  }
+
+  /// Adds the loop at hand as it is, if it is planar and strictly convex.
+  bool add_if_convex(std::uint32_t p) {
+    Point area = area_vector(points_);
+    if (area.is_zero() || !lies_in_plane(points_, points_[0], area) || !is_convex(points_, area)) {
+      return false;
+    }
+    workspace_.clear();
+    for (const Corner& corner : loop_) workspace_.push_back(corner.vertex);
+    add_part(p, workspace_, std::move(area));
+    return true;
+  }
+
+  void clean_and_note(std::uint32_t p) {
+    const Cleaning done = clean_loop<Int>(grid_, loop_);
+    if (done.repeated > 0) {
+      note(p, Repair::kRepeatedVertices, fmt::format("{} repeated dropped", done.repeated));
+    }
+    if (done.collinear > 0) {
+      note(p, Repair::kCollinearVertices, fmt::format("{} collinear dropped", done.collinear));
+    }
+  }
+
+  std::optional<Error> cut(std::uint32_t p, const Point& area, bool planar) {
+    const Polygon& polygon = scene_.polygons[p];
+    std::vector<std::vector<Corner>> rings{loop_};
+    std::vector<std::size_t> ring_names{0};
+    Int hole_area = 0;
+    const int axis = projection_axis(area);
+    std::vector<Corner> hole;
+    std::vector<Point> hole_points;
+    for (std::size_t h = 0; h < polygon.holes.size(); ++h) {
+      load(polygon.holes[h], hole);
+      const Cleaning done = clean_loop<Int>(grid_, hole);
+      if (hole.size() < 3) {
+        note(p, Repair::kHoles, fmt::format("hole {} has no area and is dropped", h));
+        continue;
+      }
+      if (done.repeated + done.collinear > 0) {
+        note(p, done.collinear > 0 ? Repair::kCollinearVertices : Repair::kRepeatedVertices,
+             fmt::format("hole {}: {} dropped", h, done.repeated + done.collinear));
+      }
+      load_points(hole, hole_points);
+      planar = planar && lies_in_plane(hole_points, points_[0], area);
+      const Int part = area_vector(hole_points)[axis];
+      hole_area += part < 0 ? Int(-part) : part;
+      rings.push_back(hole);
+      ring_names.push_back(h + 1);
+    }
+
+    CutInput<Int> input;
+    std::vector<VertexId> vertices;
+    std::unordered_map<VertexId, std::uint32_t> local;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const bool swap = area[axis] < 0;
+    for (const auto& ring : rings) {
+      input.rings.emplace_back();
+      for (const Corner& corner : ring) {
+        const auto [entry, is_new] =
+            local.emplace(corner.vertex, static_cast<std::uint32_t>(vertices.size()));
+        const std::uint32_t i = entry->second;
+        if (is_new) {
+          vertices.push_back(corner.vertex);
+          input.x.push_back(coordinate<Int>(grid_, corner.vertex, swap ? v : u));
+          input.y.push_back(coordinate<Int>(grid_, corner.vertex, swap ? u : v));
+          input.key.push_back(corner.input);
+        }
+        input.key[i] = std::min(input.key[i], corner.input);
+        input.rings.back().push_back(i);
+      }
+    }
+    input.planar = planar;
+    if (rings.size() == 1 && planar && is_convex(points_, area)) {  // all holes were empty
+      add_part(p, vertices, area);
+      return std::nullopt;
+    }
+    const auto parts = cut_into_convex_parts(std::move(input));
+    if (!parts) {
+      const CutProblem& problem = parts.error();
+      std::string what = problem.what;
+      if (!planar) {
+        what += fmt::format(" (the polygon is not planar, so this is in its projection along {})",
+                            "xyz"[axis]);
+      }
+      return error_at(p, ring_names[problem.ring], what,
+                      problem.ring == 0 ? "a simple closed curve"
+                                        : "holes inside the loop that do not overlap");
+    }
+    const Int loop_area = area[axis] < 0 ? Int(-area[axis]) : area[axis];
+    if (parts->empty() && loop_area == hole_area) {
+      note(p, Repair::kZeroArea, "dropped: its holes fill it");
+      return std::nullopt;
+    }
+    const std::string count =
+        fmt::format("{} part{}", parts->size(), parts->size() == 1 ? "" : "s");
+    if (!planar) {
+      note(p, Repair::kNotPlanar,
+           fmt::format("{:.3g} scene units off its plane; {}", off_plane(rings), count));
+    } else if (rings.size() > 1) {
+      note(p, Repair::kHoles,
+           fmt::format("{} hole{}; {}", rings.size() - 1, rings.size() == 2 ? "" : "s", count));
+    } else {
+      note(p, Repair::kNotConvex, count);
+    }
+    for (const auto& part : *parts) {
+      workspace_.clear();
+      for (const std::uint32_t i : part) workspace_.push_back(vertices[i]);
+      const Point a = point<Int>(grid_, workspace_[0]);
+      add_part(p, workspace_,
+               cross(point<Int>(grid_, workspace_[1]) - a, point<Int>(grid_, workspace_[2]) - a));
+    }
+    return std::nullopt;
+  }
+
+  /// Greatest distance, in scene units, of a vertex from the plane of the first three vertices of
+  /// the loop, counted from its smallest index; for the message only.
+  double off_plane(const std::vector<std::vector<Corner>>& rings) const {
+    const auto& loop = rings[0];
+    const std::size_t n = loop.size();
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < n; ++i) {
+      if (loop[i].input < loop[first].input) first = i;
+    }
+    const Point origin = point<Int>(grid_, loop[first].vertex);
+    const Point normal = cross(point<Int>(grid_, loop[(first + 1) % n].vertex) - origin,
+                               point<Int>(grid_, loop[(first + 2) % n].vertex) - origin);
+    Int worst = 0;
+    for (const auto& ring : rings) {
+      for (const Corner& corner : ring) {
+        const Int value = dot(normal, point<Int>(grid_, corner.vertex) - origin);
+        const Int size = value < 0 ? Int(-value) : value;
+        if (size > worst) worst = size;
+      }
+    }
+    const mpz_class x = to_mpz(normal.x), y = to_mpz(normal.y), z = to_mpz(normal.z);
+    const mpz_class w = to_mpz(worst);
+    mpq_class square(w * w, x * x + y * y + z * z);
+    square.canonicalize();
+    square *= prepared_.geometry.step * prepared_.geometry.step;
+    return std::sqrt(square.get_d());
+  }
+
+  /// The normal is that of the loop's front, of any length.
+  void add_part(std::uint32_t p, const std::vector<VertexId>& loop, Point normal) {
+    Part part;
+    part.polygon = p;
+    part.first = static_cast<std::uint32_t>(run_.loop_vertices.size());
+    part.count = static_cast<std::uint32_t>(loop.size());
+    part.two_sided = scene_.is_two_sided(scene_.polygons[p]);
+    part.casts = scene_.polygons[p].casts;
+    run_.parts.push_back(part);
+    run_.keys.emplace_back(std::move(normal), point<Int>(grid_, loop[0]));
+    run_.loop_vertices.insert(run_.loop_vertices.end(), loop.begin(), loop.end());
+  }
+
+  const Scene& scene_;
+  const PreparedScene& prepared_;
+  const GridPositions& grid_;
+  Run<Int> run_;
+  std::vector<Corner> loop_;  // of the polygon at hand
+  std::vector<Point> points_;
+  std::vector<VertexId> workspace_;
+};
+
+/// Strings the runs together; their keys stay where they are.
+template <class Int>
+void join(std::vector<Run<Int>>& runs, std::size_t polygons, PreparedScene& out) {
+  std::size_t parts = 0, corners = 0;
+  for (const Run<Int>& run : runs) {
+    parts += run.parts.size();
+    corners += run.loop_vertices.size();
+  }
+  out.parts.reserve(parts);
+  out.loop_vertices.reserve(corners);
+  out.first_part.reserve(polygons + 1);
+  for (Run<Int>& run : runs) {
+    const auto first_corner = static_cast<std::uint32_t>(out.loop_vertices.size());
+    for (Part& part : run.parts) {
+      part.first += first_corner;
+      const auto next = static_cast<std::uint32_t>(out.parts.size());
+      out.first_part.resize(std::size_t{part.polygon} + 1, next);
+      out.parts.push_back(part);
+    }
+    out.loop_vertices.insert(out.loop_vertices.end(), run.loop_vertices.begin(),
+                             run.loop_vertices.end());
+    std::move(run.notes.begin(), run.notes.end(), std::back_inserter(out.notes));
+    run.parts = {};
+    run.loop_vertices = {};
+  }
+  out.first_part.resize(polygons + 1, static_cast<std::uint32_t>(parts));
+}
+
+/// Numbers planes in the order of the parts that lie in them. The first part's loop is the support.
+template <class Int>
+void number_planes(const std::vector<Run<Int>>& runs, PreparedScene& out) {
+  const auto key = [&](std::size_t i) -> const PlaneKey<Int>& {
+    const std::size_t run = out.parts[i].polygon / kPieceOfPolygons;
+    return runs[run].keys[i - out.first_part[run * kPieceOfPolygons]];
+  };
+  const Numbering planes(
+      out.parts.size(), [&](std::size_t i) { return key(i).hash(); },
+      [&](std::size_t i, std::size_t j) { return key(i).same_plane(key(j)); });
+  out.geometry.planes.resize(planes.count());
+  std::vector<std::uint8_t> flipped(planes.count());  // the key's normal against the support's
+  planes.for_each_first([&](std::size_t i, std::size_t plane) {
+    const auto loop = out.loop(out.parts[i]);
+    out.geometry.planes[plane] = {loop[0], loop[1], loop[2]};
+    flipped[plane] = key(i).flipped ? 1 : 0;
+  });
+  for_each_index(out.parts.size(), [&](std::size_t i) {
+    out.parts[i].plane = planes[i];
+    out.parts[i].flipped = (flipped[planes[i]] != 0) != key(i).flipped;
+  });
+}
+
+/// Numbers edges in the order of the loops that run along them.
+void number_edges(PreparedScene& out) {
+  const std::size_t corners = out.loop_vertices.size();
+  std::vector<EdgeEnds> ends(corners);
+  for_each_index(out.parts.size(), [&](std::size_t i) {
+    const Part& part = out.parts[i];
+    const auto loop = out.loop(part);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const VertexId from = loop[k], to = loop[k + 1 == loop.size() ? 0 : k + 1];
+      ends[part.first + k] = {std::min(from, to), std::max(from, to)};
+    }
+  });
+  const Numbering edges(
+      corners, [&](std::size_t i) { return mix(mix(0, ends[i].a), ends[i].b); },
+      [&](std::size_t i, std::size_t j) { return ends[i] == ends[j]; });
+  out.geometry.edges.resize(edges.count());
+  edges.for_each_first(
+      [&](std::size_t i, std::size_t edge) { out.geometry.edges[edge] = ends[i]; });
+  out.loop_edges.resize(corners);
+  for_each_index(corners, [&](std::size_t i) {
+    out.loop_edges[i] = PlaneRef(edges[i], out.loop_vertices[i] != ends[i].a);
+  });
+}
+
+}  // namespace
+
+template <class Int>
+std::optional<Error> make_parts(const Scene& scene, PreparedScene& out) {
+  const std::size_t polygons = scene.polygons.size();
+  {
+    std::vector<Run<Int>> runs =
+        map_pieces(polygons, kPieceOfPolygons, [&](std::size_t first, std::size_t last) {
+          return RunMaker<Int>(scene, out).make(first, last);
+        });
+    for (Run<Int>& run : runs) {
+      if (run.error) return std::move(run.error);
+    }
+    join(runs, polygons, out);
+    number_planes(runs, out);
+  }
+  number_edges(out);
+  return std::nullopt;
+}
+
+template std::optional<Error> make_parts<std::int64_t>(const Scene&, PreparedScene&);
+template std::optional<Error> make_parts<Int128>(const Scene&, PreparedScene&);
+template std::optional<Error> make_parts<Int256>(const Scene&, PreparedScene&);
+template std::optional<Error> make_parts<mpz_class>(const Scene&, PreparedScene&);
+
+}  // namespace gnomon::scene_detail

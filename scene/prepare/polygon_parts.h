@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Takes each polygon apart into convex planar loops, and interns their support planes and edges.
+// Private to scene/src.
+#ifndef GNOMON_SCENE_PREPARE_POLYGON_PARTS_H
+#define GNOMON_SCENE_PREPARE_POLYGON_PARTS_H
+
+#include <optional>
+
+#include "gnomon/scene/prepare.h"
+
+namespace gnomon::scene_detail {
+
+/// Fills parts, loops, edges, planes, first_part and notes of `out`, whose grid, positions and
+/// vertex_of_input are there already. Int must hold bits_needed(b, corners of the largest polygon).
+template <class Int>
+std::optional<Error> make_parts(const Scene& scene, PreparedScene& out);
+
+}  // namespace gnomon::scene_detail
+
+#endif  // GNOMON_SCENE_PREPARE_POLYGON_PARTS_H

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gnomon/scene/prepare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <span>
+
+#include "gnomon/scene/grid.h"
+#include "scene/base/exact_int.h"
+#include "scene/base/parallel.h"
+#include "scene/base/prefetch.h"
+#include "scene/geometry/numbering.h"
+#include "scene/prepare/polygon_parts.h"
+#include "scene/prepare/prepare_lights.h"
+
+namespace gnomon {
+namespace {
+
+Error index_error(const Scene& scene, std::size_t polygon, const std::string& where,
+                  VertexId index) {
+  Error error;
+  error.code = ErrorCode::kIndex;
+  error.where.file = scene.file;
+  error.where.pointer = fmt::format("/polygons/{}/{}", polygon, where);
+  error.what =
+      fmt::format("polygon '{}': vertex {} does not exist", scene.polygons[polygon].id, index);
+  error.expected = fmt::format("an index below {}", scene.vertices.size());
+  return error;
+}
+
+/// What a run of polygons says about vertices.
+struct VertexUse {
+  std::size_t most_corners = 3;  // of a polygon, those of its holes and their bridges included
+  std::optional<Error> error;    // the first
+};
+
+VertexUse mark_used_by(const Scene& scene, std::size_t begin, std::size_t end,
+                       std::vector<std::uint8_t>& used) {
+  constexpr std::size_t kAhead = 8;
+  VertexUse result;
+  std::size_t p = begin;
+  const auto mark = [&](const std::vector<VertexId>& ring, auto where) {
+    for (const VertexId v : ring) {
+      if (v >= used.size()) {
+        result.error = index_error(scene, p, where(), v);
+        return false;
+      }
+      // Other runs set the same marks.
+      const std::atomic_ref<std::uint8_t> mark_of_vertex(used[v]);
+      if (mark_of_vertex.load(std::memory_order_relaxed) == 0) {
+        mark_of_vertex.store(1, std::memory_order_relaxed);
+      }
+    }
+    return true;
+  };
+  for (; p < end; ++p) {
+    if (p + kAhead < end) scene_detail::prefetch(scene.polygons[p + kAhead].loop.data());
+    const Polygon& polygon = scene.polygons[p];
+    std::size_t corners = polygon.loop.size();
+    if (!mark(polygon.loop, [] { return std::string("loop"); })) return result;
+    for (std::size_t h = 0; h < polygon.holes.size(); ++h) {
+      corners += polygon.holes[h].size() + 2;
+      if (!mark(polygon.holes[h], [&] { return fmt::format("holes/{}", h); })) return result;
+    }
+    result.most_corners = std::max(result.most_corners, corners);
+  }
+  return result;
+}
+
+/// Marks the vertices that loops and holes name; finds the number of corners of the largest
+/// polygon.
+Expected<std::size_t> mark_used(const Scene& scene, std::vector<std::uint8_t>& used) {
+  std::size_t most_corners = 3;
+  for (VertexUse& piece :
+       scene_detail::map_pieces(scene.polygons.size(), scene_detail::kPieceOfPolygons,
+                                [&](std::size_t begin, std::size_t end) {
+                                  return mark_used_by(scene, begin, end, used);
+                                })) {
+    if (piece.error) return tl::unexpected(std::move(*piece.error));
+    most_corners = std::max(most_corners, piece.most_corners);
+  }
+  return most_corners;
+}
+
+/// Gives equal positions one number, in order of first use, and keeps one of each. The grid starts
+/// with the points `inputs`, which are vertices of the scene.
+void weld(const Scene& scene, std::span<const Position* const> inputs, ExactGrid& grid,
+          PreparedScene& out) {
+  const auto weld_by = [&](auto& coordinates) {
+    using Coordinates = std::decay_t<decltype(coordinates)>;
+    const auto hash = [&](std::size_t i) {
+      std::uint64_t result = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        result = scene_detail::hash_into(result, coordinates[3 * i + k]);
+      }
+      return result;
+    };
+    const auto equal = [&](std::size_t i, std::size_t j) {
+      return coordinates[3 * i] == coordinates[3 * j] &&
+             coordinates[3 * i + 1] == coordinates[3 * j + 1] &&
+             coordinates[3 * i + 2] == coordinates[3 * j + 2];
+    };
+    const scene_detail::Numbering vertices(inputs.size(), hash, equal);
+    scene_detail::for_each_index(inputs.size(), [&](std::size_t i) {
+      out.vertex_of_input[static_cast<std::size_t>(inputs[i] - scene.vertices.data())] =
+          vertices[i];
+    });
+    if (vertices.count() == inputs.size()) {
+      coordinates.resize(3 * inputs.size());
+    } else {
+      Coordinates distinct(3 * std::size_t{vertices.count()});
+      vertices.for_each_first([&](std::size_t i, std::size_t vertex) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          distinct[3 * vertex + k] = std::move(coordinates[3 * i + k]);
+        }
+      });
+      coordinates = std::move(distinct);
+    }
+    out.geometry.positions.resize(vertices.count());
+    vertices.for_each_first([&](std::size_t i, std::size_t vertex) {
+      const Position& position = *inputs[i];
+      out.geometry.positions[vertex] = {position[0].nearest(), position[1].nearest(),
+                                        position[2].nearest()};
+    });
+  };
+  if (grid.is_narrow) {
+    weld_by(grid.narrow);
+    out.geometry.grid = GridPositions::from_narrow(std::move(grid.narrow));
+  } else {
+    weld_by(grid.wide);
+    out.geometry.grid = GridPositions::from(std::move(grid.wide));
+  }
+}
+
+}  // namespace
+
+Expected<PreparedScene> prepare(const Scene& scene) {
+  std::size_t most_corners = 0;
+  PreparedScene out;
+  {
+    std::vector<const Position*> points;
+    {
+      std::vector<std::uint8_t> used(scene.vertices.size());
+      const Expected<std::size_t> corners = mark_used(scene, used);
+      if (!corners) return tl::unexpected(corners.error());
+      most_corners = *corners;
+      points.reserve(scene.vertices.size());
+      for (std::size_t v = 0; v < used.size(); ++v) {
+        if (used[v] != 0) points.push_back(&scene.vertices[v]);
+      }
+    }
+    const std::size_t inputs = points.size();
+    for (const Light& light : scene.lights) {
+      if (light.type == LightType::kPoint) points.push_back(&light.position);
+      if (light.type == LightType::kArea) {
+        for (const Position& position : light.loop) points.push_back(&position);
+      }
+    }
+    ExactGrid grid = make_grid(points);
+    out.position_bits = grid.bits;
+    out.geometry.step = grid.step;
+    out.geometry.origin = grid.origin;
+    if (auto error = scene_detail::prepare_lights(scene, grid, inputs, out)) {
+      return tl::unexpected(std::move(*error));
+    }
+    out.vertex_of_input.assign(scene.vertices.size(), PreparedScene::kUnused);
+    weld(scene, std::span(points).first(inputs), grid, out);
+  }
+
+  // The smallest integers that hold every determinant. Int256 takes coordinates of up to 128 bits.
+  const unsigned bits = scene_detail::bits_needed(out.geometry.grid.bits(), most_corners);
+  auto error = bits <= 64    ? scene_detail::make_parts<std::int64_t>(scene, out)
+               : bits <= 128 ? scene_detail::make_parts<scene_detail::Int128>(scene, out)
+               : bits <= 256 ? scene_detail::make_parts<scene_detail::Int256>(scene, out)
+                             : scene_detail::make_parts<mpz_class>(scene, out);
+  if (error) return tl::unexpected(std::move(*error));
+  return out;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Lights on the scene's grid, and what is wrong with those that cannot be used. Private to
+// scene/src.
+#ifndef GNOMON_SCENE_PREPARE_PREPARE_LIGHTS_H
+#define GNOMON_SCENE_PREPARE_PREPARE_LIGHTS_H
+
+#include <optional>
+
+#include "gnomon/scene/grid.h"
+#include "gnomon/scene/prepare.h"
+
+namespace gnomon::scene_detail {
+
+/// Fills lights, light_notes and direction_bits of `out`. The grid's points from `first` on are the
+/// point lights' positions and the area lights' loops, in order.
+std::optional<Error> prepare_lights(const Scene& scene, const ExactGrid& grid, std::size_t first,
+                                    PreparedScene& out);
+
+}  // namespace gnomon::scene_detail
+
+#endif  // GNOMON_SCENE_PREPARE_PREPARE_LIGHTS_H
