@@ -125,6 +125,15 @@ class SplitVerticesVolumeSpace : public CoordinateVolumeSpace<T> {
   SplitVerticesVolumeSpace fork() const { return *this; }
 };
 
+struct FragmentPlanesKernel {
+  using LightSpace = FragmentPlanesLightSpace<double>;
+  using VolumeSpace = CoordinateVolumeSpace<double>;
+};
+struct SplitVerticesKernel {
+  using LightSpace = SplitVerticesLightSpace<double>;
+  using VolumeSpace = SplitVerticesVolumeSpace<double>;
+};
+
 }  // namespace gnomon
 
 #endif  // GNOMON_ALGORITHMS_RUN_MUTANT_SPACE_H

@@ -64,8 +64,8 @@ bool keeps_coordinates(KernelId kernel) {
 
 }  // namespace
 
-bool applies_to(Mutation mutation, KernelId kernel, Algorithm algorithm) {
-  const bool svbsp = algorithm == Algorithm::kSvbsp, receiver = algorithm == Algorithm::kReceiver;
+bool applies_to(Mutation mutation, KernelId kernel, MethodId algorithm) {
+  const bool svbsp = algorithm == MethodId::kSvbsp, receiver = algorithm == MethodId::kReceiver;
   switch (mutation) {
     case Mutation::kNone:
       return true;
@@ -92,10 +92,10 @@ bool applies_to(Mutation mutation, KernelId kernel, Algorithm algorithm) {
   return false;
 }
 
-bool applies_to(Mutation mutation, KernelId kernel, AreaAlgorithm algorithm) {
+bool applies_to_area(Mutation mutation, KernelId kernel, MethodId algorithm) {
   if (mutation == Mutation::kNone) return true;
-  if (algorithm == AreaAlgorithm::kPieces) return false;
-  const bool merged = algorithm == AreaAlgorithm::kMerged;
+  if (algorithm == MethodId::kPieces) return false;
+  const bool merged = algorithm == MethodId::kMerged;
   switch (mutation) {
     case Mutation::kVerticesPerSide:
       return kernel == KernelId::kDouble;

@@ -9,37 +9,12 @@ namespace gnomon::fuzz {
 namespace {
 
 constexpr std::string_view kCommandPrefix = "command:";
-constexpr std::array kPointAlgorithms = {
-    std::pair{std::string_view("sectors"), Algorithm::kSectors},
-    std::pair{std::string_view("svbsp"), Algorithm::kSvbsp},
-    std::pair{std::string_view("receiver"), Algorithm::kReceiver},
-};
-constexpr std::array kAreaAlgorithms = {
-    std::pair{std::string_view("receiver"), AreaAlgorithm::kReceiver},
-    std::pair{std::string_view("merged"), AreaAlgorithm::kMerged},
-};
-
-template <class Table, class Value>
-std::string_view name_in(const Table& table, Value value) {
-  for (const auto& [name, own] : table) {
-    if (own == value) return name;
-  }
-  return table.front().first;
-}
-
-template <class Value, class Table>
-std::optional<Value> value_in(const Table& table, std::string_view name) {
-  for (const auto& [own, value] : table) {
-    if (own == name) return value;
-  }
-  return std::nullopt;
-}
-
-template <class Table>
-std::string names_in(const Table& table) {
-  std::string names;
-  for (const auto& entry : table) names += (names.empty() ? "" : ", ") + std::string(entry.first);
-  return names;
+/// The method of that name if it takes lights of that kind.
+std::optional<MethodId> method_for(LightKinds lights, std::string_view name) {
+  const std::optional<MethodId> id = method_by_name(name);
+  if (!id) return std::nullopt;
+  const LightKinds takes = method_info(*id).lights;
+  return (lights.point && takes.point) || (lights.area && takes.area) ? id : std::nullopt;
 }
 
 /// A mistake that its kernel and its algorithms cannot make would be looked for in vain.
@@ -55,7 +30,7 @@ Expected<void> check_mutation(const Subject& subject, const std::string& whole) 
   }
   const KernelId kernel = subject.kernel.kernel;
   if (!applies_to(subject.mutation, kernel, subject.algorithm) &&
-      !applies_to(subject.mutation, kernel, subject.area_algorithm)) {
+      !applies_to_area(subject.mutation, kernel, subject.area_algorithm)) {
     return fail(ErrorCode::kUsage, "'" + whole + "': " + mutation + " changes nothing there",
                 "a kernel and an algorithm that it applies to (docs/bug-zoo.md)");
   }
@@ -67,11 +42,11 @@ Expected<void> check_mutation(const Subject& subject, const std::string& whole) 
 std::string name_of(const Subject& subject) {
   if (subject.foreign()) return std::string(kCommandPrefix) + subject.command;
   std::string name = subject.kernel.name();
-  const bool usual_area = subject.area_algorithm == AreaAlgorithm::kReceiver;
-  if (subject.algorithm != Algorithm::kSectors || !usual_area) {
-    name += '/' + std::string(name_in(kPointAlgorithms, subject.algorithm));
+  const bool usual_area = subject.area_algorithm == MethodId::kReceiver;
+  if (subject.algorithm != MethodId::kSectors || !usual_area) {
+    name += '/' + std::string(method_info(subject.algorithm).name);
   }
-  if (!usual_area) name += '/' + std::string(name_in(kAreaAlgorithms, subject.area_algorithm));
+  if (!usual_area) name += '/' + std::string(method_info(subject.area_algorithm).name);
   if (subject.mutation != Mutation::kNone) name += '~' + std::string(name_of(subject.mutation));
   return name;
 }
@@ -113,18 +88,18 @@ Expected<Subject> parse_subject(std::string_view text) {
   if (!kernel) return tl::unexpected(kernel.error());
   subject.kernel = *kernel;
   if (!algorithms[0].empty()) {
-    const auto algorithm = value_in<Algorithm>(kPointAlgorithms, algorithms[0]);
+    const auto algorithm = method_for({.point = true}, algorithms[0]);
     if (!algorithm) {
       return fail(ErrorCode::kUsage, "'" + whole + "': no such algorithm for point lights",
-                  "one of: " + names_in(kPointAlgorithms));
+                  "one of: " + method_names({.point = true}));
     }
     subject.algorithm = *algorithm;
   }
   if (!algorithms[1].empty()) {
-    const auto algorithm = value_in<AreaAlgorithm>(kAreaAlgorithms, algorithms[1]);
+    const auto algorithm = method_for({.area = true}, algorithms[1]);
     if (!algorithm) {
       return fail(ErrorCode::kUsage, "'" + whole + "': no such algorithm for area lights",
-                  "one of: " + names_in(kAreaAlgorithms));
+                  "one of: " + method_names({.area = true}));
     }
     subject.area_algorithm = *algorithm;
   }

@@ -17,8 +17,8 @@ namespace gnomon::fuzz {
 
 struct Subject {
   KernelChoice kernel;
-  Algorithm algorithm = Algorithm::kSectors;                // of point and directional lights
-  AreaAlgorithm area_algorithm = AreaAlgorithm::kReceiver;  // of area lights
+  MethodId algorithm = MethodId::kSectors;        // of point and directional lights
+  MethodId area_algorithm = MethodId::kReceiver;  // of area lights
   Mutation mutation = Mutation::kNone;
   // A foreign program: a command line, run by the shell with the scene's file as its last argument;
   // the result is its standard output. Not empty: nothing above counts.

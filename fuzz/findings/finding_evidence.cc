@@ -219,7 +219,7 @@ class EvidenceSearch {
     ShadowOptions options = shadow_options(*subject_);
     options.mutation = Mutation::kNone;
     options.exact_fractions = false;
-    options.algorithm = Algorithm::kSvbsp;
+    options.algorithm = MethodId::kSvbsp;
     options.lights = {light_};
     const auto difference = explain(prepared_, options);
     if (!difference) {
@@ -236,12 +236,11 @@ class EvidenceSearch {
       for (const Light& light : scene_.lights) lights.push_back(light.id);
       evidence_.decision = to_sentence(**difference, prepared_, subject_->kernel.name(), lights);
     }
-    if (subject_->algorithm != Algorithm::kSvbsp) {
+    if (subject_->algorithm != MethodId::kSvbsp) {
       note += fmt::format(
           "{}The answer that failed is that of `{}`; decisions are those of `svbsp` on the "
           "same kernel, whose order can be followed.",
-          note.empty() ? "" : " ",
-          subject_->algorithm == Algorithm::kReceiver ? "receiver" : "sectors");
+          note.empty() ? "" : " ", method_info(subject_->algorithm).name);
     }
   }
 

@@ -213,7 +213,7 @@ std::string readme_text(const Finding& finding, const Evidence& evidence, const 
     } else if (subject->mutation == Mutation::kNone) {
       text +=
           fmt::format("gnomon certify {}/scene.json --kernel {}{}\n", name, subject->kernel.name(),
-                      subject->algorithm == Algorithm::kSvbsp ? " --algorithm svbsp" : "");
+                      subject->algorithm == MethodId::kSvbsp ? " --algorithm svbsp" : "");
     }
   }
   text += "```\n";

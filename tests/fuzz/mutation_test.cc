@@ -125,15 +125,14 @@ TEST(Mutations, ApplySomewhere) {
   for (const MutationInfo& info : mutations()) {
     bool applies = info.mutation == Mutation::kTVerticesLeftIn;
     for (const KernelInfo& kernel : kernel_list()) {
-      for (const Algorithm algorithm :
-           {Algorithm::kSvbsp, Algorithm::kSectors, Algorithm::kReceiver}) {
+      for (const MethodId algorithm : {MethodId::kSvbsp, MethodId::kSectors, MethodId::kReceiver}) {
         applies = applies || applies_to(info.mutation, kernel.id, algorithm);
         EXPECT_TRUE(applies_to(Mutation::kNone, kernel.id, algorithm));
       }
-      for (const AreaAlgorithm algorithm : {AreaAlgorithm::kReceiver, AreaAlgorithm::kMerged}) {
+      for (const MethodId algorithm : {MethodId::kReceiver, MethodId::kMerged}) {
         applies = applies || applies_to(info.mutation, kernel.id, algorithm);
       }
-      EXPECT_FALSE(applies_to(info.mutation, kernel.id, AreaAlgorithm::kPieces));
+      EXPECT_FALSE(applies_to(info.mutation, kernel.id, MethodId::kPieces));
     }
     EXPECT_TRUE(applies) << info.name;
   }

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The SVBSP algorithm from a prepared scene to a result, instantiated one kernel a source.
-#ifndef GNOMON_ALGORITHMS_RUN_SVBSP_RUN_H
-#define GNOMON_ALGORITHMS_RUN_SVBSP_RUN_H
+// The SVBSP method from a prepared scene to a result: one scene BSP, and for each light the
+// front-to-back order, the SVBSP tree and its output (Chin & Feiner 1989, sec. 4); lights together
+// go through the pipeline of many_lights.h.
+#ifndef GNOMON_ALGORITHMS_SVBSP_SVBSP_RUN_H
+#define GNOMON_ALGORITHMS_SVBSP_SVBSP_RUN_H
 
 #include <algorithm>
 #include <deque>
 #include <optional>
 #include <span>
-#include <thread>
 #include <utility>
+#include <vector>
 
 #include "algorithms/partition/fractions.h"
 #include "algorithms/partition/import_export.h"
-#include "algorithms/run/area_kernels.h"
 #include "algorithms/scene_bsp/scene_bsp.h"
 #include "algorithms/scene_bsp/scene_bsp.inl.h"
-#include "algorithms/sectors/sector_run.h"
 #include "algorithms/svbsp/balanced_prefix.h"
+#include "algorithms/svbsp/by_svbsp.h"
 #include "algorithms/svbsp/many_lights.h"
 #include "algorithms/svbsp/svbsp.h"
 #include "algorithms/svbsp/svbsp.inl.h"
-#include "gnomon/algorithms/shadows.h"
+#include "kernel/concept/kernel_model.h"
 
 namespace gnomon {
 
@@ -249,72 +250,13 @@ void SvbspRun<Space>::measure(PartResult& part, std::span<const ClassifiedLoop> 
   }
 }
 
-/// Every light by the sectors algorithm, one after another.
-template <SectorSpaceModel Space>
-Expected<ShadowResult> compute_by_sectors_here(const PreparedScene& scene,
-                                               const ShadowOptions& options,
-                                               const std::vector<std::uint32_t>& lights,
-                                               ShadowResult result) {
-  using Run = SectorRun<Space>;
-  result.algorithm = "sectors";
-  const double start = cpu_seconds();
-  const KernelOptions kernel_options{options.identity, options.thickness};
-  typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    Run run(scene, options, scene_space, lights[i], kernel_options);
-    std::function<void(double)> progress;
-    if (options.progress) {
-      progress = [&](double share) {
-        options.progress((static_cast<double>(i) + share) / static_cast<double>(lights.size()));
-      };
-    }
-    switch (run.run(progress)) {
-      case Run::Outcome::kDone:
-        break;
-      case Run::Outcome::kInterrupted:
-        return interrupted();
-      case Run::Outcome::kTooManyFragments:
-        return too_many_fragments(options);
-      case Run::Outcome::kNoIeee:
-        return tl::unexpected<Error>(check_fp_environment().error());
-    }
-    result.stages += run.stage_counts();
-    result.lights.push_back(run.finish());
-  }
-  result.stages += scene_space.stage_counts();
-  result.shadow_seconds = cpu_seconds() - start;
-  return result;
-}
-
-/// The same on as many threads as asked for.
-template <SectorSpaceModel Space>
-Expected<ShadowResult> compute_by_sectors(const PreparedScene& scene, const ShadowOptions& options,
-                                          const std::vector<std::uint32_t>& lights,
-                                          ShadowResult result) {
-  // More threads than processors would only wait for each other.
-  const unsigned most = std::max(1u, std::thread::hardware_concurrency());
-  const unsigned jobs = options.jobs == 0 ? most : std::min(options.jobs, most);
-  tbb::task_arena arena(static_cast<int>(jobs));
-  return arena.execute(
-      [&] { return compute_by_sectors_here<Space>(scene, options, lights, std::move(result)); });
-}
-
-/// A result without lights, of this kernel.
 template <LightSpaceModel Space>
-ShadowResult empty_result(const ShadowOptions& options) {
-  ShadowResult result;
-  result.kernel = kernel_info(options.kernel).name;
-  result.exact = Space::kExact;
-  result.identity = options.identity || Space::kExact;
-  result.thickness = Space::kExact ? 0 : options.thickness;
-  return result;
-}
-
-template <LightSpaceModel Space>
-Expected<ShadowResult> compute_by_svbsp(const PreparedScene& scene, const ShadowOptions& options,
-                                        const std::vector<std::uint32_t>& lights) {
+Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
   using SceneSpace = typename Space::SceneSpace;
-  ShadowResult result = empty_result<Space>(options);
+  const PreparedScene& scene = task.scene;
+  const ShadowOptions& options = task.options;
+  const LightList& lights = task.lights;
+  ShadowResult result = empty_result(options);
   result.algorithm = "svbsp";
 
   const double start = cpu_seconds();
@@ -342,7 +284,7 @@ Expected<ShadowResult> compute_by_svbsp(const PreparedScene& scene, const Shadow
 
   if (bsp.too_many) return too_many_fragments(options);
   std::optional<Pipeline<Space>> pipeline;
-  if (options.combined) {
+  if (!task.combined.empty()) {
     if (runs.size() > 64) {
       return fail(ErrorCode::kLimit, std::to_string(runs.size()) + " lights together",
                   "at most 64");
@@ -393,17 +335,12 @@ Expected<ShadowResult> compute_by_svbsp(const PreparedScene& scene, const Shadow
   return result;
 }
 
-template <LightSpaceModel Space>
-Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
-                                            const ShadowOptions& options,
-                                            const std::vector<std::uint32_t>& lights) {
-  if (options.algorithm == Algorithm::kSectors ||
-      (options.algorithm == Algorithm::kAutomatic && !options.combined)) {
-    return compute_by_sectors<Space>(scene, options, lights, empty_result<Space>(options));
-  }
-  return compute_by_svbsp<Space>(scene, options, lights);
+template <class Kernel>
+Expected<ShadowResult> BySvbsp<Kernel>::run(const RunTask& task) {
+  return with_light_space<Kernel>(task.options.count_stages,
+                                  [&]<class Space>() { return compute_by_svbsp<Space>(task); });
 }
 
 }  // namespace gnomon
 
-#endif  // GNOMON_ALGORITHMS_RUN_SVBSP_RUN_H
+#endif  // GNOMON_ALGORITHMS_SVBSP_SVBSP_RUN_H
