@@ -14,7 +14,8 @@
 #include <vector>
 
 #include "algorithms/illumination/apex.h"
-#include "algorithms/illumination/shaft_tree.h"
+#include "algorithms/illumination/light_shaft.h"
+#include "algorithms/partition/box_tree.h"
 #include "gnomon/kernel/sign.h"
 #include "gnomon/scene/prepare.h"
 
@@ -103,7 +104,7 @@ class LightView {
   std::uint32_t light_;
   VertexPairs pairs_;
   std::vector<Caster> casters_;
-  ShaftTree tree_;
+  BoxTree tree_;  // of casters, by number in casters_
   std::vector<ExactVector> light_grid_;
   std::vector<PairPoint> light_pairs_;
   std::array<ExactVector, 2> axes_;

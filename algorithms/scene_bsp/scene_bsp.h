@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/partition/box.h"
 #include "algorithms/partition/loop_store.h"
 #include "algorithms/partition/split.h"
 #include "gnomon/scene/prepare.h"
@@ -44,18 +45,13 @@ struct SceneBsp {
   bool too_many = false;  // more than max_pieces: given up
 };
 
-/// Axis-aligned box in scene units, for heuristics.
-struct ApproximateBox {
-  std::array<double, 3> low{}, high{};
-};
-
-/// Support planes and boxes in plain doubles, the same for every kernel.
+/// Support planes and boxes, in scene units, in plain doubles, the same for every kernel.
 class RootChooser {
  public:
   RootChooser(const Geometry& geometry, std::uint64_t seed);
   /// Index into `candidates` of the piece whose plane should split them.
-  std::size_t choose(std::span<const std::uint32_t> candidates,
-                     std::span<const ApproximateBox> boxes, std::span<const PlaneId> planes);
+  std::size_t choose(std::span<const std::uint32_t> candidates, std::span<const Box> boxes,
+                     std::span<const PlaneId> planes);
 
  private:
   std::uint64_t random();

@@ -11,9 +11,9 @@ namespace gnomon {
 
 /// What the tree needs only while it is built.
 struct BspBuilderState {
-  std::vector<ApproximateBox> boxes;  // per piece
-  std::vector<PlaneId> planes;        // per piece: its support plane
-  std::vector<std::uint32_t> work;    // pieces of all open tasks, the top task's last
+  std::vector<Box> boxes;           // per piece
+  std::vector<PlaneId> planes;      // per piece: its support plane
+  std::vector<std::uint32_t> work;  // pieces of all open tasks, the top task's last
   std::vector<std::uint32_t> front, back, on;
 };
 
@@ -29,13 +29,10 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
   const SceneEdges names = space.edges();
 
   const auto add_piece = [&](const LoopRange& range, PlaneId plane) {
-    ApproximateBox box;
-    for (std::uint32_t i = 0; i < range.count; ++i) {
-      const std::array<double, 3> p = space.approximate(tree.loops.vertex(range.first + i));
-      for (int k = 0; k < 3; ++k) {
-        box.low[k] = i == 0 ? p[k] : std::min(box.low[k], p[k]);
-        box.high[k] = i == 0 ? p[k] : std::max(box.high[k], p[k]);
-      }
+    const std::array<double, 3> first = space.approximate(tree.loops.vertex(range.first));
+    Box box{first, first};
+    for (std::uint32_t i = 1; i < range.count; ++i) {
+      box.add(space.approximate(tree.loops.vertex(range.first + i)));
     }
     tree.pieces.push_back(range);
     state.boxes.push_back(box);

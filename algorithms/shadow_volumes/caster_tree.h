@@ -10,32 +10,17 @@
 #define GNOMON_ALGORITHMS_SHADOW_VOLUMES_CASTER_TREE_H
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "algorithms/partition/box.h"
+#include "algorithms/partition/box_tree.h"
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/scene/prepare.h"
 
 namespace gnomon {
-
-struct Box {
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{kInfinity, kInfinity, kInfinity};
-  std::array<double, 3> high{-kInfinity, -kInfinity, -kInfinity};
-
-  void add(const std::array<double, 3>& point) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = point[k] < low[k] ? point[k] : low[k];
-      high[k] = point[k] > high[k] ? point[k] : high[k];
-    }
-  }
-  void add(const Box& other) {
-    add(other.low);
-    add(other.high);
-  }
-};
 
 /// A grid position as fractions of the grid's extent, each to 2^-53.
 std::array<double, 3> grid_fraction(const GridPositions& grid, VertexId vertex);
@@ -90,27 +75,15 @@ class CasterTree {
   CasterTree(const Geometry& geometry, const PreparedScene& scene,
              std::span<const std::uint32_t> parts);
 
-  const Box& box(std::uint32_t part) const { return boxes_[part]; }
+  const Box& box(std::uint32_t part) const { return tree_.box(part); }
   /// Appends the parts that may meet the shaft, in order of their numbers.
   void find(const Shaft& shaft, std::vector<std::uint32_t>& parts) const;
   /// Of these only those whose umbra may reach the receiver.
   void find(const Shaft& shaft, const UmbraReach& reach, std::vector<std::uint32_t>& parts) const;
 
  private:
-  static constexpr std::uint32_t kLeaf = 4;
-  struct Node {
-    Box box;
-    std::uint32_t begin = 0, end = 0;  // into order_
-    std::uint32_t right = 0;           // 0: a leaf; the left child follows its parent
-    double largest = 0;                // diagonal of a part's box
-  };
-  void build();
-  template <class MayBe>
-  void search(const MayBe& may_be, std::vector<std::uint32_t>& parts) const;
-
-  std::vector<Box> boxes_;  // of all parts
-  std::vector<std::uint32_t> order_;
-  std::vector<Node> nodes_;
+  BoxTree tree_;                 // its boxes are those of all parts
+  std::vector<double> largest_;  // of each node: the longest diagonal of a part's box below it
 };
 
 }  // namespace gnomon

@@ -27,7 +27,7 @@ struct Split {
 
 class Planner {
  public:
-  explicit Planner(std::span<const SpaceBox> boxes) : boxes_(boxes) {}
+  explicit Planner(std::span<const Box> boxes) : boxes_(boxes) {}
 
   Split choose(const std::vector<std::uint32_t>& members) {
     const std::size_t n = members.size();
@@ -57,13 +57,13 @@ class Planner {
   }
 
  private:
-  std::span<const SpaceBox> boxes_;
+  std::span<const Box> boxes_;
   std::vector<double> centres_;
 };
 
 }  // namespace
 
-SpacePrefix plan_space_prefix(std::span<const SpaceBox> receivers, std::uint32_t leaf_size) {
+SpacePrefix plan_space_prefix(std::span<const Box> receivers, std::uint32_t leaf_size) {
   struct Task {
     std::vector<std::uint32_t> members;
     std::int32_t parent = -1;

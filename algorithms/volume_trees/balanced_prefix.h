@@ -8,17 +8,13 @@
 #ifndef GNOMON_ALGORITHMS_VOLUME_TREES_BALANCED_PREFIX_H
 #define GNOMON_ALGORITHMS_VOLUME_TREES_BALANCED_PREFIX_H
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-namespace gnomon {
+#include "algorithms/partition/box.h"
 
-/// In fractions of the grid's extent.
-struct SpaceBox {
-  std::array<double, 3> low{}, high{};
-};
+namespace gnomon {
 
 struct SpacePrefix {
   static constexpr std::int32_t kLeaf = -1;
@@ -32,8 +28,9 @@ struct SpacePrefix {
   std::vector<Node> nodes;  // nodes[0] is the root; none: a single leaf
 };
 
-/// Splits only while that pays and a leaf has more than `leaf_size` receivers.
-SpacePrefix plan_space_prefix(std::span<const SpaceBox> receivers, std::uint32_t leaf_size);
+/// `receivers`: boxes in fractions of the grid's extent. Splits only while that pays and a leaf has
+/// more than `leaf_size` receivers.
+SpacePrefix plan_space_prefix(std::span<const Box> receivers, std::uint32_t leaf_size);
 
 }  // namespace gnomon
 

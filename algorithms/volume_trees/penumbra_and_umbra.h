@@ -136,12 +136,10 @@ typename PenumbraAndUmbra<Space>::Outcome PenumbraAndUmbra<Space>::build(
     std::span<const std::uint32_t> receivers, const Step& step) {
   // What is wrong on purpose is wrong only where no plane but the volumes' cuts them.
   if (options_->prefix && union_of(*options_) == Union::kTrue) {
-    std::vector<SpaceBox> spaces;
-    spaces.reserve(receivers.size());
-    for (const std::uint32_t part : receivers) {
-      spaces.push_back({boxes_->box(part).low, boxes_->box(part).high});
-    }
-    const SpacePrefix prefix = plan_space_prefix(spaces, kReceiversALeaf);
+    std::vector<Box> receiver_boxes;
+    receiver_boxes.reserve(receivers.size());
+    for (const std::uint32_t part : receivers) receiver_boxes.push_back(boxes_->box(part));
+    const SpacePrefix prefix = plan_space_prefix(receiver_boxes, kReceiversALeaf);
     penumbra_.plant(prefix);
     umbra_.plant(prefix);
   }

@@ -316,12 +316,12 @@ UnionCheck check_union(UnionScene& scene, Random& random, Union kind, bool prefi
   VolumeTree<Space> tree(space, kind);
   CellFilter<Space> filter(space, true);
   if (prefix) {
-    std::vector<SpaceBox> boxes;
+    std::vector<Box> boxes;
     LoopStore<Vertex> store;
     for (std::uint32_t i = 0; i < scene.scene().parts.size(); ++i) {
       store.clear();
       const auto loop = load(space, scene.scene(), i, store);
-      SpaceBox box{{2, 2, 2}, {-1, -1, -1}};
+      Box box{{2, 2, 2}, {-1, -1, -1}};
       for (std::uint32_t k = 0; k < loop.size(); ++k) {
         const auto position = space.position(loop.corner(k));
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -427,9 +427,9 @@ TEST(VolumeTree, WrongUnionIsWrong) {
 
 TEST(VolumeTreePrefix, LeavesHoldWhatTheyShould) {
   Random random(5);
-  std::vector<SpaceBox> boxes;
+  std::vector<Box> boxes;
   for (int i = 0; i < 500; ++i) {
-    SpaceBox box;
+    Box box;
     for (std::size_t k = 0; k < 3; ++k) {
       box.low[k] = std::ldexp(static_cast<double>(random.below(1000)), -10);
       box.high[k] = box.low[k] + std::ldexp(static_cast<double>(random.below(50)), -11);
@@ -438,7 +438,7 @@ TEST(VolumeTreePrefix, LeavesHoldWhatTheyShould) {
   }
   const SpacePrefix prefix = plan_space_prefix(boxes, 8);
   EXPECT_GT(prefix.nodes.size(), 40u);
-  for (const SpaceBox& box : boxes) {  // no box reaches into a leaf that is not used
+  for (const Box& box : boxes) {  // no box reaches into a leaf that is not used
     std::vector<std::int32_t> stack{0};
     while (!stack.empty()) {
       const std::int32_t at = stack.back();
