@@ -176,7 +176,7 @@ bool PenumbraAndUmbra<Space>::filter(VolumeTreeWorkspace<Space>& workspace, cons
                                      const Emit& emit) const {
   workspace.penumbra.clear();
   workspace.filter.filter(penumbra_, loop, receiving, workspace.penumbra);
-  for (const CellLoop& cell : workspace.penumbra.cells) {
+  for (const CellLoop& cell : workspace.penumbra.fragments) {
     const Loop piece = workspace.penumbra.loops.view(cell.loop, loop.support);
     if (cell.caster == Fragment::kNoCaster) {
       if (!emit(PieceClass{LightState::kLit}, piece)) return false;
@@ -184,7 +184,7 @@ bool PenumbraAndUmbra<Space>::filter(VolumeTreeWorkspace<Space>& workspace, cons
     }
     workspace.umbra.clear();
     workspace.filter.filter(umbra_, piece, receiving, workspace.umbra);
-    for (const CellLoop& inner : workspace.umbra.cells) {
+    for (const CellLoop& inner : workspace.umbra.fragments) {
       const bool umbra = inner.caster != Fragment::kNoCaster;
       const PieceClass state{umbra ? LightState::kUmbra : LightState::kPenumbra,
                              umbra ? inner.caster : cell.caster, ShadowReason::kNone};

@@ -368,7 +368,7 @@ UnionCheck check_union(UnionScene& scene, Random& random, Union kind, bool prefi
     output.clear();
     filter.filter(tree, whole, {front, &corner}, output);
     mpq_class area = 0;
-    for (const CellLoop& cell : output.cells) {
+    for (const CellLoop& cell : output.fragments) {
       const auto loop = output.loops.view(cell.loop, part.plane);
       Point centre{0, 0, 0};
       for (std::uint32_t k = 0; k < loop.size(); ++k) {
