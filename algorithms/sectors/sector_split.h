@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel/concept/light_space.h"
+#include "algorithms/partition/chart_split.h"
 
 namespace gnomon {
 
@@ -39,33 +39,14 @@ struct SectorItem : ChartBox {
   std::uint32_t parent = 0;  // the item of the parent cell that it is a piece of
 };
 
-/// A split of a cell by u = value or v = value; the value is exactly `steps` * 2^-bits.
-struct SectorSplit {
-  int axis = 0;  // 0: u, 1: v
-  double value = 0;
-  std::int64_t steps = 0;
-  int bits = 0;
-};
-
-/// n log2 n.
-double n_log_n(std::size_t n);
-
 class SplitChooser {
  public:
-  /// Splits only while f(below) + f(above) < kGrowth f(n), f(n) = n log n.
-  static constexpr double kGrowth = 1.1;
-
-  /// Nothing if no split pays.
-  std::optional<SectorSplit> choose(std::span<const SectorItem> items);
+  /// Nothing if no split pays (kSplitGrowth).
+  std::optional<ChartSplit> choose(std::span<const SectorItem> items);
 
  private:
   static constexpr int kBins = 32;
 };
-
-/// The plane of a split in the coordinates of q; its front is where the coordinate is larger.
-/// `grid_bits`: b of the scene (the unit of a directional light's chart).
-PrefixPlane plane_of(const SectorSplit& split, const LightChart& chart, bool directional,
-                     unsigned grid_bits);
 
 }  // namespace gnomon
 

@@ -192,7 +192,7 @@ class SectorTree {
   bool split_by_sector_plane(Frame& frame, std::uint32_t open_end);
   PlaneRef next_sector_plane(const SectorCell& cell, SectorCell& above, SectorCell& below) const;
   PlaneRef choose_edge_plane(std::uint32_t begin, std::uint32_t end);
-  void partition(Frame& frame, std::uint32_t open_end, PlaneRef plane, const SectorSplit* split);
+  void partition(Frame& frame, std::uint32_t open_end, PlaneRef plane, const ChartSplit* split);
   /// `chart`: of the cell; null if it has none.
   void leaf(std::uint32_t begin, std::uint32_t end, const LightChart* chart);
   void subtract_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters,

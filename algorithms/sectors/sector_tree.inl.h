@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "algorithms/partition/kd_tree.h"
 #include "algorithms/partition/sliver.h"
 #include "algorithms/sectors/sector_tree.h"
 
@@ -324,7 +325,7 @@ bool SectorTree<Space>::split(Frame& frame, std::uint32_t open_end) {
     frame.located = true;
   }
   const std::uint32_t size = open_end - frame.begin;
-  if (const std::optional<SectorSplit> chosen =
+  if (const std::optional<ChartSplit> chosen =
           chooser_.choose({items_.data() + frame.begin, size})) {
     const PlaneRef plane =
         space_.add_prefix_plane(plane_of(*chosen, frame.cell.chart, context_->light.directional,
@@ -412,7 +413,7 @@ PlaneRef SectorTree<Space>::choose_edge_plane(std::uint32_t begin, std::uint32_t
   std::uint32_t sampled = 0;
   for (std::uint32_t i = begin; i < end; i += stride) ++sampled;
   PlaneRef best;
-  double best_cost = SplitChooser::kGrowth * 0.9 * n_log_n(sampled);
+  double best_cost = kSplitGrowth * 0.9 * n_log_n(sampled);
   for (std::uint32_t c = 0; c < kCandidates; ++c) {
     const SectorItem& item =
         items_[begin +
@@ -440,7 +441,7 @@ PlaneRef SectorTree<Space>::choose_edge_plane(std::uint32_t begin, std::uint32_t
 // boxes decide what they can.
 template <SectorSpaceModel Space>
 void SectorTree<Space>::partition(Frame& frame, std::uint32_t open_end, PlaneRef plane,
-                                  const SectorSplit* split) {
+                                  const ChartSplit* split) {
   frame.children = static_cast<std::uint32_t>(items_.size());
   front_items_.clear();
   const auto axis = static_cast<std::size_t>(split != nullptr ? split->axis : 0);
