@@ -26,10 +26,12 @@ struct TreePlace {
   bool front = true;
 };
 
+/// A child link that no node is behind.
+inline constexpr std::int32_t kNoNode = -1;
+
 /// Goes down from `at` for as long as `placement_at(node)` has what is filtered on one side of the
 /// node's plane. Returns the node whose plane splits it, or kNoNode if `at` is a link that
 /// `node_at` does not follow. `node_at(place)`: a node, or a negative number.
-inline constexpr std::int32_t kNoNode = -1;
 template <class NodeAt, class PlacementAt>
 std::int32_t descend(TreePlace& at, const NodeAt& node_at, const PlacementAt& placement_at) {
   for (;;) {
@@ -50,8 +52,8 @@ std::int32_t descend(TreePlace& at, const NodeAt& node_at, const PlacementAt& pl
   }
 }
 
-/// Loops that a tree's cells hold. `CellLoop` has a range `loop` of `loops`, and
-/// `is_like(other)`: whether the cells of two loops are of one class, so that the loops may be
+/// FilteredLoops holds loops, each in a cell of a tree. `CellLoop` has a range `loop` of `loops`,
+/// and `is_like(other)`: whether the cells of two loops are of one class, so that the loops may be
 /// merged.
 template <class Vertex, class CellLoop>
 struct FilteredLoops {
@@ -64,7 +66,7 @@ struct FilteredLoops {
   }
 };
 
-/// The walk, and its workspace.
+/// PlaneTreeFilter does the walk, and keeps its workspace.
 template <DecisionSpace Space>
 class PlaneTreeFilter {
  public:

@@ -102,7 +102,7 @@ std::vector<std::uint32_t> front_to_back(std::span<const BspNode> nodes,
       continue;
     }
     const BspNode& node = nodes[static_cast<std::size_t>(frame.node)];
-    // A viewpoint in the node's plane: neither half can hide anything of the other.
+    // If the viewpoint is in the node's plane, neither half can hide anything of the other.
     const bool front_first = side_of_node(node.plane) != Sign::kNegative;
     const std::int32_t near = front_first ? node.front : node.back;
     const std::int32_t far = front_first ? node.back : node.front;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Boxes and depths of polygons in a chart, as certified floats: what they say of two polygons is
-// certain, and spares most of the exact questions. Bodies of sector_tree.h.
+// Boxes and depths of polygons in a chart, as certified floats: they decide most questions about
+// two polygons for certain, before any exact one is asked. Bodies of sector_tree.h.
 #ifndef GNOMON_ALGORITHMS_SECTORS_FLOAT_FILTERS_H
 #define GNOMON_ALGORITHMS_SECTORS_FLOAT_FILTERS_H
 
@@ -14,8 +14,8 @@
 
 namespace gnomon {
 
-/// A float that is not larger; exact bounds in doubles become certified floats. What is larger than
-/// all floats has the largest below it, and not infinity.
+/// Returns a float that is not larger than a double, so that bounds in doubles become certified
+/// floats. A double above all floats gets the largest float, and not infinity.
 inline float float_below(double x) {
   constexpr float kMost = std::numeric_limits<float>::max();
   const double below = x - std::fabs(x) * 0x1p-22 - 0x1p-140;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// From cells back to polygons: pieces that the planes of cells cut are joined where their classes
-// and casters agree, and what stays is put out and measured. Bodies of sector_tree.h.
+// From cells back to polygons: pieces that the planes of cells cut apart are joined where they have
+// the same class and caster; all other pieces are put out and measured. Bodies of sector_tree.h.
 #ifndef GNOMON_ALGORITHMS_SECTORS_JOIN_H
 #define GNOMON_ALGORITHMS_SECTORS_JOIN_H
 
@@ -13,7 +13,7 @@
 
 namespace gnomon {
 
-// What came to the same end in both children is one piece of the parent; other pieces are put out.
+// Pieces of both children that have the same state are one piece of the parent; others are put out.
 template <SectorSpaceModel Space>
 void SectorTree<Space>::join(Range children) {
   for (std::uint32_t i = children.begin; i < children.end; ++i) {
@@ -40,7 +40,7 @@ void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
     context_->stopped.store(true, std::memory_order_relaxed);
   }
   const bool lit = state == kAllLit;
-  // The lit fraction of an exact kernel gives the other.
+  // On an exact kernel the lit fraction gives the shadowed one.
   if (lit || !Space::kExact) emit_area(loop, lit);
   const ShadowOptions& options = context_->options;
   if (!options.keep_points && !options.keep_exact_points) return;

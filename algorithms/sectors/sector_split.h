@@ -27,7 +27,7 @@ struct ChartBox {
   }
 };
 
-/// A polygon, clipped to a cell, as the tree sees it. The box and the depths are certified: the
+/// SectorItem is a polygon clipped to a cell. Its box and its depths are certified: the
 /// polygon's directions are within [low, high] and its z within [z_low, z_high] (infinite where
 /// nothing is known, or the kernel rounds: as its coordinates say).
 struct SectorItem : ChartBox {
@@ -41,7 +41,7 @@ struct SectorItem : ChartBox {
 
 class SplitChooser {
  public:
-  /// Nothing if no split pays (kSplitGrowth).
+  /// Chooses the best split; none if no split pays (kSplitGrowth).
   std::optional<ChartSplit> choose(std::span<const SectorItem> items);
 
  private:

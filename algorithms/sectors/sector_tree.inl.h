@@ -29,7 +29,7 @@ void SectorTree<Space>::add_sector_planes() {
     return space_.add_prefix_plane(plane);
   };
   if (context_->light.directional) {
-    // No sectors; a plane all the same, so that cell planes have a first number.
+    // There are no sectors, but a plane is added so that cell planes have a first number.
     sector_planes_[0] = add(0, 1, 2, 0);
     first_cell_plane_ = sector_planes_[0].index();
     return;
@@ -118,7 +118,7 @@ void SectorTree<Space>::run(Task& task, const SectorTree& planner) {
   exact_areas_.clear();
 }
 
-// Puts a cell on the stack, if anything is in it. By value: what refers to the stack would move.
+// Puts a cell on the stack if it has items. Takes it by value, because the stack may move.
 template <SectorSpaceModel Space>
 void SectorTree<Space>::enter(SectorCell cell, Range items, bool located) {
   if (items.begin == items.end) return;
@@ -195,8 +195,8 @@ bool SectorTree<Space>::split(Frame& frame, std::uint32_t open_end) {
                                          context_->scene.geometry.grid.bits()));
     frame.front_cell = frame.back_cell = frame.cell;
     partition(frame, open_end, plane, &*chosen);
-    // Boxes are only bounds, and the plane's value was rounded: it may be that nothing is
-    // separated, and would not be the next time.
+    // Boxes are only bounds, and the plane's value was rounded: the plane may separate nothing, and
+    // then would separate nothing the next time either.
     const std::uint32_t back = frame.middle - frame.children;
     const std::uint32_t front = frame.children_end - frame.middle;
     if (std::max(back, front) < size) return true;
@@ -216,7 +216,7 @@ bool SectorTree<Space>::split(Frame& frame, std::uint32_t open_end) {
   return false;
 }
 
-// The next of the planes between the sectors, and the cells on its two sides.
+// Returns the next of the planes between the sectors, and the cells on its two sides.
 template <SectorSpaceModel Space>
 PlaneRef SectorTree<Space>::next_sector_plane(const SectorCell& cell, SectorCell& above,
                                               SectorCell& below) const {
@@ -244,8 +244,8 @@ PlaneRef SectorTree<Space>::next_sector_plane(const SectorCell& cell, SectorCell
   }
 }
 
-// By the next of the planes between the sectors. False: all items are on one side, which becomes
-// the frame's cell.
+// Splits a cell by the next of the planes between the sectors. Returns false if all items are on
+// one side, which becomes the frame's cell.
 template <SectorSpaceModel Space>
 bool SectorTree<Space>::split_by_sector_plane(Frame& frame, std::uint32_t open_end) {
   SectorCell above, below;
@@ -266,8 +266,8 @@ bool SectorTree<Space>::split_by_sector_plane(Frame& frame, std::uint32_t open_e
   return true;
 }
 
-// Many polygons around one direction: no box separates them, but their own edges may. The edge that
-// splits a sample best; none if it does not pay.
+// Many polygons around one direction are separated by no box, but perhaps by one of their own
+// edges. Chooses the edge that splits a sample best; none if no edge pays.
 template <SectorSpaceModel Space>
 PlaneRef SectorTree<Space>::choose_edge_plane(std::uint32_t begin, std::uint32_t end) {
   constexpr std::uint32_t kSample = 64, kCandidates = 8;
@@ -300,8 +300,8 @@ PlaneRef SectorTree<Space>::choose_edge_plane(std::uint32_t begin, std::uint32_t
   return best;
 }
 
-// Children of the open items: those behind the plane first, then those in front. With `split`,
-// boxes decide what they can.
+// Makes the children of the open items: first those behind the plane, then those in front. If
+// `split` is given, boxes decide what they can.
 template <SectorSpaceModel Space>
 void SectorTree<Space>::partition(Frame& frame, std::uint32_t open_end, PlaneRef plane,
                                   const ChartSplit* split) {
@@ -327,7 +327,7 @@ void SectorTree<Space>::partition(Frame& frame, std::uint32_t open_end, PlaneRef
       loops_.reserve_more(2 * std::size_t{child.count} + 4);
       const SplitChildren pieces =
           make_children(space_, plane, view(child), record_, crossings_, loops_);
-      child.fresh = covers(child) ? 0 : 1;  // what covers both has been culled behind already
+      child.fresh = covers(child) ? 0 : 1;  // culling by what covers both has been done
       const auto add = [&](const LoopRange& piece, const SectorCell& cell,
                            std::vector<SectorItem>& list) {
         if (piece.count < 3) {

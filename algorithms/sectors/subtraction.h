@@ -14,7 +14,7 @@
 
 namespace gnomon {
 
-/// All edges of the clipped polygon are the cell's own.
+/// Whether all edges of the clipped polygon are planes of the cell.
 template <SectorSpaceModel Space>
 bool SectorTree<Space>::covers(const SectorItem& item) const {
   for (std::uint32_t i = 0; i < item.count; ++i) {
@@ -39,7 +39,7 @@ bool SectorTree<Space>::any_nearer(const SectorItem& item, PlaneId plane, bool& 
   return any;
 }
 
-/// No vertex of the item is nearer than the part's plane, and one is behind it.
+/// Whether no vertex of the item is nearer than the part's plane and one is behind it.
 template <SectorSpaceModel Space>
 bool SectorTree<Space>::is_behind(const SectorItem& item, std::uint32_t part) {
   const PlaneId plane = context_->scene.parts[part].plane;
@@ -56,9 +56,9 @@ bool SectorTree<Space>::is_behind(const SectorItem& item, std::uint32_t part) {
   return any;
 }
 
-// How much of the receiver is behind the caster's plane, as far as both are in the cell: kNone also
-// if the caster is nowhere in front of the receiver's plane. (Two polygons that do not cross have
-// one of them on one side of the other's plane.)
+// Tells how much of the receiver is behind the caster's plane, within the cell. The answer is kNone
+// also if the caster is nowhere in front of the receiver's plane. (Of two polygons that do not
+// cross, one is on one side of the other's plane.)
 template <SectorSpaceModel Space>
 typename SectorTree<Space>::Relation SectorTree<Space>::relation(const SectorItem& receiver,
                                                                  const SectorItem& caster) {
@@ -91,7 +91,7 @@ std::uint32_t SectorTree<Space>::move_decided_last(std::uint32_t begin, std::uin
   return open_end;
 }
 
-// What is behind a polygon that covers the cell is in its shadow there.
+// Polygons behind one that covers the cell are in its shadow there: they leave the cell.
 template <SectorSpaceModel Space>
 std::uint32_t SectorTree<Space>::cull(std::uint32_t begin, std::uint32_t end) {
   order_.clear();
@@ -109,7 +109,7 @@ std::uint32_t SectorTree<Space>::cull(std::uint32_t begin, std::uint32_t end) {
     if (states_[cover] != kUndecided) continue;
     for (std::uint32_t i = begin; i < end; ++i) {
       if (i == cover || states_[i] != kUndecided) continue;
-      // Only what is behind as a whole leaves; a leaf does the rest.
+      // Only polygons that are wholly behind leave; a leaf subtracts the others.
       const SectorItem& item = items_[i];
       const SectorItem& in_front = items_[cover];
       if (in_front.z_high <= item.z_low) continue;
@@ -127,8 +127,8 @@ void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end, const Light
   for (std::uint32_t i = begin; i < end; ++i) {
     if (context_->scene.parts[items_[i].part].casts) order_.push_back(i);
   }
-  // What hides most goes first, so that little is left for the others to cut. Where very many small
-  // ones are, the nearest first: then most pairs need not be looked at.
+  // The largest casters go first, so that little is left for the others to cut. Where there are
+  // very many small ones, the nearest go first: most pairs are then skipped.
   const auto area = [](const ChartBox& box) {
     return (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
   };
@@ -217,8 +217,8 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
   space_.release_planes(planes_mark);
 }
 
-// The part of a piece that is inside all caster_planes_; what is outside goes to still_lit_. False:
-// it is all outside, and untouched. `inside` is the piece itself if nothing was cut.
+// Cuts the part of a piece that is inside all caster_planes_; the rest goes to still_lit_. Returns
+// false if all of it is outside, and leaves it. `inside` is the piece itself if nothing was cut.
 template <SectorSpaceModel Space>
 bool SectorTree<Space>::clip(const LitPiece& piece, LoopRange& inside) {
   spanning_.clear();
@@ -244,7 +244,7 @@ bool SectorTree<Space>::clip(const LitPiece& piece, LoopRange& inside) {
     if (i > 0) {
       const Placement placement = record_.decide(space_, plane, view(inside));
       if (placement == Placement::kFront) continue;
-      if (placement != Placement::kSpanning) {  // inside each plane somewhere, but nowhere of all
+      if (placement != Placement::kSpanning) {  // some of it is inside each plane, none inside all
         loops_.truncate(loops_mark);
         still_lit_.resize(lit_mark);
         return false;

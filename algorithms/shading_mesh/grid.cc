@@ -245,7 +245,7 @@ class GridCutter {
     return planes_[plane_numbers_[scene_.parts[face.part].plane]];
   }
 
-  /// The cells of all faces are counted, roughly from above, before any is made.
+  /// Counts the cells of all faces, roughly from above, before any is made.
   Expected<void> check_count() const {
     std::uint64_t cells = loops_.faces.size();
     for (std::size_t f = 0; f < loops_.faces.size() && cells <= request_.max_faces; ++f) {

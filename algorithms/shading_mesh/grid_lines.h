@@ -15,7 +15,7 @@
 
 namespace gnomon {
 
-/// Where the lines of a grid are, along any axis.
+/// GridLines says where the lines of a grid are, along any axis.
 class GridLines {
  public:
   /// Numbers of lines stay below this, so that places are 64-bit integers and rounded lines stay

@@ -62,7 +62,8 @@ class Planner {
   }
 
  private:
-  // The wedges of x = +-y; in each, |x| or |y| dominates the other.
+  // Cuts light space into the four wedges between the planes x = y and x = -y: in each of them,
+  // either |x| or |y| is the larger one.
   void plan_sectors(std::span<const std::uint32_t> parts) {
     const std::int32_t a = add({{1, -1, 0}}, PrefixNode::kLeaf, true);  // x > y in front
     for (const bool a_front : {true, false}) {
@@ -78,7 +79,9 @@ class Planner {
     }
   }
 
-  // In a wedge where s = sign * component `major` is largest of x and y: s > z, s > -z.
+  // Cuts a wedge by the planes z = s and z = -s, where s = sign * component `major` is the largest
+  // of
+  // +-x and +-y, and grows a tree in each of the three regions.
   void plan_wedge(std::span<const std::uint32_t> parts, const std::vector<Point>& wedge, int major,
                   int sign, std::int32_t parent, bool front) {
     PrefixPlane above, below;
@@ -158,7 +161,7 @@ class Planner {
   /// A k-d tree of the region's chart.
   void grow(std::span<const std::uint32_t> parts, const std::vector<Point>& region,
             const LightChart& chart, std::int32_t parent, bool front) {
-    // Values stay below 8, and so coefficients small.
+    // Values below 8 keep the coefficients of planes small.
     const KdRules rules{
         .axes = 2, .least = -8, .most = 8, .touching_counts = false, .leaf_size = kLeafSize};
     grow_kd_tree(

@@ -41,7 +41,7 @@ struct ClassifiedLoop {
 template <class Vertex>
 using SvbspOutput = FilteredLoops<Vertex, ClassifiedLoop>;
 
-/// What filtering one polygon shall do.
+/// FilterActions says what filtering does with a polygon.
 struct FilterActions {
   bool classify = true;  // append fragments to the output
   bool insert = true;    // add the shadow volumes of lit fragments to the tree

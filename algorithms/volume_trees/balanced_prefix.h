@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The balanced top of the merged trees: a k-d split of space by axis planes, planned for the
-// receivers, since they are what goes down the finished trees.
+// The balanced top of the penumbra and umbra trees: a k-d split of space by axis planes. It is
+// planned for the receivers, because they go down the finished trees.
 //
-// A heuristic on rounded boxes: whatever it plans, the trees answer the same, provided that every
-// receiver is inside its box.
+// This is a heuristic on rounded boxes: the trees answer the same whatever it plans, provided that
+// every receiver is inside its box.
 #ifndef GNOMON_ALGORITHMS_VOLUME_TREES_BALANCED_PREFIX_H
 #define GNOMON_ALGORITHMS_VOLUME_TREES_BALANCED_PREFIX_H
 

@@ -29,7 +29,7 @@
 
 namespace gnomon {
 
-/// A convex loop that one cell holds.
+/// CellLoop is a convex loop that one cell holds.
 struct CellLoop {
   LoopRange loop;                              // in CellOutput::loops
   std::uint32_t caster = Fragment::kNoCaster;  // kNoCaster: OUT
@@ -40,8 +40,8 @@ struct CellLoop {
 template <class Vertex>
 using CellOutput = FilteredLoops<Vertex, CellLoop>;
 
-/// Where the receiving side of a loop is: what lies *in* a node's plane belongs to the cell just in
-/// front of the receiver (docs: semantics, the class is that limit).
+/// ReceivingSide says on which side of a loop light arrives: a loop that lies *in* a node's plane
+/// belongs to the cell just in front of it (docs: semantics, the class is that limit).
 template <class Vertex>
 struct ReceivingSide {
   PlaneRef plane;                // of the loop, receiving side in front
@@ -64,13 +64,13 @@ class VolumeTree {
   /// Puts a balanced prefix at the top. Requires: nothing inserted yet.
   void plant(const SpacePrefix& prefix);
 
-  /// The union with a volume. `base`: the caster's plane. Returns false, and leaves the tree in an
-  /// undefined state, if it would have more than `most_nodes`.
+  /// Adds a volume to the union. `base`: the caster's plane. Returns false, and leaves the tree in
+  /// an undefined state, if it would have more than `most_nodes`.
   bool insert(const Polyhedron<Vertex>& volume, PlaneId base, std::uint32_t caster,
               std::uint64_t most_nodes);
 
   std::uint64_t node_count() const { return nodes_.size() - 1; }
-  /// What could not be made as it should: 0 on exact kernels.
+  /// Counts what PolyhedronSplitter could not make as it should: 0 on exact kernels.
   std::uint64_t findings() const { return splitter_.findings(); }
 
   /// The node at a place, or a negative number that stands for a cell.
@@ -94,7 +94,7 @@ class VolumeTree {
     PlaneRef plane;
     std::int32_t front = kOut, back = kOut;
     std::uint32_t parent : 31 = 0;
-    std::uint32_t full : 1 = 0;  // no OUT cell below: nothing to extend any more
+    std::uint32_t full : 1 = 0;  // no cell below it is OUT, and so none is extended
   };
 
   std::int32_t& child(TreePlace at) {
@@ -114,15 +114,15 @@ class VolumeTree {
   Space* space_;
   Union kind_;
   std::vector<Node> nodes_;  // 0 is a sentinel whose front child is the root
-  // Workspace of insert(): places_[i] is where pieces_[i] goes, i < places_.size().
+  // Workspace of insert(): pieces_[i] goes to places_[i], i < places_.size().
   PolyhedronSplitter<Space> splitter_;
   std::vector<TreePlace> places_;
   std::vector<Polyhedron<Vertex>> pieces_;
   Polyhedron<Vertex> whole_;
 };
 
-/// Filters loops down finished trees. One for each thread, with its own fork of the space that the
-/// trees grew in.
+/// CellFilter filters loops down finished trees. Each thread has one, with its own fork of the
+/// space that the trees grew in.
 template <VolumeSpaceModel Space>
 class CellFilter {
  public:
@@ -147,7 +147,7 @@ class CellFilter {
   PlaneTreeFilter<Space> filter_;
 };
 
-/// What one thread needs to filter receivers.
+/// VolumeTreeWorkspace is what one thread needs to filter receivers.
 template <VolumeSpaceModel Space>
 struct VolumeTreeWorkspace {
   VolumeTreeWorkspace(Space& space, bool merge) : filter(space, merge) {}
@@ -208,7 +208,7 @@ template <VolumeSpaceModel Space>
 void VolumeTree<Space>::split(std::uint32_t node, std::size_t top) {
   std::swap(whole_, piece(top));
   piece(top + 1);
-  // What is outside goes last: a chain of outsides is then walked with a short stack.
+  // The back child is taken last: a chain of back children is then walked with a short stack.
   splitter_.split(*space_, nodes_[node].plane, whole_, pieces_[top + 1], pieces_[top]);
   if (!pieces_[top].empty()) places_.push_back({node, false});
   if (!pieces_[top + 1].empty()) {
