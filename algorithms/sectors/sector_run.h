@@ -252,7 +252,7 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run(
   states_.assign(states.begin(), states.end());
   for (const std::unique_ptr<Tree>& tree : trees) stages_ += tree->space().stage_counts();
   stages_ += planner.space().stage_counts();
-  // Whole parts go out as they came in (1989, sec. 6).
+  // A part with one class and caster is put out as it came in (1989, sec. 6).
   for (std::uint32_t i = 0; i < states_.size(); ++i) {
     if (states_[i] != kMixed && states_[i] != kUndecided) planner.emit_root(i);
   }
