@@ -290,8 +290,8 @@ Expected<Fixture> read_fixture(const fs::path& file, const std::string& name) {
 bool is_fixture_file(const fs::path& file) {
   const std::string name = file.filename().string();
   if (name.starts_with(".") || name.ends_with(kNoteSuffix)) return false;
-  const std::string extension = file.extension().string();
-  return extension == ".json" || extension == ".obj" || extension == ".off" || extension == ".ply";
+  const std::optional<SceneFormat> format = format_by_extension(file);
+  return format && file.extension().string().substr(1) == format_name(*format);  // lower case only
 }
 
 /// Names and files, sorted by name.
