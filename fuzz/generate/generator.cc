@@ -9,7 +9,7 @@
 
 #include "fuzz/generate/area_families.h"
 #include "fuzz/generate/families.h"
-#include "fuzz/generate/kind_predicates.h"
+#include "fuzz/kinds/kind_predicates.h"
 #include "fuzz/generate/soups.h"
 #include "fuzz/moves/move_tools.h"
 #include "fuzz/moves/moves.h"

@@ -12,7 +12,7 @@
 #include <set>
 #include <string>
 
-#include "fuzz/generate/kind_predicates.h"
+#include "fuzz/kinds/kind_predicates.h"
 #include "fuzz/moves/moves.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
