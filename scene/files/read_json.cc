@@ -10,8 +10,8 @@
 #include "gnomon/scene/validate.h"
 #include "scene/base/text_file.h"
 #include "scene/files/json_scene_handler.h"
-#include "scene/files/json_text.h"
 #include "scene/files/readers.h"
+#include "scene/json/json_text.h"
 
 namespace gnomon {
 
