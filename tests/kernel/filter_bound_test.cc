@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <tuple>
 
 #include "kernel/implicit/implicit_light_space.h"
 #include "scene/base/random.h"
@@ -130,7 +132,11 @@ TEST_P(FilterBound, RaysOfVerticesAndCrossings) {
 INSTANTIATE_TEST_SUITE_P(AllMagnitudes, FilterBound,
                          testing::Combine(testing::Values(2u, 10u, 20u, 31u, 40u, 63u, 64u, 130u,
                                                           400u),
-                                          testing::Bool()));
+                                          testing::Bool()),
+                         [](const auto& info) {
+                           return (std::get<1>(info.param) ? "Directional" : "Point") +
+                                  std::to_string(std::get<0>(info.param));
+                         });
 
 }  // namespace
 }  // namespace gnomon
