@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <tuple>
 
 #include "kernel/implicit/filter_bounds.h"
 #include "kernel/implicit/implicit_light_space.h"
@@ -210,7 +212,11 @@ TEST_P(FilterBound, RaysOfVerticesAndCrossings) {
 INSTANTIATE_TEST_SUITE_P(AllMagnitudes, FilterBound,
                          testing::Combine(testing::Values(2u, 10u, 20u, 31u, 40u, 63u, 64u, 130u,
                                                           400u),
-                                          testing::Bool()));
+                                          testing::Bool()),
+                         [](const auto& info) {
+                           return (std::get<1>(info.param) ? "Directional" : "Point") +
+                                  std::to_string(std::get<0>(info.param));
+                         });
 
 }  // namespace
 }  // namespace gnomon
