@@ -7,7 +7,7 @@ namespace gnomon {
 
 ShadowOutcome shadows_planes_from_fragments(const PreparedScene& scene,
                                             const ShadowOptions& options, const LightList& lights) {
-  return compute_by_svbsp<FragmentPlanesLightSpace<double>>(scene, options, lights);
+  return compute_by_svbsp<FragmentPlanesLightSpace<double>>(scene, options, rules_of(options.mutation), lights);
 }
 
 }  // namespace gnomon

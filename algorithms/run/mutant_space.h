@@ -91,12 +91,17 @@ class FragmentPlanesLightSpace : public CoordinateLightSpace<T> {
 
 /// "The vertex at which a split occurs is also shared among the polygon's fragments" (1992,
 /// "Discussion and Implementation"): here each side computes its own, beginning with the end of the
-/// edge that it keeps. make_children() asks for the constant.
+/// edge that it keeps.
 template <class T>
 class SplitVerticesSceneSpace : public CoordinateSceneSpace<T> {
  public:
   using CoordinateSceneSpace<T>::CoordinateSceneSpace;
-  static constexpr bool kVerticesPerSide = true;
+
+  using Vertex = typename CoordinateSceneSpace<T>::Vertex;
+  Vertex crossing_of_child(PlaneRef plane, PlaneRef edge, const Corner<Vertex>& kept,
+                           const Corner<Vertex>& lost) const {
+    return this->crossing(plane, edge, true, kept, lost);
+  }
 };
 
 template <class T>
@@ -105,11 +110,15 @@ class SplitVerticesLightSpace : public CoordinateLightSpace<T> {
 
  public:
   using SceneSpace = SplitVerticesSceneSpace<T>;
-  static constexpr bool kVerticesPerSide = true;
+  using Vertex = typename Base::Vertex;
 
   SplitVerticesLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options)
       : Base(scene, light, options) {}
   SplitVerticesLightSpace fork() const { return *this; }
+  Vertex crossing_of_child(PlaneRef plane, PlaneRef edge, const Corner<Vertex>& kept,
+                           const Corner<Vertex>& lost) const {
+    return Base::crossing(plane, edge, true, kept, lost);
+  }
 };
 
 template <class T>
@@ -118,11 +127,15 @@ class SplitVerticesVolumeSpace : public CoordinateVolumeSpace<T> {
 
  public:
   using SceneSpace = SplitVerticesSceneSpace<T>;
-  static constexpr bool kVerticesPerSide = true;
+  using Vertex = typename Base::Vertex;
 
   SplitVerticesVolumeSpace(const SceneSpace& scene, const KernelOptions& options)
       : Base(scene, options) {}
   SplitVerticesVolumeSpace fork() const { return *this; }
+  Vertex crossing_of_child(PlaneRef plane, PlaneRef edge, const Corner<Vertex>& kept,
+                           const Corner<Vertex>& lost) const {
+    return Base::crossing(plane, edge, true, kept, lost);
+  }
 };
 
 }  // namespace gnomon

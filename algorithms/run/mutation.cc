@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "gnomon/algorithms/mutation.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "algorithms/partition/rules.h"
 #include "gnomon/algorithms/shadows.h"
 
 namespace gnomon {
@@ -117,6 +120,68 @@ bool applies_to(Mutation mutation, KernelId kernel, AreaAlgorithm algorithm) {
       return false;
   }
   return false;
+}
+
+namespace {
+
+/// A fragment with a made vertex and on average narrower than kSliver times the distance of its
+/// farthest vertices. In doubles: a mistake need not be exact.
+bool is_sliver(const LoopShape& loop) {
+  constexpr double kSliver = 1.0 / 64;
+  double longest = 0;
+  std::array<double, 3> area{}, before{};
+  const std::array<double, 3>& first = loop.corners[0];
+  for (std::size_t i = 0; i < loop.corners.size(); ++i) {
+    const std::array<double, 3>& point = loop.corners[i];
+    std::array<double, 3> step{}, last{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      step[k] = point[k] - first[k];
+      last[k] = before[k] - first[k];
+    }
+    longest = std::max(longest, step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
+    for (std::size_t k = 0; i > 1 && k < 3; ++k) {
+      const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+      area[k] += last[u] * step[v] - last[v] * step[u];
+    }
+    before = point;
+  }
+  return !loop.is_input && std::hypot(area[0], area[1], area[2]) / 2 < kSliver * longest;
+}
+
+}  // namespace
+
+Rules rules_of(Mutation mutation) {
+  Rules rules;
+  switch (mutation) {
+    case Mutation::kNone:
+    case Mutation::kPlanesFromFragments:
+    case Mutation::kVerticesPerSide:
+    case Mutation::kThicknessTooLarge:
+    case Mutation::kThicknessTooSmall:
+      break;  // wrong kernels, or a kernel used in a wrong way
+    case Mutation::kCoplanarInSequence:
+      rules.coplanar_classified_first = false;
+      break;
+    case Mutation::kLightInPlaneFaces:
+      rules.light_in_plane_does_not_reach = false;
+      break;
+    case Mutation::kUnionWithoutContinuedPlanes:
+      rules.volumes_continue_behind_others = false;
+      break;
+    case Mutation::kTVerticesLeftIn:
+      rules.neighbour_vertices_are_in_the_face = false;
+      break;
+    case Mutation::kStraddlingLightFaces:
+      rules.straddling_light_is_cut = false;
+      break;
+    case Mutation::kSliversDropped:
+      rules.fragment_stays = [](const LoopShape& loop) { return !is_sliver(loop); };
+      break;
+    case Mutation::kOnSwapped:
+      rules.on_goes_to_its_own_side = false;
+      break;
+  }
+  return rules;
 }
 
 std::string_view name_of(Mutation mutation) {

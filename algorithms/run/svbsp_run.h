@@ -12,7 +12,10 @@
 
 #include "algorithms/partition/fractions.h"
 #include "algorithms/partition/import_export.h"
+#include "algorithms/partition/rules.h"
+#include "algorithms/partition/run_options.h"
 #include "algorithms/run/area_kernels.h"
+#include "algorithms/run/run_options_of.h"
 #include "algorithms/scene_bsp/scene_bsp.h"
 #include "algorithms/scene_bsp/scene_bsp.inl.h"
 #include "algorithms/sectors/sector_run.h"
@@ -32,14 +35,15 @@ class SvbspRun {
   using SceneVertex = typename SceneSpace::Vertex;
   using Vertex = typename Space::Vertex;
 
-  SvbspRun(const PreparedScene& scene, const ShadowOptions& options, SceneSpace& scene_space,
-           std::uint32_t light, const KernelOptions& kernel_options)
+  SvbspRun(const PreparedScene& scene, const RunOptions& options, const Rules& rules,
+           SceneSpace& scene_space, std::uint32_t light, const KernelOptions& kernel_options)
       : scene_(scene),
         options_(options),
+        rules_(rules),
         scene_space_(scene_space),
         space_(scene_space, scene.lights[light].point, kernel_options),
-        facing_(scene, space_, options.mutation == Mutation::kLightInPlaneFaces),
-        tree_(space_, options.merge, options.mutation == Mutation::kSliversDropped) {
+        facing_(scene, space_, rules),
+        tree_(space_, options.merge, rules) {
     result_.light = light;
     result_.facing_parts = facing_.parts.size();
     result_.facing_edges = facing_.edges;
@@ -49,7 +53,8 @@ class SvbspRun {
 
   /// The tree is smaller than a fragment's loop; this keeps it from outgrowing them.
   static constexpr std::uint64_t kMostNodesAFragment = 8;
-  /// Mutation::kPlanesFromFragments.
+  /// A space whose scene space has planes of fragments (build_scene_bsp) also says on which side of
+  /// one the light is.
   static constexpr bool kFragmentPlanes = requires(const Space& space, LoopView<SceneVertex> loop) {
     space.light_side_of_fragment(loop);
   };
@@ -64,11 +69,8 @@ class SvbspRun {
       tree_.plant(plan_prefix(scene_, scene_.lights[result_.light].point, facing_.parts));
     }
     const std::vector<std::uint32_t> order = front_to_back(bsp.nodes, [&](PlaneId plane) {
-      if constexpr (kFragmentPlanes) {
-        return space_.light_side(plane);
-      } else {
-        return facing_.plane_signs[plane];
-      }
+      const std::vector<Sign>& known = facing_.plane_signs;  // of the parts' planes
+      return plane < known.size() ? known[plane] : space_.light_side(plane);
     });
     for (std::size_t i = 0; i < order.size(); ++i) {
       if ((i & 63) == 0) {
@@ -114,7 +116,7 @@ class SvbspRun {
       }
       pieces_.push_back(piece);
     }
-    const bool alone = pieces_.size() == 1 || options_.mutation == Mutation::kCoplanarInSequence;
+    const bool alone = pieces_.size() == 1 || !rules_.coplanar_classified_first;
     for (const LoopRange& piece : pieces_) {
       const Part& part = scene_.parts[piece.part];
       import(bsp.loops.view(piece, part.plane));
@@ -154,7 +156,8 @@ class SvbspRun {
   void measure(PartResult& part, std::span<const ClassifiedLoop> fragments);
 
   const PreparedScene& scene_;
-  const ShadowOptions& options_;
+  const RunOptions& options_;
+  Rules rules_;
   SceneSpace& scene_space_;
   Space space_;
   FacingParts facing_;
@@ -178,7 +181,7 @@ LightResult SvbspRun<Space>::finish() {
     for (const ClassifiedLoop& f : output_.fragments) sorted[next[f.loop.part]++] = f;
   }
   output_.fragments = {};
-  const bool keep = options_.keep_points || options_.keep_exact_points;
+  const bool keep = options_.keeps_any_points();
   result_.parts.reserve(scene_.parts.size());
   for (std::uint32_t index = 0; index < scene_.parts.size(); ++index) {
     PartResult part;
@@ -252,16 +255,17 @@ void SvbspRun<Space>::measure(PartResult& part, std::span<const ClassifiedLoop> 
 /// Every light by the sectors algorithm, one after another.
 template <SectorSpaceModel Space>
 Expected<ShadowResult> compute_by_sectors_here(const PreparedScene& scene,
-                                               const ShadowOptions& options,
+                                               const ShadowOptions& options, const Rules& rules,
                                                const std::vector<std::uint32_t>& lights,
                                                ShadowResult result) {
   using Run = SectorRun<Space>;
   result.algorithm = "sectors";
   const double start = cpu_seconds();
   const KernelOptions kernel_options{options.identity, options.thickness};
+  const RunOptions run_options = run_options_of(options);
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    Run run(scene, options, scene_space, lights[i], kernel_options);
+    Run run(scene, run_options, rules, scene_space, lights[i], kernel_options);
     std::function<void(double)> progress;
     if (options.progress) {
       progress = [&](double share) {
@@ -289,14 +293,16 @@ Expected<ShadowResult> compute_by_sectors_here(const PreparedScene& scene,
 /// The same on as many threads as asked for.
 template <SectorSpaceModel Space>
 Expected<ShadowResult> compute_by_sectors(const PreparedScene& scene, const ShadowOptions& options,
+                                          const Rules& rules,
                                           const std::vector<std::uint32_t>& lights,
                                           ShadowResult result) {
   // More threads than processors would only wait for each other.
   const unsigned most = std::max(1u, std::thread::hardware_concurrency());
   const unsigned jobs = options.jobs == 0 ? most : std::min(options.jobs, most);
   tbb::task_arena arena(static_cast<int>(jobs));
-  return arena.execute(
-      [&] { return compute_by_sectors_here<Space>(scene, options, lights, std::move(result)); });
+  return arena.execute([&] {
+    return compute_by_sectors_here<Space>(scene, options, rules, lights, std::move(result));
+  });
 }
 
 /// A result without lights, of this kernel.
@@ -312,6 +318,7 @@ ShadowResult empty_result(const ShadowOptions& options) {
 
 template <LightSpaceModel Space>
 Expected<ShadowResult> compute_by_svbsp(const PreparedScene& scene, const ShadowOptions& options,
+                                        const Rules& rules,
                                         const std::vector<std::uint32_t>& lights) {
   using SceneSpace = typename Space::SceneSpace;
   ShadowResult result = empty_result<Space>(options);
@@ -319,11 +326,12 @@ Expected<ShadowResult> compute_by_svbsp(const PreparedScene& scene, const Shadow
 
   const double start = cpu_seconds();
   const KernelOptions kernel_options{options.identity, options.thickness};
+  const RunOptions run_options = run_options_of(options);
   SceneSpace scene_space(scene.geometry, kernel_options);
   std::deque<SvbspRun<Space>> runs;  // never moved: a run's tree refers to its space
   std::vector<bool> needed(scene.parts.size(), false);
   for (const std::uint32_t light : lights) {
-    runs.emplace_back(scene, options, scene_space, light, kernel_options);
+    runs.emplace_back(scene, run_options, rules, scene_space, light, kernel_options);
     for (const std::uint32_t part : runs.back().facing_parts()) needed[part] = true;
   }
   // Only what faces some light has to be in order.
@@ -333,7 +341,7 @@ Expected<ShadowResult> compute_by_svbsp(const PreparedScene& scene, const Shadow
   }
   const SceneBsp<typename SceneSpace::Vertex> bsp =
       build_scene_bsp(scene_space, scene, parts, options.seed, result.identity, options.interrupted,
-                      options.max_fragments, options.mutation == Mutation::kOnSwapped);
+                      options.max_fragments, rules);
   if (bsp.interrupted) return interrupted();
   result.scene_bsp_seconds = cpu_seconds() - start;
   result.bsp_nodes = bsp.nodes.size();
@@ -377,7 +385,7 @@ Expected<ShadowResult> compute_by_svbsp(const PreparedScene& scene, const Shadow
     pipeline->for_each([&](std::uint32_t part, Side side, std::uint64_t lit_by, const Space& space,
                            const LoopView<typename Space::Vertex>& loop) {
       CombinedFragment fragment{part, side, lit_by};
-      export_loop(space, scene.geometry, options, loop, fragment, result.combined_points,
+      export_loop(space, scene.geometry, run_options, loop, fragment, result.combined_points,
                   result.combined_exact_points);
       result.combined.push_back(fragment);
     });
@@ -395,13 +403,20 @@ Expected<ShadowResult> compute_by_svbsp(const PreparedScene& scene, const Shadow
 
 template <LightSpaceModel Space>
 Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
-                                            const ShadowOptions& options,
+                                            const ShadowOptions& options, const Rules& rules,
                                             const std::vector<std::uint32_t>& lights) {
   if (options.algorithm == Algorithm::kSectors ||
       (options.algorithm == Algorithm::kAutomatic && !options.combined)) {
-    return compute_by_sectors<Space>(scene, options, lights, empty_result<Space>(options));
+    return compute_by_sectors<Space>(scene, options, rules, lights, empty_result<Space>(options));
   }
-  return compute_by_svbsp<Space>(scene, options, lights);
+  return compute_by_svbsp<Space>(scene, options, rules, lights);
+}
+
+template <LightSpaceModel Space>
+Expected<ShadowResult> compute_shadows_with(const PreparedScene& scene,
+                                            const ShadowOptions& options,
+                                            const std::vector<std::uint32_t>& lights) {
+  return compute_shadows_with<Space>(scene, options, rules_of(options.mutation), lights);
 }
 
 }  // namespace gnomon

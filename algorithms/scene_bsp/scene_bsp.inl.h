@@ -22,7 +22,7 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
                                                  std::span<const std::uint32_t> parts,
                                                  std::uint64_t seed, bool identity,
                                                  const std::atomic<bool>* interrupted,
-                                                 std::uint64_t max_pieces, bool on_is_behind) {
+                                                 std::uint64_t max_pieces, const Rules& rules) {
   using Vertex = typename Space::Vertex;
   SceneBsp<Vertex> tree;
   BspBuilderState state;
@@ -85,7 +85,7 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
     const std::uint32_t root = here[chooser.choose(here, state.boxes, state.planes)];
     PlaneId plane = state.planes[root];
     if constexpr (requires(LoopView<Vertex> loop) { space.add_plane_of(loop); }) {
-      // Mutation::kPlanesFromFragments: of a fragment, not of a whole part.
+      // Of a fragment, not of a whole part.
       const LoopView<Vertex> loop = tree.loops.view(tree.pieces[root], plane);
       if (root >= parts.size()) plane = space.add_plane_of(loop);
     }
@@ -93,7 +93,7 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
     state.front.clear();
     state.back.clear();
     state.on.clear();
-    std::vector<std::uint32_t>& coplanar = on_is_behind ? state.back : state.on;
+    std::vector<std::uint32_t>& coplanar = rules.on_goes_to_its_own_side ? state.on : state.back;
     for (const std::uint32_t piece : here) {
       if (piece == root || (identity && state.planes[piece] == plane)) {
         (piece == root ? state.on : coplanar).push_back(piece);

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "algorithms/partition/sliver.h"
+#include "algorithms/partition/fragment_stays.h"
 #include "algorithms/sectors/sector_tree.h"
 
 namespace gnomon {
@@ -234,7 +234,9 @@ bool SectorTree<Space>::any_nearer(const SectorItem& item, PlaneId plane, bool& 
 template <SectorSpaceModel Space>
 bool SectorTree<Space>::is_behind(const SectorItem& item, std::uint32_t part) {
   const PlaneId plane = context_->scene.parts[part].plane;
-  if (context_->scene.parts[item.part].plane == plane) return coplanar_is_behind();
+  if (context_->scene.parts[item.part].plane == plane) {
+    return !context_->rules.on_goes_to_its_own_side;
+  }
   const LoopView<Vertex> loop = view(item);
   const Side nearer =
       context_->facing.plane_signs[plane] == Sign::kPositive ? Side::kFront : Side::kBack;
@@ -257,7 +259,9 @@ typename SectorTree<Space>::Relation SectorTree<Space>::relation(const SectorIte
   if (receiver.z_high < caster.z_low) return Relation::kBehind;
   const PlaneId own = context_->scene.parts[receiver.part].plane;
   const PlaneId other = context_->scene.parts[caster.part].plane;
-  if (own == other) return coplanar_is_behind() ? Relation::kBehind : Relation::kNone;
+  if (own == other) {
+    return context_->rules.on_goes_to_its_own_side ? Relation::kNone : Relation::kBehind;
+  }
   bool behind = false;
   const bool nearer = any_nearer(receiver, other, behind);
   if (!behind) return Relation::kNone;
@@ -669,9 +673,7 @@ void SectorTree<Space>::join(Range children) {
 
 template <SectorSpaceModel Space>
 void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
-  if (context_->options.mutation == Mutation::kSliversDropped && is_sliver(space_, view(loop))) {
-    return;
-  }
+  if (!fragment_stays(space_, view(loop), context_->rules)) return;
   if (++output_.piece_count % kPieceBatch == 0 &&
       context_->pieces.fetch_add(kPieceBatch, std::memory_order_relaxed) + kPieceBatch >
           context_->options.max_fragments) {
@@ -680,8 +682,8 @@ void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
   const bool lit = state == kAllLit;
   // The lit fraction of an exact kernel gives the other.
   if (lit || !Space::kExact) emit_area(loop, lit);
-  const ShadowOptions& options = context_->options;
-  if (!options.keep_points && !options.keep_exact_points) return;
+  const RunOptions& options = context_->options;
+  if (!options.keeps_any_points()) return;
   SectorOutput::Piece piece{loop.part, {}};
   piece.fragment.state = lit ? LightState::kLit : LightState::kShadow;
   piece.fragment.caster = state;

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/svbsp/balanced_prefix.h"
 #include "gnomon/algorithms/shadow_result.h"
@@ -50,8 +51,7 @@ class SvbspTree {
  public:
   using Vertex = typename Space::Vertex;
 
-  /// `drops_slivers`: Mutation::kSliversDropped.
-  SvbspTree(Space& space, bool merge_siblings, bool drops_slivers = false);
+  SvbspTree(Space& space, bool merge_siblings, const Rules& rules = {});
 
   /// Puts the balanced prefix at the top. Requires: nothing inserted yet.
   void plant(const PrefixTree& prefix);
@@ -93,7 +93,8 @@ class SvbspTree {
   void try_merge(const Frame& frame, PlaneId support, SvbspOutput<Vertex>& output);
 
   Space* space_;
-  bool merge_siblings_, drops_slivers_;
+  bool merge_siblings_;
+  Rules rules_;
   std::vector<Node> nodes_;  // 0 is a sentinel whose front child is the root
   std::uint64_t vanished_ = 0;
   // Workspace of filter(), kept to save allocations.

@@ -5,14 +5,14 @@
 
 #include <algorithm>
 
-#include "algorithms/partition/sliver.h"
+#include "algorithms/partition/fragment_stays.h"
 #include "algorithms/svbsp/svbsp.h"
 
 namespace gnomon {
 
 template <LightSpaceModel Space>
-SvbspTree<Space>::SvbspTree(Space& space, bool merge_siblings, bool drops_slivers)
-    : space_(&space), merge_siblings_(merge_siblings), drops_slivers_(drops_slivers), nodes_(1) {}
+SvbspTree<Space>::SvbspTree(Space& space, bool merge_siblings, const Rules& rules)
+    : space_(&space), merge_siblings_(merge_siblings), rules_(rules), nodes_(1) {}
 
 template <LightSpaceModel Space>
 void SvbspTree<Space>::plant(const PrefixTree& prefix) {
@@ -96,8 +96,7 @@ void SvbspTree<Space>::filter(const LoopView<Vertex>& loop, FilterActions action
 
 template <LightSpaceModel Space>
 bool SvbspTree<Space>::is_kept(const LoopRange& child, PlaneId support) const {
-  if (child.count < 3) return false;
-  return !drops_slivers_ || !is_sliver(*space_, work_.view(child, support));
+  return child.count >= 3 && fragment_stays(*space_, work_.view(child, support), rules_);
 }
 
 template <LightSpaceModel Space>

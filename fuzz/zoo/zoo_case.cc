@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/partition/rules.h"
+#include "algorithms/shading_mesh/mesh_by_rules.h"
 #include "gnomon/algorithms/illumination.h"
 #include "gnomon/oracle/witness_check.h"
 #include "report/sides/candidate_from_result.h"
@@ -64,16 +66,14 @@ Expected<ShadingMesh> ZooCase::mesh(std::uint32_t light, Mutation mutation) cons
   const auto result = compute_shadows(prepared_, options);
   if (!result) return tl::unexpected(result.error());
   const Illuminator illuminator(prepared_, light, 1);
-  ShadingOptions shading;
-  shading.mutation = mutation;
-  return make_shading_mesh(
+  return make_shading_mesh_by(
       prepared_, *result,
       [&](const ShadeRequest& asked) {
         const Illumination found =
             illuminator.at(asked.part, asked.side, asked.point, asked.unobstructed, asked.inwards);
         return PointShade{found.value, found.error_bound};
       },
-      shading);
+      ShadingOptions{}, rules_of(mutation));
 }
 
 oracle::MeshReport ZooCase::check(const ShadingMesh& mesh) const {

@@ -12,6 +12,8 @@
 
 namespace gnomon {
 
+struct Rules;
+
 enum class Mutation : std::uint8_t {
   kNone,
   kPlanesFromFragments,          // a fragment's support plane computed again from its own vertices
@@ -40,6 +42,8 @@ struct MutationInfo {
 /// All but kNone, in order of the enumeration.
 std::span<const MutationInfo> mutations();
 std::optional<Mutation> mutation_by_name(std::string_view name);
+/// The rules with the mistake in them.
+Rules rules_of(Mutation mutation);
 /// Empty for kNone.
 std::string_view name_of(Mutation mutation);
 
