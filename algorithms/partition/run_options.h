@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // What the algorithms of one light are told, whichever they are: the output that is wanted, how
 // work is shared out, limits, interruption. The public options (ShadowOptions) choose kernels and
-// algorithms besides; run/ fills these from them.
+// methods besides; run_options_of() takes these from them (run_task.h).
 #ifndef GNOMON_ALGORITHMS_PARTITION_RUN_OPTIONS_H
 #define GNOMON_ALGORITHMS_PARTITION_RUN_OPTIONS_H
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Lights of any kind receiver by receiver, from a prepared scene to a result, on several threads;
-// and several lights in one pipeline, with a class per light on each fragment. Instantiated one
-// kernel a source.
+// and several lights in one pipeline, with a class per light on each fragment.
 #ifndef GNOMON_ALGORITHMS_RUN_RECEIVER_RUN_H
 #define GNOMON_ALGORITHMS_RUN_RECEIVER_RUN_H
 
@@ -23,13 +22,13 @@
 #include "algorithms/partition/fragment_sink.h"
 #include "algorithms/partition/rules.h"
 #include "algorithms/partition/run_options.h"
-#include "algorithms/run/area_kernels.h"
-#include "algorithms/run/run_options_of.h"
+#include "algorithms/run/by_receiver.h"
 #include "algorithms/shadow_volumes/caster_tree.h"
 #include "algorithms/shadow_volumes/light_geometry.h"
 #include "algorithms/shadow_volumes/light_in_space.h"
 #include "algorithms/volume_trees/light_by_planes.h"
 #include "algorithms/volume_trees/penumbra_and_umbra.h"
+#include "kernel/concept/kernel_model.h"
 #include "kernel/signs/fp_environment.h"
 
 namespace gnomon {
@@ -67,7 +66,7 @@ class ReceiverRun {
         tree_(light_geometry_.geometry, scene, casters(scene)) {}
 
   /// Lights that results are wanted of one by one, and those that fragments are combined of.
-  Expected<AreaOutcome> run(const LightList& lights, const LightList& combined);
+  Expected<ShadowResult> run(const LightList& lights, const LightList& combined);
 
  private:
   using Workspaces = tbb::enumerable_thread_specific<std::unique_ptr<Workspace>>;
@@ -102,7 +101,7 @@ class ReceiverRun {
                                    const PenumbraAndUmbra<Space>* merged, std::uint32_t part);
   bool build_trees(const LightInSpace<Space>& light, double from, double to,
                    PenumbraAndUmbra<Space>& trees);
-  void combine(const LightList& lights, double from, double to, AreaOutcome& outcome);
+  void combine(const LightList& lights, double from, double to, ShadowResult& outcome);
   tl::unexpected<Error> stop_reason() const;
 
   const PreparedScene& scene_;
@@ -289,7 +288,7 @@ template <VolumeSpaceModel Space>
 LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, LightResult result,
                                           double from, double to) {
   std::optional<PenumbraAndUmbra<Space>> merged;
-  if (light.is_area() && options_.area_algorithm != AreaAlgorithm::kReceiver) {
+  if (light.is_area() && options_.area_algorithm != MethodId::kReceiver) {
     merged.emplace(space_, light, scene_, tree_, run_options_, rules_);
     const double middle = from + (to - from) / 2;
     if (!build_trees(light, from, middle, *merged)) return result;
@@ -347,7 +346,7 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
 /// Every fragment of one light goes on to the next (1989, sec. 5).
 template <VolumeSpaceModel Space>
 void ReceiverRun<Space>::combine(const LightList& indices, double from, double to,
-                                 AreaOutcome& outcome) {
+                                 ShadowResult& outcome) {
   struct Combined {
     std::vector<CombinedFragment> fragments;
     std::vector<std::array<double, 3>> points;
@@ -438,12 +437,12 @@ tl::unexpected<Error> ReceiverRun<Space>::stop_reason() const {
 }
 
 template <VolumeSpaceModel Space>
-Expected<AreaOutcome> ReceiverRun<Space>::run(const LightList& lights, const LightList& combined) {
-  AreaOutcome outcome;
+Expected<ShadowResult> ReceiverRun<Space>::run(const LightList& lights, const LightList& combined) {
+  ShadowResult outcome = empty_result(options_);
   const double steps = static_cast<double>(lights.size() + (combined.empty() ? 0 : 1));
   double step = 0;
   for (const std::uint32_t light : lights) {
-    if (options_.area_algorithm == AreaAlgorithm::kPieces &&
+    if (options_.area_algorithm == MethodId::kPieces &&
         scene_.lights[light].type == LightType::kArea) {
       run_pieces(light, step / steps, (step + 1) / steps, outcome.lights);
     } else {
@@ -456,28 +455,22 @@ Expected<AreaOutcome> ReceiverRun<Space>::run(const LightList& lights, const Lig
     combine(combined, step / steps, 1, outcome);
     if (stopped_) return stop_reason();
   }
-  outcome.stages = stages_;
+  outcome.stages += stages_;
   outcome.stages += space_.stage_counts();
   outcome.stages += scene_space_.stage_counts();
   return outcome;
 }
 
 /// On as many threads as asked for.
-template <VolumeSpaceModel Space>
-Expected<AreaOutcome> area_shadows_with(const PreparedScene& scene, const ShadowOptions& options,
-                                        const Rules& rules, const LightList& lights,
-                                        const LightList& combined) {
-  const unsigned most = std::max(1u, std::thread::hardware_concurrency());
-  const unsigned jobs = options.jobs == 0 ? most : std::min(options.jobs, most);
-  tbb::task_arena arena(static_cast<int>(jobs));
-  return arena.execute(
-      [&] { return ReceiverRun<Space>(scene, options, rules).run(lights, combined); });
-}
-
-template <VolumeSpaceModel Space>
-Expected<AreaOutcome> area_shadows_with(const PreparedScene& scene, const ShadowOptions& options,
-                                        const LightList& lights, const LightList& combined) {
-  return area_shadows_with<Space>(scene, options, rules_of(options.mutation), lights, combined);
+template <class Kernel>
+Expected<ShadowResult> ByReceiver<Kernel>::run(const RunTask& task) {
+  tbb::task_arena arena(thread_count(task.options.jobs));
+  return arena.execute([&] {
+    return with_volume_space<Kernel>(task.options.count_stages, [&]<class Space>() {
+      return ReceiverRun<Space>(task.scene, task.options, task.rules)
+          .run(task.lights, task.combined);
+    });
+  });
 }
 
 }  // namespace gnomon

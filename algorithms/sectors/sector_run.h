@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// One light by the sectors algorithm, from a prepared scene to a result, on several threads.
+// The sectors method from a prepared scene to a result, light by light, on several threads.
 #ifndef GNOMON_ALGORITHMS_SECTORS_SECTOR_RUN_H
 #define GNOMON_ALGORITHMS_SECTORS_SECTOR_RUN_H
 
@@ -15,7 +15,10 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/partition/run_task.h"
+#include "algorithms/sectors/by_sectors.h"
 #include "algorithms/sectors/sector_tree.inl.h"
+#include "kernel/concept/kernel_model.h"
 #include "kernel/signs/fp_environment.h"
 
 namespace gnomon {
@@ -251,7 +254,7 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run(
   states_.assign(states.begin(), states.end());
   for (const std::unique_ptr<Tree>& tree : trees) stages_ += tree->space().stage_counts();
   stages_ += planner.space().stage_counts();
-  // Whole parts go out as they came in (1989, sec. 6).
+  // A part with one class and caster is put out as it came in (1989, sec. 6).
   for (std::uint32_t i = 0; i < states_.size(); ++i) {
     if (states_[i] != kMixed && states_[i] != kUndecided) planner.emit_root(i);
   }
@@ -326,6 +329,56 @@ LightResult SectorRun<Space>::finish() {
     }
   }
   return std::move(result_);
+}
+
+/// Every light by the sectors algorithm, one after another.
+template <SectorSpaceModel Space>
+Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
+  using Run = SectorRun<Space>;
+  const PreparedScene& scene = task.scene;
+  const ShadowOptions& options = task.options;
+  const LightList& lights = task.lights;
+  ShadowResult result = empty_result(options);
+  result.algorithm = "sectors";
+  const double start = cpu_seconds();
+  const KernelOptions kernel_options{options.identity, options.thickness};
+  const RunOptions run_options = run_options_of(options);
+  typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    Run run(scene, run_options, task.rules, scene_space, lights[i], kernel_options);
+    std::function<void(double)> progress;
+    if (options.progress) {
+      progress = [&](double share) {
+        options.progress((static_cast<double>(i) + share) / static_cast<double>(lights.size()));
+      };
+    }
+    switch (run.run(progress)) {
+      case Run::Outcome::kDone:
+        break;
+      case Run::Outcome::kInterrupted:
+        return interrupted();
+      case Run::Outcome::kTooManyFragments:
+        return too_many_fragments(options);
+      case Run::Outcome::kNoIeee:
+        return tl::unexpected<Error>(check_fp_environment().error());
+    }
+    result.stages += run.stage_counts();
+    result.lights.push_back(run.finish());
+  }
+  result.stages += scene_space.stage_counts();
+  result.shadow_seconds = cpu_seconds() - start;
+  return result;
+}
+
+/// The same on as many threads as asked for.
+template <class Kernel>
+Expected<ShadowResult> BySectors<Kernel>::run(const RunTask& task) {
+  tbb::task_arena arena(thread_count(task.options.jobs));
+  return arena.execute([&] {
+    return with_light_space<Kernel>(task.options.count_stages, [&]<class Space>() {
+      return compute_by_sectors_here<Space>(task);
+    });
+  });
 }
 
 }  // namespace gnomon

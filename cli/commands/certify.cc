@@ -76,9 +76,9 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
 }
 
 Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const CertifyCommandOptions& options) {
-  if (options.algorithm == kBothName) return both_algorithms();
-  const auto algorithm =
-      parse_algorithm_choice(options.algorithm, {{"--explain", options.explain}}, kBothName);
+  if (auto several = several_algorithms(options.algorithm); !several.empty()) return several;
+  const auto algorithm = parse_algorithm_choice(
+      options.algorithm, {{"--explain", options.explain, &Method::explains}}, "both, all");
   if (!algorithm) return tl::unexpected(algorithm.error());
   return std::vector{*algorithm};
 }
@@ -158,7 +158,7 @@ class CertifyRun {
     auto candidate =
         report::candidate_from_result(loaded_.scene, loaded_.prepared, *result, run.name, false);
     const bool explained =
-        options_.explain && !kernel.exact() && algorithm.point == Algorithm::kSvbsp;
+        options_.explain && !kernel.exact() && algorithm.point == MethodId::kSvbsp;
     return judge(std::move(run), std::move(candidate),
                  explained ? std::optional(kernel) : std::nullopt);
   }
@@ -249,7 +249,7 @@ class CertifyRun {
 
   std::string first_difference(const KernelChoice& kernel) {
     progress_.set_label("explaining " + kernel.name());
-    ShadowOptions shadow_options = options_of(kernel, {.point = Algorithm::kSvbsp});
+    ShadowOptions shadow_options = options_of(kernel, {.point = MethodId::kSvbsp});
     // The lock-step knows the point and directional lights alone.
     std::erase_if(shadow_options.lights, [&](std::uint32_t light) {
       return loaded_.prepared.lights[light].type == LightType::kArea;
@@ -414,11 +414,9 @@ void add_certify_command(CLI::App& app, Action& action) {
                  "A kernel to run, such as double, double+identity or double+thin (thickness 0)\n"
                  "(repeatable)"))
       ->type_name("K");
-  add_algorithm_option(command, options->algorithm)
-      ->description(
-          "How kernels find shadows: sectors or svbsp (point and directional lights), receiver\n"
-          "or merged (area lights), both one after the other, or auto: sectors, or svbsp with\n"
-          "--explain, and receiver");
+  add_algorithm_option(command, options->algorithm, "How kernels find shadows.",
+                       "both: sectors and receiver, then svbsp and merged; all: every method;\n"
+                       "auto: sectors, or svbsp with --explain, and receiver");
   repeatable(command.add_option("--candidate", options->candidates,
                                 "A result file to judge instead (repeatable)"))
       ->type_name("RESULT");

@@ -99,14 +99,14 @@ tl::unexpected<Error> missing_light(const std::string& file, const std::string& 
 }
 
 Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const RenderOptions& options) {
-  if (options.algorithm == kBothName) {
+  if (auto several = several_algorithms(options.algorithm); !several.empty()) {
     if (!options.result.empty() || !options.candidate.empty()) {
-      return fail(ErrorCode::kUsage, "--algorithm both shows exact answers",
+      return fail(ErrorCode::kUsage, "--algorithm " + options.algorithm + " shows exact answers",
                   "no RESULT and no --candidate");
     }
-    return both_algorithms();
+    return several;
   }
-  const auto algorithm = parse_algorithm_choice(options.algorithm, {}, kBothName);
+  const auto algorithm = parse_algorithm_choice(options.algorithm, {}, "both, all");
   if (!algorithm) return tl::unexpected(algorithm.error());
   return std::vector{*algorithm};
 }
@@ -114,7 +114,8 @@ Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const RenderOptions& op
 /// The scene by all lights asked for, as their illumination has it.
 Expected<void> render_illuminated(const RenderOptions& options, const LoadedScene& loaded,
                                   const report::Camera& camera) {
-  if (!options.result.empty() || !options.candidate.empty() || options.algorithm == kBothName) {
+  if (!options.result.empty() || !options.candidate.empty() ||
+      !several_algorithms(options.algorithm).empty()) {
     return fail(ErrorCode::kUsage, "--illuminate shows the exact answer",
                 "no RESULT, no --candidate, one algorithm");
   }
@@ -225,10 +226,8 @@ void add_render_command(CLI::App& app, Action& action) {
   add_scene_options(command, options->scene);
   command.add_option("RESULT", options->result, "A result to show, with fragments")
       ->type_name("FILE");
-  add_algorithm_option(command, options->algorithm)
-      ->description(
-          "How the exact answer is found: sectors or svbsp (point and directional lights),\n"
-          "receiver or merged (area lights), auto (sectors, receiver), or both side by side");
+  add_algorithm_option(command, options->algorithm, "How the exact answer is found.",
+                       "auto: sectors and receiver; both, all: several methods side by side");
   command.add_option("--eye", options->eye, "Where the eye is [above a corner of the scene]")
       ->type_name("x,y,z");
   command.add_option("--look-at", options->look_at, "What it looks at [the middle of the scene]")

@@ -10,10 +10,10 @@
 
 #include "fuzz/corpus/corpus.h"
 #include "fuzz/findings/finding_picture.h"
+#include "fuzz/mistakes/compute.h"
 #include "fuzz/process/command.h"
 #include "fuzz/shrink/still_fails.h"
 #include "gnomon/algorithms/explain.h"
-#include "gnomon/algorithms/shadows.h"
 #include "gnomon/oracle/exact_answer.h"
 #include "gnomon/oracle/read_candidate.h"
 #include "gnomon/oracle/verdict.h"
@@ -88,7 +88,7 @@ class EvidenceSearch {
             ? std::string("a scene that was brought")
             : fmt::format("generator {}, seed {}", finding_.generator, finding_.case_seed));
     note.inform = subject_ != nullptr && !subject_->foreign() && !subject_->exact() &&
-                  subject_->mutation == Mutation::kNone;
+                  subject_->mistake == Mistake::kNone;
     if (note.inform) note.wrong = {finding_.failure.subject};
     const auto text = fixture_text(scene_, note);
     if (text) {
@@ -98,9 +98,10 @@ class EvidenceSearch {
     }
   }
 
-  std::optional<oracle::Candidate> run(const ShadowOptions& options, const std::string& name) {
+  std::optional<oracle::Candidate> run(const ShadowOptions& options, const std::string& name,
+                                       Mistake mistake = Mistake::kNone) {
     try {
-      const auto result = compute_shadows(prepared_, options);
+      const auto result = compute_shadows(prepared_, options, mistake);
       if (!result) {
         evidence_.no_candidate =
             fmt::format("{} gave no answer: {}", name, to_string(result.error()));
@@ -131,7 +132,7 @@ class EvidenceSearch {
       ShadowOptions options = shadow_options(*subject_);
       options.exact_fractions = false;
       options.max_fragments = finding_.check.max_fragments;
-      candidate_ = run(options, finding_.failure.subject);
+      candidate_ = run(options, finding_.failure.subject, subject_->mistake);
       return;
     }
     CommandOptions options;
@@ -191,11 +192,11 @@ class EvidenceSearch {
           "wrong.";
       return;
     }
-    if (subject_->mutation != Mutation::kNone) {
-      for (const MutationInfo& info : mutations()) {
-        if (info.mutation != subject_->mutation) continue;
+    if (subject_->mistake != Mistake::kNone) {
+      for (const MistakeInfo& info : mistakes()) {
+        if (info.mistake != subject_->mistake) continue;
         note = fmt::format("This variant is wrong on purpose ({}): {}. {} warns of it.", info.name,
-                           info.mistake, info.source);
+                           info.sentence, info.source);
       }
       if (subject_->kernel.exact()) return;
     }
@@ -217,9 +218,8 @@ class EvidenceSearch {
       return;
     }
     ShadowOptions options = shadow_options(*subject_);
-    options.mutation = Mutation::kNone;
     options.exact_fractions = false;
-    options.algorithm = Algorithm::kSvbsp;
+    options.algorithm = MethodId::kSvbsp;
     options.lights = {light_};
     const auto difference = explain(prepared_, options);
     if (!difference) {
@@ -236,12 +236,11 @@ class EvidenceSearch {
       for (const Light& light : scene_.lights) lights.push_back(light.id);
       evidence_.decision = to_sentence(**difference, prepared_, subject_->kernel.name(), lights);
     }
-    if (subject_->algorithm != Algorithm::kSvbsp) {
+    if (subject_->algorithm != MethodId::kSvbsp) {
       note += fmt::format(
           "{}The answer that failed is that of `{}`; decisions are those of `svbsp` on the "
           "same kernel, whose order can be followed.",
-          note.empty() ? "" : " ",
-          subject_->algorithm == Algorithm::kReceiver ? "receiver" : "sectors");
+          note.empty() ? "" : " ", method_info(subject_->algorithm).name);
     }
   }
 

@@ -19,7 +19,7 @@ class AreaKnownWrong : public testing::Test {
   }
   oracle::Report failed(const std::string& policy) {
     const Expected<ShadowResult> result =
-        compute_shadows(case_->prepared(), options_by_name(policy, Algorithm::kSectors));
+        compute_shadows(case_->prepared(), options_by_name(policy, MethodId::kSectors));
     EXPECT_TRUE(result);
     oracle::Report report = judge(*case_, *result, false);
     EXPECT_EQ(report.verdict, oracle::Verdict::kFailed) << policy << " turned right";

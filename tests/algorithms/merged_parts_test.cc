@@ -316,12 +316,12 @@ UnionCheck check_union(UnionScene& scene, Random& random, const Rules& rules, bo
   VolumeTree<Space> tree(space, rules);
   CellFilter<Space> filter(space, true);
   if (prefix) {
-    std::vector<SpaceBox> boxes;
+    std::vector<Box> boxes;
     LoopStore<Vertex> store;
     for (std::uint32_t i = 0; i < scene.scene().parts.size(); ++i) {
       store.clear();
       const auto loop = load(space, scene.scene(), i, store);
-      SpaceBox box{{2, 2, 2}, {-1, -1, -1}};
+      Box box{{2, 2, 2}, {-1, -1, -1}};
       for (std::uint32_t k = 0; k < loop.size(); ++k) {
         const auto position = space.position(loop.corner(k));
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -368,7 +368,7 @@ UnionCheck check_union(UnionScene& scene, Random& random, const Rules& rules, bo
     output.clear();
     filter.filter(tree, whole, {front, &corner}, output);
     mpq_class area = 0;
-    for (const CellLoop& cell : output.cells) {
+    for (const CellLoop& cell : output.fragments) {
       const auto loop = output.loops.view(cell.loop, part.plane);
       Point centre{0, 0, 0};
       for (std::uint32_t k = 0; k < loop.size(); ++k) {
@@ -427,11 +427,11 @@ TEST(VolumeTree, WrongUnionIsWrong) {
   EXPECT_GT(wrong, 10u);
 }
 
-TEST(VolumeTreePrefix, LeavesHoldWhatTheyShould) {
+TEST(VolumeTreePrefix, SplitsAtShortValues) {
   Random random(5);
-  std::vector<SpaceBox> boxes;
+  std::vector<Box> boxes;
   for (int i = 0; i < 500; ++i) {
-    SpaceBox box;
+    Box box;
     for (std::size_t k = 0; k < 3; ++k) {
       box.low[k] = std::ldexp(static_cast<double>(random.below(1000)), -10);
       box.high[k] = box.low[k] + std::ldexp(static_cast<double>(random.below(50)), -11);
@@ -440,19 +440,11 @@ TEST(VolumeTreePrefix, LeavesHoldWhatTheyShould) {
   }
   const SpacePrefix prefix = plan_space_prefix(boxes, 8);
   EXPECT_GT(prefix.nodes.size(), 40u);
-  for (const SpaceBox& box : boxes) {  // no box reaches into a leaf that is not used
-    std::vector<std::int32_t> stack{0};
-    while (!stack.empty()) {
-      const std::int32_t at = stack.back();
-      stack.pop_back();
-      ASSERT_NE(at, SpacePrefix::kUnused);
-      if (at == SpacePrefix::kLeaf) continue;
-      const auto& node = prefix.nodes[static_cast<std::size_t>(at)];
-      EXPECT_EQ(node.value, std::ldexp(std::nearbyint(std::ldexp(node.value, SpacePrefix::kBits)),
-                                       -SpacePrefix::kBits));
-      if (box.high[node.axis] >= node.value) stack.push_back(node.front);
-      if (box.low[node.axis] <= node.value) stack.push_back(node.back);
-    }
+  for (const SpacePrefix::Node& node : prefix.nodes) {
+    EXPECT_GT(node.value, 0);
+    EXPECT_LT(node.value, 1);
+    const double scaled = std::ldexp(node.value, KdSplit::kBits);
+    EXPECT_EQ(scaled, std::nearbyint(scaled));
   }
 }
 

@@ -90,11 +90,11 @@ TEST_P(CorpusKind, FractionsAreThoseRecorded) {
       ASSERT_TRUE(found) << to_string(found.error());
       EXPECT_EQ(difference(fixture.fractions, *found), "");
     };
-    options.algorithm = Algorithm::kSvbsp;
-    options.area_algorithm = AreaAlgorithm::kMerged;
+    options.algorithm = MethodId::kSvbsp;
+    options.area_algorithm = MethodId::kMerged;
     for (options.seed = 1; options.seed <= 8; ++options.seed) check();  // orders of splitting
-    options.algorithm = Algorithm::kSectors;
-    options.area_algorithm = AreaAlgorithm::kReceiver;
+    options.algorithm = MethodId::kSectors;
+    options.area_algorithm = MethodId::kReceiver;
     for (options.leaf_size = 0; options.leaf_size <= 4; ++options.leaf_size) check();
   });
 }
@@ -238,7 +238,7 @@ TEST(Corpus, SlantedThroughIsSplitAtAll) {
   unsigned split = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     ShadowOptions options = test::options_for(KernelId::kPlane);
-    options.algorithm = Algorithm::kSvbsp;
+    options.algorithm = MethodId::kSvbsp;
     options.seed = seed;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
     ASSERT_TRUE(result);

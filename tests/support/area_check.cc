@@ -189,12 +189,12 @@ std::vector<ShadowOptions> variants() {
   for (const KernelId kernel : kExactKernels) {
     ShadowOptions options = options_for(kernel);
     options.jobs = kernel == KernelId::kPlane ? 2 : 1;
-    options.algorithm = kernel == KernelId::kRational ? Algorithm::kReceiver : Algorithm::kSectors;
+    options.algorithm = kernel == KernelId::kRational ? MethodId::kReceiver : MethodId::kSectors;
     all.push_back(options);
     if (kernel == KernelId::kEpeck) continue;
     options.jobs = 1;
     options.merge = false;
-    options.area_algorithm = AreaAlgorithm::kMerged;
+    options.area_algorithm = MethodId::kMerged;
     all.push_back(options);
   }
   return all;
@@ -210,7 +210,7 @@ std::string check_area_exact(const Case& scene) {
     const bool is_first = first.kernel.empty();
     std::string wrong = check_sums(scene, *result);
     if (wrong.empty() && !is_first) wrong = compare_results(scene, first, *result);
-    if (wrong.empty() && (is_first || options.area_algorithm == AreaAlgorithm::kMerged)) {
+    if (wrong.empty() && (is_first || options.area_algorithm == MethodId::kMerged)) {
       wrong = compare_with_oracle(scene, *result);
     }
     if (wrong.empty() && is_first) wrong = check_bounds(scene, *result, options);

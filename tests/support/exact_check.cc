@@ -177,17 +177,17 @@ std::vector<ShadowOptions> variants(const Case& scene) {
     for (std::uint32_t light = 0; light < scene.prepared().lights.size(); ++light) {
       if (!scene.is_area(light)) options.lights.push_back(light);
     }
-    options.algorithm = Algorithm::kSectors;
+    options.algorithm = MethodId::kSectors;
     options.jobs = 1;
     if (kernel == KernelId::kPlane) all.push_back(options);
     all.push_back(with_small_cells(options));
     if (kernel == KernelId::kPlane) all.back().jobs = 2;
-    options.algorithm = Algorithm::kSvbsp;
+    options.algorithm = MethodId::kSvbsp;
     options.merge = options.prefix = kernel != KernelId::kRational;
     options.seed = 1 + static_cast<std::uint64_t>(kernel);
     all.push_back(options);
     if (kernel != KernelId::kPlane) continue;
-    options.algorithm = Algorithm::kReceiver;  // as area lights are found
+    options.algorithm = MethodId::kReceiver;  // as area lights are found
     all.push_back(options);
   }
   return all;

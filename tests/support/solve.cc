@@ -152,7 +152,7 @@ oracle::Report judge(const Case& scene, const ShadowResult& result, bool strict)
   return std::move(*report);
 }
 
-ShadowOptions options_by_name(const std::string& name, Algorithm algorithm) {
+ShadowOptions options_by_name(const std::string& name, MethodId algorithm) {
   const std::size_t at = name.find('@');
   std::string kernel = name.substr(0, at);
   const std::size_t plus = kernel.find("+identity");
@@ -167,12 +167,12 @@ ShadowOptions options_by_name(const std::string& name, Algorithm algorithm) {
   return options;
 }
 
-std::string name_of(Algorithm algorithm) {
-  return algorithm == Algorithm::kSvbsp ? "svbsp" : "sectors";
+std::string name_of(MethodId algorithm) {
+  return algorithm == MethodId::kSvbsp ? "svbsp" : "sectors";
 }
 
 ShadowOptions with_small_cells(ShadowOptions options) {
-  options.algorithm = Algorithm::kSectors;
+  options.algorithm = MethodId::kSectors;
   options.leaf_size = 1;
   options.task_size = 2;
   return options;

@@ -51,11 +51,11 @@ oracle::Report judge(const Case& scene, const ShadowResult& result, bool strict 
 
 /// A kernel with its policies, by name: "double@1e-12" (thickness), "double+identity@0", "epick",
 /// "plane". Throws std::runtime_error for a name that is none.
-ShadowOptions options_by_name(const std::string& name, Algorithm algorithm);
+ShadowOptions options_by_name(const std::string& name, MethodId algorithm);
 
-inline constexpr std::array kAlgorithms = {Algorithm::kSectors, Algorithm::kSvbsp};
+inline constexpr std::array kAlgorithms = {MethodId::kSectors, MethodId::kSvbsp};
 /// "sectors", "svbsp"
-std::string name_of(Algorithm algorithm);
+std::string name_of(MethodId algorithm);
 /// Sectors with cells so small that few polygons make a tree and many tasks.
 ShadowOptions with_small_cells(ShadowOptions options);
 

@@ -59,7 +59,7 @@ struct AreaFractions {
 struct LightResult {
   static constexpr std::uint32_t kWhole = 0xffffffffu;
   std::uint32_t light = 0;  // index into PreparedScene::lights
-  // AreaAlgorithm::kPieces: one result a piece of the light, in order of the pieces; else kWhole.
+  // MethodId::kPieces: one result a piece of the light, in order of the pieces; else kWhole.
   std::uint32_t piece = kWhole;
   // Of that piece, counter-clockwise seen from its front, scene units: if exact points are kept.
   std::vector<std::array<mpq_class, 3>> piece_loop;
