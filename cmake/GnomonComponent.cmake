@@ -7,6 +7,8 @@
 #   LINK gnomon::kernel GMP::GMPXX ...         public: named by the headers
 #   LINK_PRIVATE fmt::fmt ...                  used inside only; header-only helpers of the build are
 #                                              linked as $<BUILD_INTERFACE:gnomon_rapidjson>
+#   [ALONE room room/c.cc ...]                 rooms and sources compiled each by itself always
+#   [OPTIMISE -O1]                             in release builds, for code that need not be fast
 #   [NO_INSTALL])
 #
 # Makes the target gnomon_<name>, its alias gnomon::<name>, and puts it into the exported package. A
@@ -23,8 +25,8 @@ add_library(gnomon::internals ALIAS gnomon_internals)
 target_include_directories(gnomon_internals INTERFACE "${PROJECT_SOURCE_DIR}")
 
 function(gnomon_add_component name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" ""
-                        "SOURCES;CGAL_SOURCES;HEADERS;LINK;LINK_PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "NO_INSTALL" "OPTIMISE"
+                        "SOURCES;CGAL_SOURCES;HEADERS;LINK;LINK_PRIVATE;ALONE")
   if(arg_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "gnomon_add_component(${name}): unknown ${arg_UNPARSED_ARGUMENTS}")
   endif()
@@ -38,6 +40,13 @@ function(gnomon_add_component name)
     set(private PRIVATE)
     add_library(${target} ${arg_SOURCES})
     target_link_libraries(${target} PUBLIC ${arg_LINK} PRIVATE ${arg_LINK_PRIVATE})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${arg_OPTIMISE}>)
+    gnomon_compile_by_rooms(${target} ALONE ${arg_ALONE})
+    if("fmt::fmt" IN_LIST arg_LINK_PRIVATE)
+      gnomon_precompile_headers(${target} text)
+    else()
+      gnomon_precompile_headers(${target} plain)
+    endif()
   else()
     set(scope INTERFACE)
     set(private INTERFACE)
@@ -59,6 +68,7 @@ function(gnomon_add_component name)
     target_include_directories(${target}_cgal PRIVATE include)
     target_link_libraries(${target}_cgal PRIVATE ${arg_LINK} ${arg_LINK_PRIVATE}
                           gnomon_internals CGAL::CGAL)
+    gnomon_compile_by_rooms(${target}_cgal ALONE ${arg_ALONE})
     get_target_property(pic ${target} POSITION_INDEPENDENT_CODE)
     if(BUILD_SHARED_LIBS OR pic)
       set_target_properties(${target}_cgal PROPERTIES POSITION_INDEPENDENT_CODE ON)

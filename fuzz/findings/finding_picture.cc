@@ -10,6 +10,7 @@
 
 #include "fuzz/scene/scene_coordinates.h"
 #include "report/text/text_sink.h"
+#include "scene/base/vectors.h"
 
 namespace gnomon::fuzz {
 
@@ -20,11 +21,6 @@ using report::Point;
 
 constexpr std::size_t kAxes = 3;
 
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
 /// Powers of two that bring all axes to about the same extent, where one is far shorter or longer

@@ -7,6 +7,7 @@
 
 #include "fuzz/corpus/corpus.h"
 #include "gnomon/scene/read.h"
+#include "tests/support/test_directory.h"
 
 namespace gnomon::fuzz {
 namespace {
@@ -15,12 +16,6 @@ namespace fs = std::filesystem;
 
 class CorpusFormat : public testing::Test {
  protected:
-  CorpusFormat() {
-    std::string pattern = (fs::temp_directory_path() / "gnomon-corpus-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~CorpusFormat() override { fs::remove_all(folder_); }
-
   void write(const std::string& name, const std::string& text) const {
     fs::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name) << text;
@@ -35,7 +30,8 @@ class CorpusFormat : public testing::Test {
     return to_string(read.error()).substr(read.error().where.file.size() + 2);
   }
 
-  fs::path folder_;
+  const test::TestDirectory directory_;
+  const fs::path folder_ = directory_.path();
 };
 
 Scene scene_of(const std::string& text) {

@@ -17,7 +17,7 @@
 #include "area_check.h"
 #include "exact_check.h"
 #include "fuzz/corpus/corpus_judge.h"
-#include "fuzz/generate/kind_predicates.h"
+#include "fuzz/kinds/kind_predicates.h"
 #include "fuzz/scene/kinds.h"
 #include "gnomon/scene/read.h"
 

@@ -342,7 +342,8 @@ TEST_P(ImplicitVolumes, EverySideIsTrue) {
 INSTANTIATE_TEST_SUITE_P(Bits, ImplicitVolumes,
                          testing::Values(3u, 6u, 7u, 10u, 11u, 13u, 14u, 17u, 20u, 21u, 27u, 28u,
                                          31u, 32u, 42u, 43u, 53u, 54u, 56u, 57u, 62u, 63u, 64u, 84u,
-                                         113u, 171u, 340u));
+                                         113u, 171u, 340u),
+                         testing::PrintToStringParamName());
 
 // Which integers had to answer is decided by the bits alone, while all planes go through input
 // vertices.

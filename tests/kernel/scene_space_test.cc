@@ -167,7 +167,8 @@ TEST_P(SceneSpace, EverySideIsTrue) {
 INSTANTIATE_TEST_SUITE_P(Bits, SceneSpace,
                          testing::Values(3u, 6u, 7u, 10u, 11u, 13u, 14u, 20u, 21u, 27u, 28u, 42u,
                                          43u, 53u, 56u, 57u, 62u, 63u, 84u, 85u, 113u, 114u, 170u,
-                                         171u, 340u, 341u, 1100u, 2100u));
+                                         171u, 340u, 341u, 1100u, 2100u),
+                         testing::PrintToStringParamName());
 
 TEST(SceneSpaceStages, EachStageAnswersWhatIsItsOwn) {
   // A floor, a wall through its middle, and a triangle that touches the floor at (1, 1, 0).

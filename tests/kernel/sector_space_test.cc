@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sector_space_test.h"
 
+#include <array>
+#include <string>
+
 #include "kernel/cgal/epick_space.h"
 #include "kernel/coordinate/coordinate_space.h"
 #include "kernel/implicit/implicit_light_space.h"
@@ -15,7 +18,14 @@ namespace {
 using Kernels = testing::Types<CoordinateLightSpace<float>, CoordinateLightSpace<double>,
                                CoordinateLightSpace<long double>, CoordinateLightSpace<mpq_class>,
                                EpickLightSpace, ImplicitLightSpace<NoStats>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(Kernels, SectorSpace, Kernels);
+/// What the tests' names say for the types above, in the same order.
+struct KernelNames {
+  template <class Kernel>
+  static std::string GetName(int i) {
+    return std::array{"float", "double", "long_double", "rational", "epick", "plane"}[i];
+  }
+};
+INSTANTIATE_TYPED_TEST_SUITE_P(Kernels, SectorSpace, Kernels, KernelNames);
 
 TEST(SectorSpaceThickness, ASupportPlaneHasIt) {
   // The diagonal is 3000; the second triangle's corners are 1, 2 and 3 from the plane z = 0.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "volume_space_test.h"
 
+#include <array>
+#include <string>
+
 #include "kernel/cgal/epick_volume_space.h"
 #include "kernel/coordinate/coordinate_volume_space.h"
 #include "kernel/implicit/implicit_volume_space.h"
@@ -11,9 +14,23 @@ namespace {
 using Kernels = testing::Types<CoordinateVolumeSpace<float>, CoordinateVolumeSpace<double>,
                                CoordinateVolumeSpace<long double>, CoordinateVolumeSpace<mpq_class>,
                                EpickVolumeSpace, ImplicitVolumeSpace<NoStats>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(Kernels, VolumeSpace, Kernels);
+/// What the tests' names say for the types above, in the same order.
+struct KernelNames {
+  template <class Kernel>
+  static std::string GetName(int i) {
+    return std::array{"float", "double", "long_double", "rational", "epick", "plane"}[i];
+  }
+};
+INSTANTIATE_TYPED_TEST_SUITE_P(Kernels, VolumeSpace, Kernels, KernelNames);
 using ExactKernels = testing::Types<CoordinateVolumeSpace<mpq_class>, ImplicitVolumeSpace<NoStats>>;
-INSTANTIATE_TYPED_TEST_SUITE_P(Kernels, ExactVolumeSpace, ExactKernels);
+/// What the tests' names say for the types above, in the same order.
+struct ExactKernelNames {
+  template <class Kernel>
+  static std::string GetName(int i) {
+    return std::array{"rational", "plane"}[i];
+  }
+};
+INSTANTIATE_TYPED_TEST_SUITE_P(Kernels, ExactVolumeSpace, ExactKernels, ExactKernelNames);
 
 TEST(VolumeSpaceThickness, AnAddedPlaneHasIt) {
   // The diagonal is 3000; the second triangle's corners are 1, 2 and 3 from the plane z = 0. A

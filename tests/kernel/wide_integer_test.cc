@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -66,7 +67,13 @@ template <class Wide>
 class WideIntegerTest : public testing::Test {};
 using Widths = testing::Types<WideInteger<1>, WideInteger<2>, WideInteger<3>, Int256,
                               WideInteger<6>, Int512, Int1024>;
-TYPED_TEST_SUITE(WideIntegerTest, Widths);
+struct WidthNames {
+  template <class Wide>
+  static std::string GetName(int) {
+    return std::to_string(8 * sizeof(Wide)) + "_bits";
+  }
+};
+TYPED_TEST_SUITE(WideIntegerTest, Widths, WidthNames);
 
 constexpr int kRounds = 20000;
 

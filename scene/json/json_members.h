@@ -1,10 +1,8 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// Members of JSON objects that this program wrote itself: all of them are there, or the text is not
-// what it claims to be, and the error says where.
-#ifndef GNOMON_FUZZ_TEXT_JSON_MEMBERS_H
-#define GNOMON_FUZZ_TEXT_JSON_MEMBERS_H
-
-#include <rapidjson/document.h>
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Members of JSON objects that this program wrote itself. If one is missing, the text is not what
+// it claims to be, and the error says where.
+#ifndef GNOMON_SCENE_JSON_JSON_MEMBERS_H
+#define GNOMON_SCENE_JSON_JSON_MEMBERS_H
 
 #include <cstdint>
 #include <optional>
@@ -13,18 +11,16 @@
 #include <vector>
 
 #include "gnomon/kernel/error.h"
+#include "scene/json/json_value.h"
 
-namespace gnomon::fuzz {
-
-/// Errors: kSyntax with line and column, kFormat if it is no object. `file` may be empty.
-Expected<rapidjson::Document> parse_json_object(std::string_view text, const std::string& file);
+namespace gnomon {
 
 /// Reads members by name. The first that is missing or of another type is kept as the error, with
 /// its pointer; what follows it is still read, so that a reader needs to ask only once.
 class JsonMembers {
  public:
   /// `expected`: what writes such objects. The object and the text must outlive the reader.
-  JsonMembers(const rapidjson::Value& object, std::string file, std::string pointer,
+  JsonMembers(const JsonValue& object, std::string file, std::string pointer,
               std::string_view expected)
       : object_(object),
         file_(std::move(file)),
@@ -39,8 +35,11 @@ class JsonMembers {
   void read(const char* key, std::uint32_t& value);
   void read(const char* key, std::vector<std::string>& value);
   void read(const char* key, std::vector<std::uint16_t>& value);
+  /// Leaves the value as it is if there is no such member.
+  void read_if_there(const char* key, std::string& value);
   /// A reader of the object there; of an empty one if there is none.
   JsonMembers object(const char* key);
+  JsonMembers object_if_there(const char* key);
   /// Readers of the objects of the array there.
   std::vector<JsonMembers> objects(const char* key);
 
@@ -51,14 +50,14 @@ class JsonMembers {
 
  private:
   /// Null, and an error, if it is missing.
-  const rapidjson::Value* find(const char* key);
+  const JsonValue* find(const char* key);
 
-  const rapidjson::Value& object_;
+  const JsonValue& object_;
   std::string file_, pointer_;
   std::string_view expected_;
   std::optional<Error> error_;
 };
 
-}  // namespace gnomon::fuzz
+}  // namespace gnomon
 
-#endif  // GNOMON_FUZZ_TEXT_JSON_MEMBERS_H
+#endif  // GNOMON_SCENE_JSON_JSON_MEMBERS_H

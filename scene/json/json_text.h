@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // What reading a scene's JSON needs beside the parser: places of JSON pointers, numbers that are
 // beyond the parser, and words for its errors.
-#ifndef GNOMON_SCENE_FILES_JSON_TEXT_H
-#define GNOMON_SCENE_FILES_JSON_TEXT_H
+#ifndef GNOMON_SCENE_JSON_JSON_TEXT_H
+#define GNOMON_SCENE_JSON_JSON_TEXT_H
 
 #include <rapidjson/reader.h>
 
@@ -53,4 +53,4 @@ Error json_syntax_error(rapidjson::ParseErrorCode code, std::string_view text, s
 
 }  // namespace gnomon
 
-#endif  // GNOMON_SCENE_FILES_JSON_TEXT_H
+#endif  // GNOMON_SCENE_JSON_JSON_TEXT_H

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "scene/files/json_text.h"
+#include "scene/json/json_text.h"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 // Whether a scene holds a kind of degeneracy, decided by exact integer arithmetic from the scene's
 // own numbers: no code of moves, kernels or oracle. What a move says that it did counts only if
 // this agrees.
-#ifndef GNOMON_FUZZ_GENERATE_KIND_PREDICATES_H
-#define GNOMON_FUZZ_GENERATE_KIND_PREDICATES_H
+#ifndef GNOMON_FUZZ_KINDS_KIND_PREDICATES_H
+#define GNOMON_FUZZ_KINDS_KIND_PREDICATES_H
 
 #include <memory>
 
@@ -11,6 +11,8 @@
 #include "gnomon/scene/scene.h"
 
 namespace gnomon::fuzz {
+
+struct SceneView;
 
 class KindChecker {
  public:
@@ -26,10 +28,9 @@ class KindChecker {
   bool holds(Kind kind) const;
 
  private:
-  struct View;
-  std::unique_ptr<const View> view_;
+  std::unique_ptr<const SceneView> view_;
 };
 
 }  // namespace gnomon::fuzz
 
-#endif  // GNOMON_FUZZ_GENERATE_KIND_PREDICATES_H
+#endif  // GNOMON_FUZZ_KINDS_KIND_PREDICATES_H
