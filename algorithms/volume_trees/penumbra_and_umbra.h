@@ -132,7 +132,7 @@ template <VolumeSpaceModel Space>
 template <class Step>
 typename PenumbraAndUmbra<Space>::Outcome PenumbraAndUmbra<Space>::build(
     std::span<const std::uint32_t> receivers, const Step& step) {
-  // What is wrong on purpose is wrong only where no plane but the volumes' cuts them.
+  // Volumes that end at others do so only where no plane but the volumes' cuts them.
   if (options_->prefix && rules_.volumes_continue_behind_others) {
     std::vector<Box> receiver_boxes;
     receiver_boxes.reserve(receivers.size());
