@@ -58,7 +58,7 @@ void add_check_options(CLI::App& command, CheckCommandOptions& options) {
   repeatable(command.add_option(
                  "--kernel", options.kernels,
                  "What is under test (repeatable): KERNEL[+identity][+thin][/ALGORITHM[/AREA]]\n"
-                 "[~MISTAKE], such as double+identity or plane/svbsp/merged"))
+                 "[~MUTATION], such as double+identity or plane/svbsp/merged"))
       ->type_name("K");
   repeatable(command.add_option("--candidate-command", options.commands,
                                 "A foreign program under test (repeatable): run with a scene's "
