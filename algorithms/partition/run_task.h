@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "algorithms/partition/rules.h"
+#include "algorithms/partition/run_options.h"
 #include "gnomon/algorithms/shadow_options.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/kernel/error.h"
@@ -46,6 +47,22 @@ inline tl::unexpected<Error> too_many_fragments(const ShadowOptions& options) {
 inline int thread_count(unsigned jobs) {
   const unsigned most = std::max(1u, std::thread::hardware_concurrency());
   return static_cast<int>(jobs == 0 ? most : std::min(jobs, most));
+}
+
+/// The part of the public options that one light's run is told.
+inline RunOptions run_options_of(const ShadowOptions& options) {
+  RunOptions result;
+  result.keep_points = options.keep_points;
+  result.keep_exact_points = options.keep_exact_points;
+  result.exact_fractions = options.exact_fractions;
+  result.merge = options.merge;
+  result.prefix = options.prefix;
+  result.leaf_size = options.leaf_size;
+  result.task_size = options.task_size;
+  result.jobs = options.jobs;
+  result.max_fragments = options.max_fragments;
+  result.interrupted = options.interrupted;
+  return result;
 }
 
 /// The result of a run on this kernel, before any light.

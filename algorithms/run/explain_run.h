@@ -21,7 +21,7 @@ Explanation ExplainOn<Kernel>::run(const RunTask& task) {
   kernel_options.identity = options.identity;
   kernel_options.thickness = options.thickness;
   kernel_options.lock_step = &lock_step;
-  ShadowOptions run_options = options;
+  RunOptions run_options = run_options_of(options);
   run_options.interrupted = &lock_step.stop;
 
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
@@ -31,7 +31,7 @@ Explanation ExplainOn<Kernel>::run(const RunTask& task) {
       build_scene_bsp(scene_space, scene, parts, options.seed, options.identity, &lock_step.stop);
   if (lock_step.first) return FirstDifference{*lock_step.first, std::nullopt};
   for (const std::uint32_t light : task.lights) {
-    SvbspRun<Space> run(scene, run_options, scene_space, light, kernel_options);
+    SvbspRun<Space> run(scene, run_options, task.rules, scene_space, light, kernel_options);
     if (!lock_step.first) {
       run.run(
           bsp, [](std::size_t) {}, [](std::uint32_t, Side) {});

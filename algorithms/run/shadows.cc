@@ -6,17 +6,11 @@
 #include <utility>
 
 #include "algorithms/partition/import_export.h"
-#include "algorithms/run/by_receiver.h"
 #include "algorithms/run/compute.h"
 #include "algorithms/run/methods.h"
-#include "algorithms/sectors/by_sectors.h"
-#include "algorithms/svbsp/by_svbsp.h"
 #include "kernel/signs/fp_environment.h"
 
 namespace gnomon {
-
-struct FragmentPlanesKernel;
-struct SplitVerticesKernel;
 
 MethodId method_of(LightType light, const ShadowOptions& options, bool together) {
   if (light == LightType::kArea) return options.area_algorithm;
@@ -97,56 +91,6 @@ Expected<LightList> select_lights(const PreparedScene& scene, const ShadowOption
 
 namespace {
 
-/// Refuses a mutation that would do nothing, or that nobody has thought about.
-Expected<void> check_mutation(const PreparedScene& scene, const ShadowOptions& options,
-                              const LightList& lights) {
-  const std::string name = "mutation " + std::string(name_of(options.mutation));
-  if (options.combined) return fail(ErrorCode::kUsage, name + " of lights together", "one by one");
-  if (options.mutation == Mutation::kThicknessTooSmall && options.thickness == 0) {
-    return fail(ErrorCode::kUsage, name + " of planes that have no thickness", "a thickness");
-  }
-  const MethodId algorithm = method_of(LightType::kPoint, options, false);
-  for (const std::uint32_t light : lights) {
-    const bool applies =
-        scene.lights[light].type == LightType::kArea
-            ? applies_to_area(options.mutation, options.kernel, options.area_algorithm)
-            : applies_to(options.mutation, options.kernel, algorithm);
-    if (applies) return {};
-  }
-  return fail(ErrorCode::kUsage, name + " changes nothing",
-              "a kernel, an algorithm and a light that it applies to (docs/bug-zoo.md)");
-}
-
-/// The options under which planes are as thick as the mutation has them.
-ShadowOptions with_thickness_of(const ShadowOptions& options) {
-  ShadowOptions own = options;
-  if (options.mutation == Mutation::kThicknessTooLarge) own.thickness = kThicknessTooLarge;
-  if (options.mutation == Mutation::kThicknessTooSmall) own.thickness = 0;
-  return own;
-}
-
-MethodFunction planes_from_fragments(MethodId method, KernelId kernel) {
-  return method == MethodId::kSvbsp ? &BySvbsp<FragmentPlanesKernel>::run
-                                    : method_function(method, kernel);
-}
-MethodFunction vertices_per_side(MethodId method, KernelId) {
-  switch (method) {
-    case MethodId::kSectors:
-      return &BySectors<SplitVerticesKernel>::run;
-    case MethodId::kSvbsp:
-      return &BySvbsp<SplitVerticesKernel>::run;
-    default:
-      return &ByReceiver<SplitVerticesKernel>::run;
-  }
-}
-
-/// Mistakes that a wrapper of the kernel makes are in sources of their own.
-MethodLookup lookup_of(Mutation mutation) {
-  if (mutation == Mutation::kPlanesFromFragments) return planes_from_fragments;
-  if (mutation == Mutation::kVerticesPerSide) return vertices_per_side;
-  return method_function;
-}
-
 Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowOptions& options,
                                        const Rules& rules, const LightList& lights,
                                        MethodLookup lookup) {
@@ -201,14 +145,7 @@ Expected<ShadowResult> compute_with(const PreparedScene& scene, const ShadowOpti
                                     const Rules& rules, MethodLookup lookup) {
   const Expected<LightList> lights = select_lights(scene, options);
   if (!lights) return tl::unexpected<Error>(lights.error());
-  if (options.mutation == Mutation::kNone) {
-    return compute_checked(scene, options, rules, *lights, lookup);
-  }
-  if (const auto checked = check_mutation(scene, options, *lights); !checked) {
-    return tl::unexpected<Error>(checked.error());
-  }
-  return compute_checked(scene, with_thickness_of(options), rules, *lights,
-                         lookup_of(options.mutation));
+  return compute_checked(scene, options, rules, *lights, lookup);
 }
 
 Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options) {

@@ -19,6 +19,7 @@
 
 #include "algorithms/partition/box.h"
 #include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "gnomon/scene/prepare.h"
 #include "kernel/concept/kernel_concept.h"
@@ -61,14 +62,15 @@ class RootChooser {
 
 /// Builds the tree of the given parts. `identity` tells whether pieces of the same support plane go
 /// to the node unasked; without it (what most programs do) only the root's own piece does.
-/// `on_is_behind`: Mutation::kOnSwapped.
+/// A space may have add_plane_of(loop), a support plane of its own for a fragment that becomes the
+/// root of a subtree; without it the root's plane is that of its part.
 template <SceneSpaceModel Space>
 SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedScene& scene,
                                                  std::span<const std::uint32_t> parts,
                                                  std::uint64_t seed, bool identity,
                                                  const std::atomic<bool>* interrupted = nullptr,
                                                  std::uint64_t max_pieces = 100'000'000,
-                                                 bool on_is_behind = false);
+                                                 const Rules& rules = {});
 
 /// Returns the nodes front to back as seen from a viewpoint; `side_of_node`: the viewpoint's side
 /// of a plane. O(nodes), explicit stack.

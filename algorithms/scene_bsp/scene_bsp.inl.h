@@ -21,9 +21,10 @@ class SceneBspBuilder {
   using Vertex = typename Space::Vertex;
   struct Options {
     std::uint64_t seed;
-    bool identity, on_is_behind;
+    bool identity;
     const std::atomic<bool>* interrupted;
     std::uint64_t max_pieces;
+    Rules rules;
   };
 
   SceneBspBuilder(Space& space, const PreparedScene& scene, std::span<const std::uint32_t> parts,
@@ -94,7 +95,7 @@ class SceneBspBuilder {
   PlaneId plane_of_root(std::uint32_t root) {
     const PlaneId plane = planes_[root];
     if constexpr (requires(LoopView<Vertex> loop) { space_.add_plane_of(loop); }) {
-      // Mutation::kPlanesFromFragments: of a fragment, not of a whole part.
+      // Of a fragment, not of a whole part.
       const LoopView<Vertex> loop = tree_.loops.view(tree_.pieces[root], plane);
       if (root >= part_count_) return space_.add_plane_of(loop);
     }
@@ -106,7 +107,7 @@ class SceneBspBuilder {
     front_.clear();
     back_.clear();
     on_.clear();
-    std::vector<std::uint32_t>& coplanar = options_.on_is_behind ? back_ : on_;
+    std::vector<std::uint32_t>& coplanar = options_.rules.on_goes_to_its_own_side ? on_ : back_;
     for (const std::uint32_t piece : here) {
       if (piece == root || (options_.identity && planes_[piece] == plane)) {
         (piece == root ? on_ : coplanar).push_back(piece);
@@ -186,9 +187,9 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
                                                  std::span<const std::uint32_t> parts,
                                                  std::uint64_t seed, bool identity,
                                                  const std::atomic<bool>* interrupted,
-                                                 std::uint64_t max_pieces, bool on_is_behind) {
+                                                 std::uint64_t max_pieces, const Rules& rules) {
   return SceneBspBuilder<Space>(space, scene, parts,
-                                {seed, identity, on_is_behind, interrupted, max_pieces})
+                                {seed, identity, interrupted, max_pieces, rules})
       .build();
 }
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "algorithms/partition/sliver.h"
+#include "algorithms/partition/fragment_stays.h"
 #include "algorithms/sectors/sector_tree.h"
 
 namespace gnomon {
@@ -31,9 +31,7 @@ void SectorTree<Space>::join(Range children) {
 
 template <SectorSpaceModel Space>
 void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
-  if (context_->options.mutation == Mutation::kSliversDropped && is_sliver(space_, view(loop))) {
-    return;
-  }
+  if (!fragment_stays(space_, view(loop), context_->rules)) return;
   if (++output_.piece_count % kPieceBatch == 0 &&
       context_->pieces.fetch_add(kPieceBatch, std::memory_order_relaxed) + kPieceBatch >
           context_->options.max_fragments) {
@@ -42,8 +40,8 @@ void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
   const bool lit = state == kAllLit;
   // On an exact kernel the lit fraction gives the shadowed one.
   if (lit || !Space::kExact) emit_area(loop, lit);
-  const ShadowOptions& options = context_->options;
-  if (!options.keep_points && !options.keep_exact_points) return;
+  const RunOptions& options = context_->options;
+  if (!options.keeps_any_points()) return;
   SectorOutput::Piece piece{loop.part, {}};
   piece.fragment.state = lit ? LightState::kLit : LightState::kShadow;
   piece.fragment.caster = state;

@@ -32,15 +32,16 @@ class SectorRun {
   enum class Outcome : std::uint8_t { kDone, kInterrupted, kTooManyFragments, kNoIeee };
 
   /// Call everything in an arena of `jobs` threads.
-  SectorRun(const PreparedScene& scene, const ShadowOptions& options, SceneSpace& scene_space,
-            std::uint32_t light, const KernelOptions& kernel_options)
+  SectorRun(const PreparedScene& scene, const RunOptions& options, const Rules& rules,
+            SceneSpace& scene_space, std::uint32_t light, const KernelOptions& kernel_options)
       : scene_(scene),
         options_(options),
+        rules_(rules),
         scene_space_(scene_space),
         light_(scene.lights[light].point),
         jobs_(Space::kParallel && options.jobs != 1 ? options.jobs : 1),
         space_(scene_space, light_, kernel_options),
-        facing_(scene, space_),
+        facing_(scene, space_, rules),
         charts_(charts_of(scene.geometry)),
         areas_(scene.parts.size()),
         sums_(scene.parts.size()) {
@@ -86,7 +87,8 @@ class SectorRun {
   SectorCell common_cell(Tree& planner, std::span<const SectorItem> items);
 
   const PreparedScene& scene_;
-  const ShadowOptions& options_;
+  const RunOptions& options_;
+  const Rules& rules_;
   SceneSpace& scene_space_;
   const LightPoint& light_;
   unsigned jobs_;
@@ -189,8 +191,8 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run(
   constexpr std::uint32_t kSmallestTask = 256, kLargestTask = 16384, kTasks = 128;
   std::atomic<std::uint64_t> pieces = 0;
   std::atomic<bool> stopped = false, no_ieee = false;
-  const SectorContext context{scene_, options_, facing_, charts_, light_,
-                              areas_, sums_,    pieces,  stopped};
+  const SectorContext context{scene_, options_, rules_, facing_, charts_,
+                              light_, areas_,   sums_,  pieces,  stopped};
   LoopStore<Vertex> loops;
   std::vector<SectorItem> items = import(loops);
   Tree planner(context, std::move(space_));
@@ -340,9 +342,10 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
   result.algorithm = "sectors";
   const double start = cpu_seconds();
   const KernelOptions kernel_options{options.identity, options.thickness};
+  const RunOptions run_options = run_options_of(options);
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    Run run(scene, options, scene_space, lights[i], kernel_options);
+    Run run(scene, run_options, task.rules, scene_space, lights[i], kernel_options);
     std::function<void(double)> progress;
     if (options.progress) {
       progress = [&](double share) {

@@ -34,6 +34,8 @@
 #include "algorithms/partition/import_export.h"
 #include "algorithms/partition/loop_store.h"
 #include "algorithms/partition/piece_fractions.h"
+#include "algorithms/partition/rules.h"
+#include "algorithms/partition/run_options.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/sectors/sector_split.h"
 #include "gnomon/algorithms/shadow_result.h"
@@ -63,7 +65,8 @@ struct SectorOutput {
 /// SectorContext is what all threads share. Only its atomics change.
 struct SectorContext {
   const PreparedScene& scene;
-  const ShadowOptions& options;
+  const RunOptions& options;
+  const Rules& rules;
   const FacingParts& facing;
   const PlaneCharts& charts;
   const LightPoint& light;
@@ -139,7 +142,6 @@ class SectorTree {
   void run(Task& task, const SectorTree& planner);
 
  private:
-  bool coplanar_is_behind() const { return context_->options.mutation == Mutation::kOnSwapped; }
   /// Cells of so many times the size of a leaf that no k-d plane splits are split by edges of their
   /// polygons.
   static constexpr std::uint32_t kLargeLeaf = 4;

@@ -43,7 +43,9 @@ bool SectorTree<Space>::any_nearer(const SectorItem& item, PlaneId plane, bool& 
 template <SectorSpaceModel Space>
 bool SectorTree<Space>::is_behind(const SectorItem& item, std::uint32_t part) {
   const PlaneId plane = context_->scene.parts[part].plane;
-  if (context_->scene.parts[item.part].plane == plane) return coplanar_is_behind();
+  if (context_->scene.parts[item.part].plane == plane) {
+    return !context_->rules.on_goes_to_its_own_side;
+  }
   const LoopView<Vertex> loop = view(item);
   const Side nearer =
       context_->facing.plane_signs[plane] == Sign::kPositive ? Side::kFront : Side::kBack;
@@ -66,7 +68,9 @@ typename SectorTree<Space>::Relation SectorTree<Space>::relation(const SectorIte
   if (receiver.z_high < caster.z_low) return Relation::kBehind;
   const PlaneId own = context_->scene.parts[receiver.part].plane;
   const PlaneId other = context_->scene.parts[caster.part].plane;
-  if (own == other) return coplanar_is_behind() ? Relation::kBehind : Relation::kNone;
+  if (own == other) {
+    return context_->rules.on_goes_to_its_own_side ? Relation::kNone : Relation::kBehind;
+  }
   bool behind = false;
   const bool nearer = any_nearer(receiver, other, behind);
   if (!behind) return Relation::kNone;

@@ -12,6 +12,7 @@
 #include "algorithms/shading_mesh/edges.h"
 #include "algorithms/shading_mesh/fragment_faces.h"
 #include "algorithms/shading_mesh/grid.h"
+#include "algorithms/shading_mesh/mesh_by_rules.h"
 #include "algorithms/shading_mesh/nodes.h"
 #include "algorithms/shading_mesh/points.h"
 #include "algorithms/shading_mesh/samples.h"
@@ -36,11 +37,12 @@ FaceClass class_of(const MeshFace& face) {
 class MeshMaker {
  public:
   MeshMaker(const PreparedScene& scene, const ShadowResult& result, const ShadeFunction& shade,
-            const ShadingOptions& options)
+            const ShadingOptions& options, const Rules& rules)
       : scene_(scene),
         result_(result),
         shade_(shade),
         options_(options),
+        rules_(rules),
         nodes_(scene, result.lights.size(), points_) {}
 
   Expected<ShadingMesh> make() {
@@ -56,7 +58,7 @@ class MeshMaker {
     loops_ = fragment_faces(scene_, result_, points_);
     mesh_.stats.fragments = loops_.faces.size();
     if (is_interrupted()) return stopped();
-    if (options_.mutation != Mutation::kTVerticesLeftIn) loops_ = fit_edges(loops_, points_);
+    if (rules_.neighbour_vertices_are_in_the_face) loops_ = fit_edges(loops_, points_);
     if (auto done = regular_grid(); !done) return tl::unexpected(std::move(done.error()));
     mesh_.stats.grid_seconds += seconds_since(start);
     if (options_.tolerance > 0) {
@@ -306,6 +308,7 @@ class MeshMaker {
   const ShadowResult& result_;
   const ShadeFunction& shade_;
   const ShadingOptions& options_;
+  const Rules& rules_;
   PointTable points_;
   FaceLoops loops_;
   NodeTable nodes_;
@@ -322,9 +325,15 @@ double ShadingMesh::shade(std::uint32_t sample) const {
   return sum;
 }
 
+Expected<ShadingMesh> make_shading_mesh_by(const PreparedScene& scene, const ShadowResult& result,
+                                           const ShadeFunction& shade,
+                                           const ShadingOptions& options, const Rules& rules) {
+  return MeshMaker(scene, result, shade, options, rules).make();
+}
+
 Expected<ShadingMesh> make_shading_mesh(const PreparedScene& scene, const ShadowResult& result,
                                         const ShadeFunction& shade, const ShadingOptions& options) {
-  return MeshMaker(scene, result, shade, options).make();
+  return make_shading_mesh_by(scene, result, shade, options, Rules{});
 }
 
 }  // namespace gnomon

@@ -20,6 +20,7 @@
 
 #include "algorithms/partition/loop_store.h"
 #include "algorithms/partition/plane_tree_filter.h"
+#include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/svbsp/balanced_prefix.h"
 #include "gnomon/algorithms/shadow_result.h"
@@ -52,8 +53,7 @@ class SvbspTree {
  public:
   using Vertex = typename Space::Vertex;
 
-  /// `drops_slivers`: Mutation::kSliversDropped.
-  SvbspTree(Space& space, bool merge_siblings, bool drops_slivers = false);
+  SvbspTree(Space& space, bool merge_siblings, const Rules& rules = {});
 
   /// Puts the balanced prefix at the top. Requires: nothing inserted yet.
   void plant(const PrefixTree& prefix);
@@ -86,7 +86,7 @@ class SvbspTree {
   void insert(TreePlace at, const LoopView<Vertex>& fragment, const LoopView<Vertex>& original);
 
   Space* space_;
-  bool drops_slivers_;
+  Rules rules_;
   std::vector<Node> nodes_;  // 0 is a sentinel whose front child is the root
   PlaneTreeFilter<Space> filter_;
 };

@@ -5,14 +5,14 @@
 
 #include <algorithm>
 
-#include "algorithms/partition/sliver.h"
+#include "algorithms/partition/fragment_stays.h"
 #include "algorithms/svbsp/svbsp.h"
 
 namespace gnomon {
 
 template <LightSpaceModel Space>
-SvbspTree<Space>::SvbspTree(Space& space, bool merge_siblings, bool drops_slivers)
-    : space_(&space), drops_slivers_(drops_slivers), nodes_(1), filter_(merge_siblings) {}
+SvbspTree<Space>::SvbspTree(Space& space, bool merge_siblings, const Rules& rules)
+    : space_(&space), rules_(rules), nodes_(1), filter_(merge_siblings) {}
 
 template <LightSpaceModel Space>
 void SvbspTree<Space>::plant(const PrefixTree& prefix) {
@@ -40,7 +40,7 @@ struct SvbspTree<Space>::Cells {
     return record.decide(*tree.space_, plane, loop);
   }
   bool is_kept(const LoopView<Vertex>& loop) const {
-    return !tree.drops_slivers_ || !is_sliver(*tree.space_, loop);
+    return fragment_stays(*tree.space_, loop, tree.rules_);
   }
   void at_cell(TreePlace at, const LoopView<Vertex>& fragment) const {
     const std::int32_t cell = tree.child(at);

@@ -33,14 +33,15 @@ class SvbspRun {
   using SceneVertex = typename SceneSpace::Vertex;
   using Vertex = typename Space::Vertex;
 
-  SvbspRun(const PreparedScene& scene, const ShadowOptions& options, SceneSpace& scene_space,
-           std::uint32_t light, const KernelOptions& kernel_options)
+  SvbspRun(const PreparedScene& scene, const RunOptions& options, const Rules& rules,
+           SceneSpace& scene_space, std::uint32_t light, const KernelOptions& kernel_options)
       : scene_(scene),
         options_(options),
+        rules_(rules),
         scene_space_(scene_space),
         space_(scene_space, scene.lights[light].point, kernel_options),
-        facing_(scene, space_, options.mutation == Mutation::kLightInPlaneFaces),
-        tree_(space_, options.merge, options.mutation == Mutation::kSliversDropped) {
+        facing_(scene, space_, rules),
+        tree_(space_, options.merge, rules) {
     result_.light = light;
     result_.facing_parts = facing_.parts.size();
     result_.facing_edges = facing_.edges;
@@ -50,7 +51,8 @@ class SvbspRun {
 
   /// The tree is smaller than a fragment's loop; this keeps it from outgrowing them.
   static constexpr std::uint64_t kMostNodesAFragment = 8;
-  /// Mutation::kPlanesFromFragments.
+  /// A space whose scene space has planes of fragments (build_scene_bsp) also says on which side of
+  /// one the light is.
   static constexpr bool kFragmentPlanes = requires(const Space& space, LoopView<SceneVertex> loop) {
     space.light_side_of_fragment(loop);
   };
@@ -65,11 +67,8 @@ class SvbspRun {
       tree_.plant(plan_prefix(scene_, scene_.lights[result_.light].point, facing_.parts));
     }
     const std::vector<std::uint32_t> order = front_to_back(bsp.nodes, [&](PlaneId plane) {
-      if constexpr (kFragmentPlanes) {
-        return space_.light_side(plane);
-      } else {
-        return facing_.plane_signs[plane];
-      }
+      const std::vector<Sign>& known = facing_.plane_signs;  // of the parts' planes
+      return plane < known.size() ? known[plane] : space_.light_side(plane);
     });
     for (std::size_t i = 0; i < order.size(); ++i) {
       if ((i & 63) == 0) {
@@ -115,7 +114,7 @@ class SvbspRun {
       }
       pieces_.push_back(piece);
     }
-    const bool alone = pieces_.size() == 1 || options_.mutation == Mutation::kCoplanarInSequence;
+    const bool alone = pieces_.size() == 1 || !rules_.coplanar_classified_first;
     for (const LoopRange& piece : pieces_) {
       const Part& part = scene_.parts[piece.part];
       import(bsp.loops.view(piece, part.plane));
@@ -155,7 +154,8 @@ class SvbspRun {
   void measure(PartResult& part, std::span<const ClassifiedLoop> fragments);
 
   const PreparedScene& scene_;
-  const ShadowOptions& options_;
+  const RunOptions& options_;
+  Rules rules_;
   SceneSpace& scene_space_;
   Space space_;
   FacingParts facing_;
@@ -179,7 +179,7 @@ LightResult SvbspRun<Space>::finish() {
     for (const ClassifiedLoop& f : output_.fragments) sorted[next[f.loop.part]++] = f;
   }
   output_.fragments = {};
-  const bool keep = options_.keep_points || options_.keep_exact_points;
+  const bool keep = options_.keeps_any_points();
   result_.parts.reserve(scene_.parts.size());
   for (std::uint32_t index = 0; index < scene_.parts.size(); ++index) {
     PartResult part;
@@ -261,11 +261,12 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
 
   const double start = cpu_seconds();
   const KernelOptions kernel_options{options.identity, options.thickness};
+  const RunOptions run_options = run_options_of(options);
   SceneSpace scene_space(scene.geometry, kernel_options);
   std::deque<SvbspRun<Space>> runs;  // never moved: a run's tree refers to its space
   std::vector<bool> needed(scene.parts.size(), false);
   for (const std::uint32_t light : lights) {
-    runs.emplace_back(scene, options, scene_space, light, kernel_options);
+    runs.emplace_back(scene, run_options, task.rules, scene_space, light, kernel_options);
     for (const std::uint32_t part : runs.back().facing_parts()) needed[part] = true;
   }
   // Only what faces some light has to be in order.
@@ -275,7 +276,7 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
   }
   const SceneBsp<typename SceneSpace::Vertex> bsp =
       build_scene_bsp(scene_space, scene, parts, options.seed, result.identity, options.interrupted,
-                      options.max_fragments, options.mutation == Mutation::kOnSwapped);
+                      options.max_fragments, task.rules);
   if (bsp.interrupted) return interrupted();
   result.scene_bsp_seconds = cpu_seconds() - start;
   result.bsp_nodes = bsp.nodes.size();
@@ -319,7 +320,7 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
     pipeline->for_each([&](std::uint32_t part, Side side, std::uint64_t lit_by, const Space& space,
                            const LoopView<typename Space::Vertex>& loop) {
       CombinedFragment fragment{part, side, lit_by};
-      export_loop(space, scene.geometry, options, loop, fragment, result.combined_points,
+      export_loop(space, scene.geometry, run_options, loop, fragment, result.combined_points,
                   result.combined_exact_points);
       result.combined.push_back(fragment);
     });

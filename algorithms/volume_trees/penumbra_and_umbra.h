@@ -27,17 +27,14 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/partition/rules.h"
+#include "algorithms/partition/run_options.h"
 #include "algorithms/shadow_volumes/light_in_space.h"
 #include "algorithms/volume_trees/balanced_prefix.h"
 #include "algorithms/volume_trees/bounding_box.h"
 #include "algorithms/volume_trees/volume_tree.h"
-#include "gnomon/algorithms/shadows.h"
 
 namespace gnomon {
-
-inline Union union_of(const ShadowOptions& options) {
-  return options.mutation == Mutation::kUnionWithoutContinuedPlanes ? Union::kWrong : Union::kTrue;
-}
 
 template <VolumeSpaceModel Space>
 class PenumbraAndUmbra {
@@ -47,14 +44,15 @@ class PenumbraAndUmbra {
 
   /// The trees' planes are added to `space`, which must be forked afterwards.
   PenumbraAndUmbra(Space& space, const LightInSpace<Space>& light, const PreparedScene& scene,
-                   const CasterTree& boxes, const ShadowOptions& options)
+                   const CasterTree& boxes, const RunOptions& options, const Rules& rules)
       : space_(&space),
         light_(&light),
         scene_(&scene),
         boxes_(&boxes),
         options_(&options),
-        penumbra_(space, union_of(options)),
-        umbra_(space, union_of(options)) {}
+        rules_(rules),
+        penumbra_(space, rules),
+        umbra_(space, rules) {}
 
   enum class Outcome : std::uint8_t { kDone, kStopped, kTooManyNodes };
   /// The trees may have so many nodes for each fragment that the limits allow.
@@ -73,8 +71,7 @@ class PenumbraAndUmbra {
   bool takes(Space& space, SplitRecord& record, PlaneRef receiving) const {
     const auto placement = record.decide(space, receiving, light_->shape().loop);
     return placement == Placement::kFront ||
-           (placement == Placement::kSpanning &&
-            options_->mutation == Mutation::kStraddlingLightFaces);
+           (placement == Placement::kSpanning && !rules_.straddling_light_is_cut);
   }
 
   /// Does what LightInSpace::cut does, for the whole loop of a side that takes() accepts.
@@ -97,7 +94,8 @@ class PenumbraAndUmbra {
   const LightInSpace<Space>* light_;
   const PreparedScene* scene_;
   const CasterTree* boxes_;
-  const ShadowOptions* options_;
+  const RunOptions* options_;
+  Rules rules_;
   VolumeTree<Space> penumbra_, umbra_;
   PolyhedronSplitter<Space> splitter_;
 };
@@ -134,8 +132,8 @@ template <VolumeSpaceModel Space>
 template <class Step>
 typename PenumbraAndUmbra<Space>::Outcome PenumbraAndUmbra<Space>::build(
     std::span<const std::uint32_t> receivers, const Step& step) {
-  // What is wrong on purpose is wrong only where no plane but the volumes' cuts them.
-  if (options_->prefix && union_of(*options_) == Union::kTrue) {
+  // Volumes that end at others do so only where no plane but the volumes' cuts them.
+  if (options_->prefix && rules_.volumes_continue_behind_others) {
     std::vector<Box> receiver_boxes;
     receiver_boxes.reserve(receivers.size());
     for (const std::uint32_t part : receivers) receiver_boxes.push_back(boxes_->box(part));

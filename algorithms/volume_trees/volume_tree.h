@@ -21,6 +21,7 @@
 
 #include "algorithms/partition/loop_store.h"
 #include "algorithms/partition/plane_tree_filter.h"
+#include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/volume_trees/balanced_prefix.h"
 #include "algorithms/volume_trees/polyhedron.h"
@@ -48,18 +49,13 @@ struct ReceivingSide {
   const Corner<Vertex>* before;  // some point strictly in front of it: a vertex of the light
 };
 
-enum class Union : std::uint8_t {
-  kTrue,
-  kWrong,  // 1992, fig. 6: only cells that the caster itself reaches are extended; for tests
-};
-
 template <VolumeSpaceModel Space>
 class VolumeTree {
  public:
   using Vertex = typename Space::Vertex;
 
-  explicit VolumeTree(Space& space, Union kind = Union::kTrue)
-      : space_(&space), kind_(kind), nodes_(1) {}
+  explicit VolumeTree(Space& space, const Rules& rules = {})
+      : space_(&space), rules_(rules), nodes_(1) {}
 
   /// Puts a balanced prefix at the top. Requires: nothing inserted yet.
   void plant(const SpacePrefix& prefix);
@@ -112,7 +108,7 @@ class VolumeTree {
   void extend(TreePlace at, const Polyhedron<Vertex>& piece, PlaneId base, std::uint32_t caster);
 
   Space* space_;
-  Union kind_;
+  Rules rules_;
   std::vector<Node> nodes_;  // 0 is a sentinel whose front child is the root
   // Workspace of insert(): pieces_[i] goes to places_[i], i < places_.size().
   PolyhedronSplitter<Space> splitter_;
@@ -220,7 +216,8 @@ void VolumeTree<Space>::split(std::uint32_t node, std::size_t top) {
 template <VolumeSpaceModel Space>
 void VolumeTree<Space>::extend(TreePlace at, const Polyhedron<Vertex>& piece, PlaneId base,
                                std::uint32_t caster) {
-  if (kind_ == Union::kWrong &&
+  // Else only cells that the caster itself reaches are extended (1992, fig. 6).
+  if (!rules_.volumes_continue_behind_others &&
       std::none_of(piece.faces.begin(), piece.faces.end(), [&](const PolyhedronFace& face) {
         return face.own && face.plane.index() == base;
       })) {

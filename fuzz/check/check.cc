@@ -14,9 +14,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fuzz/mistakes/compute.h"
 #include "fuzz/moves/metamorphic.h"
 #include "fuzz/process/command.h"
-#include "gnomon/algorithms/shadows.h"
 #include "gnomon/oracle/exact_answer.h"
 #include "gnomon/oracle/prepared_check.h"
 #include "gnomon/oracle/read_candidate.h"
@@ -214,7 +214,7 @@ class SceneCheck {
     if (subject.foreign()) return check_foreign(subject, name);
     ShadowOptions options = shadow_options(subject);
     options.max_fragments = options_.max_fragments;
-    Expected<ShadowResult> result = compute_shadows(*prepared_, options);
+    Expected<ShadowResult> result = compute_shadows(*prepared_, options, subject.mistake);
     if (!result) return add_error(result.error(), name);
     if (report_.fragments == 0) {
       for (const LightResult& light : result->lights) report_.fragments += light.fragment_total;

@@ -18,20 +18,20 @@ std::optional<MethodId> method_for(LightKinds lights, std::string_view name) {
 }
 
 /// A mistake that its kernel and its algorithms cannot make would be looked for in vain.
-Expected<void> check_mutation(const Subject& subject, const std::string& whole) {
-  const std::string mutation(name_of(subject.mutation));
-  if (subject.mutation == Mutation::kTVerticesLeftIn) {
-    return fail(ErrorCode::kUsage, "'" + whole + "': " + mutation + " is a mistake of meshes",
+Expected<void> check_mistake(const Subject& subject, const std::string& whole) {
+  const std::string mistake(name_of(subject.mistake));
+  if (subject.mistake == Mistake::kTVerticesLeftIn) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': " + mistake + " is a mistake of meshes",
                 "a mistake of shadows; --zoo looks for this one");
   }
-  if (subject.mutation == Mutation::kThicknessTooSmall && subject.kernel.thin) {
+  if (subject.mistake == Mistake::kThicknessTooSmall && subject.kernel.thin) {
     return fail(ErrorCode::kUsage, "'" + whole + "': its planes have no thickness anyway",
                 "a kernel without +thin");
   }
   const KernelId kernel = subject.kernel.kernel;
-  if (!applies_to(subject.mutation, kernel, subject.algorithm) &&
-      !applies_to_area(subject.mutation, kernel, subject.area_algorithm)) {
-    return fail(ErrorCode::kUsage, "'" + whole + "': " + mutation + " changes nothing there",
+  if (!applies_to(subject.mistake, kernel, subject.algorithm) &&
+      !applies_to_area(subject.mistake, kernel, subject.area_algorithm)) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': " + mistake + " changes nothing there",
                 "a kernel and an algorithm that it applies to (docs/bug-zoo.md)");
   }
   return {};
@@ -47,7 +47,7 @@ std::string name_of(const Subject& subject) {
     name += '/' + std::string(method_info(subject.algorithm).name);
   }
   if (!usual_area) name += '/' + std::string(method_info(subject.area_algorithm).name);
-  if (subject.mutation != Mutation::kNone) name += '~' + std::string(name_of(subject.mutation));
+  if (subject.mistake != Mistake::kNone) name += '~' + std::string(name_of(subject.mistake));
   return name;
 }
 
@@ -60,15 +60,15 @@ Expected<Subject> parse_subject(std::string_view text) {
     return subject;
   }
   if (const std::size_t at = text.find('~'); at != std::string_view::npos) {
-    const auto mutation = mutation_by_name(text.substr(at + 1));
-    if (!mutation) {
+    const auto mistake = mistake_by_name(text.substr(at + 1));
+    if (!mistake) {
       std::string names;
-      for (const MutationInfo& info : mutations()) {
+      for (const MistakeInfo& info : mistakes()) {
         names += (names.empty() ? "" : ", ") + std::string(info.name);
       }
       return fail(ErrorCode::kUsage, "'" + whole + "': no such mutation", "one of: " + names);
     }
-    subject.mutation = *mutation;
+    subject.mistake = *mistake;
     text = text.substr(0, at);
   }
   std::array<std::string_view, 2> algorithms;
@@ -103,7 +103,7 @@ Expected<Subject> parse_subject(std::string_view text) {
     }
     subject.area_algorithm = *algorithm;
   }
-  if (const auto checked = check_mutation(subject, whole); !checked) {
+  if (const auto checked = check_mistake(subject, whole); !checked) {
     return tl::unexpected(checked.error());
   }
   return subject;
@@ -116,7 +116,6 @@ ShadowOptions shadow_options(const Subject& subject) {
   if (subject.kernel.thin) options.thickness = 0;
   options.algorithm = subject.algorithm;
   options.area_algorithm = subject.area_algorithm;
-  options.mutation = subject.mutation;
   options.jobs = 1;
   options.keep_exact_points = true;
   options.exact_fractions = subject.kernel.exact();

@@ -15,8 +15,8 @@
 
 #include "fuzz/corpus/claimed_shares.h"
 #include "fuzz/corpus/corpus_process.h"
+#include "fuzz/mistakes/compute.h"
 #include "fuzz/process/command.h"
-#include "gnomon/algorithms/shadows.h"
 #include "gnomon/oracle/exact_answer.h"
 #include "gnomon/oracle/read_candidate.h"
 #include "gnomon/oracle/verdict.h"
@@ -51,7 +51,7 @@ class SceneJudge {
     try {
       ShadowOptions options = shadow_options(subject);
       options.max_fragments = kMostFragments;
-      const Expected<ShadowResult> result = compute_shadows(prepared_, options);
+      const Expected<ShadowResult> result = compute_shadows(prepared_, options, subject.mistake);
       if (!result) {
         const bool limit = result.error().code == ErrorCode::kLimit;
         return {limit ? Outcome::kTimeout : Outcome::kRejected, to_string(result.error())};

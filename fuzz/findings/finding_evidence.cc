@@ -10,10 +10,10 @@
 
 #include "fuzz/corpus/corpus.h"
 #include "fuzz/findings/finding_picture.h"
+#include "fuzz/mistakes/compute.h"
 #include "fuzz/process/command.h"
 #include "fuzz/shrink/still_fails.h"
 #include "gnomon/algorithms/explain.h"
-#include "gnomon/algorithms/shadows.h"
 #include "gnomon/oracle/exact_answer.h"
 #include "gnomon/oracle/read_candidate.h"
 #include "gnomon/oracle/verdict.h"
@@ -88,7 +88,7 @@ class EvidenceSearch {
             ? std::string("a scene that was brought")
             : fmt::format("generator {}, seed {}", finding_.generator, finding_.case_seed));
     note.inform = subject_ != nullptr && !subject_->foreign() && !subject_->exact() &&
-                  subject_->mutation == Mutation::kNone;
+                  subject_->mistake == Mistake::kNone;
     if (note.inform) note.wrong = {finding_.failure.subject};
     const auto text = fixture_text(scene_, note);
     if (text) {
@@ -98,9 +98,10 @@ class EvidenceSearch {
     }
   }
 
-  std::optional<oracle::Candidate> run(const ShadowOptions& options, const std::string& name) {
+  std::optional<oracle::Candidate> run(const ShadowOptions& options, const std::string& name,
+                                       Mistake mistake = Mistake::kNone) {
     try {
-      const auto result = compute_shadows(prepared_, options);
+      const auto result = compute_shadows(prepared_, options, mistake);
       if (!result) {
         evidence_.no_candidate =
             fmt::format("{} gave no answer: {}", name, to_string(result.error()));
@@ -131,7 +132,7 @@ class EvidenceSearch {
       ShadowOptions options = shadow_options(*subject_);
       options.exact_fractions = false;
       options.max_fragments = finding_.check.max_fragments;
-      candidate_ = run(options, finding_.failure.subject);
+      candidate_ = run(options, finding_.failure.subject, subject_->mistake);
       return;
     }
     CommandOptions options;
@@ -191,11 +192,11 @@ class EvidenceSearch {
           "wrong.";
       return;
     }
-    if (subject_->mutation != Mutation::kNone) {
-      for (const MutationInfo& info : mutations()) {
-        if (info.mutation != subject_->mutation) continue;
+    if (subject_->mistake != Mistake::kNone) {
+      for (const MistakeInfo& info : mistakes()) {
+        if (info.mistake != subject_->mistake) continue;
         note = fmt::format("This variant is wrong on purpose ({}): {}. {} warns of it.", info.name,
-                           info.mistake, info.source);
+                           info.sentence, info.source);
       }
       if (subject_->kernel.exact()) return;
     }
@@ -217,7 +218,6 @@ class EvidenceSearch {
       return;
     }
     ShadowOptions options = shadow_options(*subject_);
-    options.mutation = Mutation::kNone;
     options.exact_fractions = false;
     options.algorithm = MethodId::kSvbsp;
     options.lights = {light_};

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "fuzz/mistakes/compute.h"
 #include "gnomon/algorithms/illumination.h"
 #include "gnomon/oracle/witness_check.h"
 #include "report/sides/candidate_from_result.h"
@@ -29,11 +30,10 @@ ZooCase::ZooCase(const ZooEntry& entry, const Scene& scene, PreparedScene prepar
       answer_(scene_, prepared_),
       sound_(*parse_subject(entry.sound)) {}
 
-Expected<ShadowResult> ZooCase::shadows(Mutation mutation) const {
+Expected<ShadowResult> ZooCase::shadows(Mistake mistake) const {
   ShadowOptions options = shadow_options(sound_);
   options.max_fragments = kMostFragments;
-  options.mutation = mutation;
-  return compute_shadows(prepared_, options);
+  return compute_shadows(prepared_, options, mistake);
 }
 
 oracle::Candidate ZooCase::candidate_of(const ShadowResult& result, std::string name) const {
@@ -57,15 +57,13 @@ bool ZooCase::claims_hold(const oracle::Candidate& candidate) const {
   return oracle::check_witnesses(scene_, prepared_, candidate, options).violations == 0;
 }
 
-Expected<ShadingMesh> ZooCase::mesh(std::uint32_t light, Mutation mutation) const {
+Expected<ShadingMesh> ZooCase::mesh(std::uint32_t light, Mistake mistake) const {
   ShadowOptions options = shadow_options(sound_);
   options.max_fragments = kMostFragments;
   options.lights = {light};
   const auto result = compute_shadows(prepared_, options);
   if (!result) return tl::unexpected(result.error());
   const Illuminator illuminator(prepared_, light, 1);
-  ShadingOptions shading;
-  shading.mutation = mutation;
   return make_shading_mesh(
       prepared_, *result,
       [&](const ShadeRequest& asked) {
@@ -73,7 +71,7 @@ Expected<ShadingMesh> ZooCase::mesh(std::uint32_t light, Mutation mutation) cons
             illuminator.at(asked.part, asked.side, asked.point, asked.unobstructed, asked.inwards);
         return PointShade{found.value, found.error_bound};
       },
-      shading);
+      ShadingOptions{}, mistake);
 }
 
 oracle::MeshReport ZooCase::check(const ShadingMesh& mesh) const {

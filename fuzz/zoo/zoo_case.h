@@ -29,7 +29,7 @@ class ZooCase {
   const PreparedScene& prepared() const { return prepared_; }
 
   /// What the subject comes to with that mistake. Errors: those of compute_shadows().
-  Expected<ShadowResult> shadows(Mutation mutation) const;
+  Expected<ShadowResult> shadows(Mistake mistake) const;
   oracle::Candidate candidate_of(const ShadowResult& result, std::string name) const;
   oracle::Report certified(const oracle::Candidate& candidate) const;
   /// The same by the visibility of points alone.
@@ -37,7 +37,7 @@ class ZooCase {
   bool claims_hold(const oracle::Candidate& candidate) const;
 
   /// The illuminated mesh of the sound fragments of one light, made with that mistake.
-  Expected<ShadingMesh> mesh(std::uint32_t light, Mutation mutation) const;
+  Expected<ShadingMesh> mesh(std::uint32_t light, Mistake mistake) const;
   oracle::MeshReport check(const ShadingMesh& mesh) const;
 
  private:

@@ -311,9 +311,9 @@ struct UnionCheck {
   unsigned in = 0, out = 0, wrong = 0;
 };
 
-UnionCheck check_union(UnionScene& scene, Random& random, Union kind, bool prefix) {
+UnionCheck check_union(UnionScene& scene, Random& random, const Rules& rules, bool prefix) {
   Space& space = scene.space();
-  VolumeTree<Space> tree(space, kind);
+  VolumeTree<Space> tree(space, rules);
   CellFilter<Space> filter(space, true);
   if (prefix) {
     std::vector<Box> boxes;
@@ -405,7 +405,7 @@ TEST(VolumeTree, IsInWhereAVolumeIs) {
   for (std::uint64_t seed = 0; seed < 240; ++seed) {
     UnionScene scene(seed, 10, seed % 3 == 0 ? 4 : seed % 3 == 1 ? 12 : 1000);
     Random random(seed);
-    const UnionCheck one = check_union(scene, random, Union::kTrue, seed % 2 == 0);
+    const UnionCheck one = check_union(scene, random, Rules{}, seed % 2 == 0);
     EXPECT_EQ(one.wrong, 0u) << "seed " << seed;
     all.in += one.in;
     all.out += one.out;
@@ -416,11 +416,13 @@ TEST(VolumeTree, IsInWhereAVolumeIs) {
 
 // 1992, fig. 6: volumes that cross each other, if the second is not continued behind the first.
 TEST(VolumeTree, WrongUnionIsWrong) {
+  Rules rules;
+  rules.volumes_continue_behind_others = false;
   unsigned wrong = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     UnionScene scene(seed, 10, seed % 2 == 1 ? 12 : 1000);
     Random random(seed);
-    wrong += check_union(scene, random, Union::kWrong, false).wrong;
+    wrong += check_union(scene, random, rules, false).wrong;
   }
   EXPECT_GT(wrong, 10u);
 }

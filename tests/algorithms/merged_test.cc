@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fuzz/generate/scene_pen.h"
+#include "fuzz/mistakes/compute.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/scene/prepare.h"
 #include "scene/base/random.h"
@@ -122,8 +123,9 @@ std::string text_of(const LightResult& light) {
   return text;
 }
 
-std::string text_of(const PreparedScene& scene, const ShadowOptions& options) {
-  const auto result = compute_shadows(scene, options);
+std::string text_of(const PreparedScene& scene, const ShadowOptions& options,
+                    Mistake mistake = Mistake::kNone) {
+  const auto result = compute_shadows(scene, options, mistake);
   if (!result) return result.error().what;
   EXPECT_EQ(result->lights.size(), 1u);
   EXPECT_EQ(result->lights[0].dropped_slivers, 0u);
@@ -161,10 +163,9 @@ TEST(Merged, EqualsReceiverOnStandingWalls) { compare(standing, 200); }
 TEST(Merged, Figure6) {
   const auto scene = prepare(figure_6()).value();
   const std::string expected = text_of(scene, options_of(MethodId::kReceiver, KernelId::kPlane));
-  ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
+  const ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
   EXPECT_EQ(text_of(scene, options), expected);
-  options.mutation = Mutation::kUnionWithoutContinuedPlanes;
-  EXPECT_NE(text_of(scene, options), expected);
+  EXPECT_NE(text_of(scene, options, Mistake::kUnionWithoutContinuedPlanes), expected);
 }
 
 /// What the wrong union leaves out is lit where penumbra is true: an error, and the oracle sees it.
@@ -176,8 +177,8 @@ TEST(Merged, TheOracleCatchesTheWrongUnion) {
   options.keep_exact_points = true;
   const auto right = compute_shadows(scene->prepared(), options).value();
   EXPECT_EQ(judge(*scene, right).verdict, oracle::Verdict::kIdentical);
-  options.mutation = Mutation::kUnionWithoutContinuedPlanes;
-  const auto wrong = compute_shadows(scene->prepared(), options).value();
+  const auto wrong =
+      compute_shadows(scene->prepared(), options, Mistake::kUnionWithoutContinuedPlanes).value();
   const oracle::Report report = judge(*scene, wrong, false);
   EXPECT_EQ(report.verdict, oracle::Verdict::kFailed);
   ASSERT_TRUE(report.worst.has_value());

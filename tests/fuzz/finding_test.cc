@@ -167,7 +167,7 @@ TEST_F(Findings, WhatCrashedIsNotRunAgainHere) {
                                         HasSubstr("not run again here")));
 }
 
-TEST_F(Findings, MutationsSayWhatIsWrongOnPurpose) {
+TEST_F(Findings, MistakesSayWhatIsWrongOnPurpose) {
   Finding finding;
   finding.scene = finding.original = *generate("table-chair");
   finding.check.subjects = {*parse_subject("plane~on-swapped")};

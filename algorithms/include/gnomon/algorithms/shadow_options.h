@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "gnomon/algorithms/method.h"
-#include "gnomon/algorithms/mutation.h"
 #include "gnomon/kernel/kernel_list.h"
 
 namespace gnomon {
@@ -27,7 +26,6 @@ struct ShadowOptions {
   bool exact_fractions = false;          // sum exact rational fractions per part (exact kernels)
   bool merge = true;                     // merge sibling fragments, collapse parts that agree
   bool prefix = true;                    // balanced prefix of light space
-  Mutation mutation = Mutation::kNone;   // wrong on purpose; for tests of what would notice
   // Sectors: cells of at most leaf_size polygons are not split, those of at most task_size are one
   // thread's (0: by the size of the scene). The areas do not depend on them.
   std::uint32_t leaf_size = 16, task_size = 0;

@@ -3,7 +3,6 @@
 #ifndef GNOMON_ALGORITHMS_SHADOWS_H
 #define GNOMON_ALGORITHMS_SHADOWS_H
 
-#include "gnomon/algorithms/mutation.h"
 #include "gnomon/algorithms/shadow_options.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/kernel/error.h"
@@ -11,16 +10,11 @@
 
 namespace gnomon {
 
-/// Whether a mistake is one that this algorithm can make on this kernel, for point and directional
-/// lights, and for area lights. Of kNone it is true.
-bool applies_to(Mutation mutation, KernelId kernel, MethodId algorithm);
-bool applies_to_area(Mutation mutation, KernelId kernel, MethodId algorithm);
-
 /// False for kernels that were left out of the build (GNOMON_CGAL_KERNELS).
 bool has_kernel(KernelId kernel);
 
 /// Classifies every part for every light asked for. Errors: kUsage (no such light, a thickness
-/// outside [0, 1), a mutation that changes nothing for any of the lights, a kernel that was not
+/// outside [0, 1), a kernel that was not
 /// built), kInterrupted, kLimit (max_fragments; more than 64 lights with `combined`).
 Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mutations by hand: small scenes with numbers that can be checked in the head, on which the mutant
-// fails in the way that is expected and the sound kernel does not; and no mutation that does
+// Mistakes by hand: small scenes with numbers that can be checked in the head, on which the mutant
+// fails in the way that is expected and the sound kernel does not; and no mistake that does
 // nothing in silence.
-#include "gnomon/algorithms/mutation.h"
+#include "fuzz/mistakes/mistake.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -12,6 +12,7 @@
 #include "fuzz/check/check.h"
 #include "fuzz/check/subject.h"
 #include "fuzz/generate/scene_pen.h"
+#include "fuzz/mistakes/compute.h"
 #include "gnomon/scene/prepare.h"
 #include "solve.h"
 
@@ -31,11 +32,11 @@ std::string failure(const Scene& scene, const std::string& subject) {
   return report.failures.empty() ? "" : report.failures.front().disagreement;
 }
 
-void expect_shown(const Scene& scene, const std::string& sound, const std::string& mutation,
+void expect_shown(const Scene& scene, const std::string& sound, const std::string& mistake,
                   const std::string& disagreement = "misclassified") {
-  SCOPED_TRACE(sound + '~' + mutation);
+  SCOPED_TRACE(sound + '~' + mistake);
   EXPECT_EQ(failure(scene, sound), "");
-  EXPECT_EQ(failure(scene, sound + '~' + mutation), disagreement);
+  EXPECT_EQ(failure(scene, sound + '~' + mistake), disagreement);
 }
 
 /// Two tiles of one plane that overlap in [1, 2] x [0, 2].
@@ -46,20 +47,20 @@ Scene tiles() {
   return pen.lamp({1, 1, 4}).take();
 }
 
-TEST(Mutations, CoplanarInSequence) {
+TEST(Mistakes, CoplanarInSequence) {
   for (const char* sound : {"plane/svbsp", "rational/svbsp", "double/svbsp"}) {
     expect_shown(tiles(), sound, "coplanar-in-sequence");
   }
 }
 
-TEST(Mutations, OnSwapped) {
+TEST(Mistakes, OnSwapped) {
   for (const char* sound : {"plane/svbsp", "plane", "rational", "double"}) {
     expect_shown(tiles(), sound, "on-swapped");
   }
   expect_shown(test::regression_scene("y_receiver_in_umbra_plane"), "plane", "on-swapped");
 }
 
-TEST(Mutations, LightInPlaneFaces) {
+TEST(Mistakes, LightInPlaneFaces) {
   ScenePen pen;
   pen.polygon({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
   const Scene scene = pen.lamp({4, 1, 0}).take();
@@ -68,7 +69,7 @@ TEST(Mutations, LightInPlaneFaces) {
   }
 }
 
-TEST(Mutations, StraddlingLightFaces) {
+TEST(Mistakes, StraddlingLightFaces) {
   for (const char* sound : {"plane", "rational", "plane/sectors/merged"}) {
     expect_shown(test::regression_scene("y_light_cut_by_receiver"), sound,
                  "straddling-light-faces");
@@ -76,7 +77,7 @@ TEST(Mutations, StraddlingLightFaces) {
 }
 
 /// A tile of 1 over a floor of 100, whose thickness is then more than 1.
-TEST(Mutations, ThicknessTooLarge) {
+TEST(Mistakes, ThicknessTooLarge) {
   ScenePen pen;
   pen.polygon({{0, 0, 0}, {100, 0, 0}, {100, 100, 0}, {0, 100, 0}});
   pen.polygon({{50, 50, 8}, {51, 50, 8}, {51, 51, 8}, {50, 51, 8}});
@@ -88,7 +89,7 @@ TEST(Mutations, ThicknessTooLarge) {
 
 /// A blade that casts a strip as thin as 1/100 of its length. The SVBSP tree loses fragments of the
 /// blade, too, and with them their shadow.
-TEST(Mutations, SliversDropped) {
+TEST(Mistakes, SliversDropped) {
   ScenePen pen;
   pen.polygon({{0, 0, 0}, {100, 0, 0}, {100, 100, 0}, {0, 100, 0}});
   pen.polygon({{0, 50, 1}, {100, 50, 1}, {100, 51, 1}, {0, 51, 1}});
@@ -99,7 +100,7 @@ TEST(Mutations, SliversDropped) {
   }
 }
 
-TEST(Mutations, NoneDoesNothingInSilence) {
+TEST(Mistakes, NoneDoesNothingInSilence) {
   const auto message = [](const char* name) {
     const auto subject = parse_subject(name);
     return subject ? std::string("accepted") : to_string(subject.error());
@@ -115,24 +116,24 @@ TEST(Mutations, NoneDoesNothingInSilence) {
   const auto scene = prepare(pen.lamp({1, 1, 4}).take()).value();
   const auto subject = parse_subject("plane~straddling-light-faces");
   ASSERT_TRUE(subject);
-  const auto result = compute_shadows(scene, shadow_options(*subject));
+  const auto result = compute_shadows(scene, shadow_options(*subject), subject->mistake);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kUsage);
 }
 
 /// Each changes something for some kernel, and kNone is accepted everywhere.
-TEST(Mutations, ApplySomewhere) {
-  for (const MutationInfo& info : mutations()) {
-    bool applies = info.mutation == Mutation::kTVerticesLeftIn;
+TEST(Mistakes, ApplySomewhere) {
+  for (const MistakeInfo& info : mistakes()) {
+    bool applies = info.mistake == Mistake::kTVerticesLeftIn;
     for (const KernelInfo& kernel : kernel_list()) {
       for (const MethodId algorithm : {MethodId::kSvbsp, MethodId::kSectors, MethodId::kReceiver}) {
-        applies = applies || applies_to(info.mutation, kernel.id, algorithm);
-        EXPECT_TRUE(applies_to(Mutation::kNone, kernel.id, algorithm));
+        applies = applies || applies_to(info.mistake, kernel.id, algorithm);
+        EXPECT_TRUE(applies_to(Mistake::kNone, kernel.id, algorithm));
       }
       for (const MethodId algorithm : {MethodId::kReceiver, MethodId::kMerged}) {
-        applies = applies || applies_to(info.mutation, kernel.id, algorithm);
+        applies = applies || applies_to_area(info.mistake, kernel.id, algorithm);
       }
-      EXPECT_FALSE(applies_to(info.mutation, kernel.id, MethodId::kPieces));
+      EXPECT_FALSE(applies_to_area(info.mistake, kernel.id, MethodId::kPieces));
     }
     EXPECT_TRUE(applies) << info.name;
   }

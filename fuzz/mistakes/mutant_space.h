@@ -1,9 +1,9 @@
-// SPDX-License-Identifier: LGPL-3.0-or-later
-// Kernels with a mistake (mutation.h): a kernel of coordinates as it is, but for what the mutation
-// says. They are wrapped around the sound kernel, as kernel_pair.h wraps two, and instantiated in
-// sources of their own, so that the sound kernels' code is the same as without them.
-#ifndef GNOMON_ALGORITHMS_RUN_MUTANT_SPACE_H
-#define GNOMON_ALGORITHMS_RUN_MUTANT_SPACE_H
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Kernels with a mistake (mistake.h): a kernel of coordinates as it is, but for what the mistake
+// says. They are wrapped around the sound kernel, as kernel_pair.h wraps two, and add what the
+// algorithms let a space have besides (scene_bsp.h, svbsp_run.h, split.h).
+#ifndef GNOMON_FUZZ_MISTAKES_MUTANT_SPACE_H
+#define GNOMON_FUZZ_MISTAKES_MUTANT_SPACE_H
 
 #include <cstdint>
 #include <vector>
@@ -13,7 +13,7 @@
 #include "kernel/coordinate/coordinate_space.h"
 #include "kernel/coordinate/coordinate_volume_space.h"
 
-namespace gnomon {
+namespace gnomon::fuzz {
 
 /// "As polygon fragments get progressively smaller [...], the plane equation that would be
 /// calculated for each will also get progressively more inaccurate" (1989, sec. 7): it is
@@ -91,12 +91,17 @@ class FragmentPlanesLightSpace : public CoordinateLightSpace<T> {
 
 /// "The vertex at which a split occurs is also shared among the polygon's fragments" (1992,
 /// "Discussion and Implementation"): here each side computes its own, beginning with the end of the
-/// edge that it keeps. make_children() asks for the constant.
+/// edge that it keeps.
 template <class T>
 class SplitVerticesSceneSpace : public CoordinateSceneSpace<T> {
  public:
   using CoordinateSceneSpace<T>::CoordinateSceneSpace;
-  static constexpr bool kVerticesPerSide = true;
+
+  using Vertex = typename CoordinateSceneSpace<T>::Vertex;
+  Vertex crossing_of_child(PlaneRef plane, PlaneRef edge, const Corner<Vertex>& kept,
+                           const Corner<Vertex>& lost) const {
+    return this->crossing(plane, edge, true, kept, lost);
+  }
 };
 
 template <class T>
@@ -105,11 +110,15 @@ class SplitVerticesLightSpace : public CoordinateLightSpace<T> {
 
  public:
   using SceneSpace = SplitVerticesSceneSpace<T>;
-  static constexpr bool kVerticesPerSide = true;
+  using Vertex = typename Base::Vertex;
 
   SplitVerticesLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options)
       : Base(scene, light, options) {}
   SplitVerticesLightSpace fork() const { return *this; }
+  Vertex crossing_of_child(PlaneRef plane, PlaneRef edge, const Corner<Vertex>& kept,
+                           const Corner<Vertex>& lost) const {
+    return Base::crossing(plane, edge, true, kept, lost);
+  }
 };
 
 template <class T>
@@ -118,13 +127,18 @@ class SplitVerticesVolumeSpace : public CoordinateVolumeSpace<T> {
 
  public:
   using SceneSpace = SplitVerticesSceneSpace<T>;
-  static constexpr bool kVerticesPerSide = true;
+  using Vertex = typename Base::Vertex;
 
   SplitVerticesVolumeSpace(const SceneSpace& scene, const KernelOptions& options)
       : Base(scene, options) {}
   SplitVerticesVolumeSpace fork() const { return *this; }
+  Vertex crossing_of_child(PlaneRef plane, PlaneRef edge, const Corner<Vertex>& kept,
+                           const Corner<Vertex>& lost) const {
+    return Base::crossing(plane, edge, true, kept, lost);
+  }
 };
 
+/// The kernels with their spaces, as the algorithms take them.
 struct FragmentPlanesKernel {
   using LightSpace = FragmentPlanesLightSpace<double>;
   using VolumeSpace = CoordinateVolumeSpace<double>;
@@ -134,6 +148,6 @@ struct SplitVerticesKernel {
   using VolumeSpace = SplitVerticesVolumeSpace<double>;
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::fuzz
 
-#endif  // GNOMON_ALGORITHMS_RUN_MUTANT_SPACE_H
+#endif  // GNOMON_FUZZ_MISTAKES_MUTANT_SPACE_H
