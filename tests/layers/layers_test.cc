@@ -75,9 +75,13 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
     if (is_public && names_cgal && !cgal_headers().contains(public_name)) {
       found.push_back(place + header + " belongs in a source, not in a public header");
     }
-    if (!header.starts_with("gnomon/")) continue;
-    const std::string name = header.substr(std::string("gnomon/").size());
-    if (!allowed.contains(name.substr(0, name.find('/'))) && !allowed.contains(name)) {
+    // An installed header is included as "gnomon/kernel/sign.h", one of a room as
+    // "kernel/signs/ball.h".
+    const bool installed = header.starts_with("gnomon/");
+    const std::string name = installed ? header.substr(std::string("gnomon/").size()) : header;
+    const std::string owner = name.substr(0, name.find('/'));
+    if (!installed && !allowed_includes().contains(owner)) continue;
+    if (!allowed.contains(owner) && !(installed && allowed.contains(name))) {
       found.push_back(place + component + " must not include " + header);
     }
   }
@@ -128,6 +132,10 @@ TEST(Layers, SeesAViolationOfEachRule) {
               ElementsAre(HasSubstr("oracle must not include")));
   EXPECT_THAT(violations("oracle/src/a.cc", "#include \"gnomon/kernel/plane_kernel.h\""),
               ElementsAre(HasSubstr("oracle must not include")));
+  EXPECT_THAT(violations("oracle/src/a.cc", "#include \"kernel/signs/ball.h\""),
+              ElementsAre(HasSubstr("oracle must not include")));
+  EXPECT_THAT(violations("result/a.cc", "#include \"gnomon/oracle/verdict.h\""),
+              ElementsAre(HasSubstr("result must not include")));
   EXPECT_THAT(violations("report/src/a.cc", "#include \"gnomon/cli/command.h\""),
               ElementsAre(HasSubstr("report must not include")));
   EXPECT_THAT(violations("oracle/src/a.cc", "#include \"../../kernel/src/a.h\""),
