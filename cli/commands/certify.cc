@@ -14,7 +14,7 @@
 #include "cli/common/output.h"
 #include "cli/common/progress.h"
 #include "cli/common/scene_options.h"
-#include "fuzz/check/kernel_choice.h"
+#include "gnomon/kernel/kernel_choice.h"
 #include "gnomon/algorithms/explain.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/oracle/prepared_check.h"
@@ -30,8 +30,6 @@ namespace gnomon::cli {
 
 namespace {
 
-using fuzz::KernelChoice;
-using fuzz::parse_kernel_choice;
 
 /// Up to so many parts the slow exact kernels run without being asked for.
 constexpr std::size_t kSmallScene = 200;

@@ -15,7 +15,7 @@
 #include "cli/common/progress.h"
 #include "cli/common/scene_options.h"
 #include "cli/common/statistics.h"
-#include "fuzz/check/kernel_choice.h"
+#include "gnomon/kernel/kernel_choice.h"
 #include "gnomon/algorithms/deep_umbra.h"
 #include "gnomon/scene/digest.h"
 #include "report/json/result_json.h"
@@ -25,7 +25,6 @@ namespace gnomon::cli {
 
 namespace {
 
-using fuzz::parse_kernel_choice;
 
 struct ShadowsOptions {
   SceneOptions scene;
