@@ -33,7 +33,7 @@ inline constexpr std::int32_t kNoNode = -1;
 /// node's plane. Returns the node whose plane splits it, or kNoNode if `at` is a link that
 /// `node_at` does not follow. `node_at(place)`: a node, or a negative number.
 template <class NodeAt, class PlacementAt>
-std::int32_t descend(TreePlace& at, const NodeAt& node_at, const PlacementAt& placement_at) {
+inline std::int32_t descend(TreePlace& at, const NodeAt& node_at, const PlacementAt& placement_at) {
   for (;;) {
     const std::int32_t link = node_at(at);
     if (link < 0) return kNoNode;
@@ -95,18 +95,17 @@ class PlaneTreeFilter {
         work_.truncate(frame.loop.first);
         continue;
       }
+      const LoopView<Vertex> here = work_.view(frame.loop, support);
       const std::int32_t node = descend(
           frame.at, [&](TreePlace at) { return tree.node_at(at); },
-          [&](std::uint32_t at) {
-            return tree.placement(record_, tree.plane(at), work_.view(frame.loop, support));
-          });
+          [&](std::uint32_t at) { return tree.placement(record_, tree.plane(at), here); });
       if (node >= 0) {
         frame.leaving = true;
         frame.first_output = static_cast<std::uint32_t>(output.fragments.size());
         stack_.push_back(frame);
         split(space, tree, static_cast<std::uint32_t>(node), frame.loop, support);
       } else {
-        tree.at_cell(frame.at, work_.view(frame.loop, support));
+        tree.at_cell(frame.at, here);
         work_.truncate(frame.loop.first);
       }
     }

@@ -18,12 +18,12 @@
 #include "gnomon/algorithms/explain.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/oracle/prepared_check.h"
-#include "gnomon/oracle/read_candidate.h"
 #include "gnomon/oracle/verdict.h"
+#include "gnomon/result/read_claims.h"
 #include "gnomon/scene/digest.h"
 #include "report/certificate/certificate.h"
-#include "report/sides/candidate_from_result.h"
-#include "report/sides/polygon_sides.h"
+#include "report/facts/facing.h"
+#include "report/sides/claims_of.h"
 #include "report/text/number_text.h"
 
 namespace gnomon::cli {
@@ -106,14 +106,14 @@ class CertifyRun {
 
   /// False on an interrupt. Errors: those of a candidate's file, and of options out of range.
   Expected<void> run_candidate(const std::string& file) {
-    auto read = oracle::read_candidate(file, loaded_.scene);
+    auto read = read_claims(file, loaded_.scene);
     if (!read) return tl::unexpected(read.error());
     report::JudgedRun run;
     run.name = file;
     run.foreign = true;
-    for (const oracle::CandidateLight& light : read->lights) {
+    for (const ClaimedLight& light : read->lights) {
       if (!light.per_caster_umbra) run.per_caster_umbra = false;
-      for (const oracle::CandidatePolygon& polygon : light.polygons) {
+      for (const ClaimedPolygon& polygon : light.polygons) {
         // Those that a tree made: what is in shadow as a whole for a reason is none.
         run.fragments += static_cast<std::uint64_t>(std::ranges::count_if(
             polygon.fragments, [](const auto& fragment) { return fragment.reason.empty(); }));
@@ -155,8 +155,7 @@ class CertifyRun {
       run.fragments += light.fragment_total;
       run.dropped_slivers += light.dropped_slivers;
     }
-    auto candidate =
-        report::candidate_from_result(loaded_.scene, loaded_.prepared, *result, run.name, false);
+    auto candidate = report::claims_of(loaded_.scene, loaded_.prepared, *result, run.name, false);
     const bool explained =
         options_.explain && !kernel.exact() && algorithm.point == MethodId::kSvbsp;
     return judge(std::move(run), std::move(candidate),
@@ -166,7 +165,7 @@ class CertifyRun {
   void set_interrupted() { certificate_.interrupted = true; }
   const report::Certificate& certificate() const { return certificate_; }
   const oracle::ExactAnswer& answer() const { return answer_; }
-  const std::vector<oracle::Candidate>& kept() const { return kept_; }
+  const std::vector<Claims>& kept() const { return kept_; }
 
   int status() const {
     bool failed = false, disagree = !certificate_.scene_findings.empty();
@@ -220,7 +219,7 @@ class CertifyRun {
   }
 
   /// `explained`: the kernel to explain, unless it is right.
-  Expected<void> judge(report::JudgedRun run, oracle::Candidate candidate,
+  Expected<void> judge(report::JudgedRun run, Claims candidate,
                        const std::optional<KernelChoice>& explained = std::nullopt) {
     oracle::CertifyOptions certify_options;
     certify_options.tolerance = options_.tolerance;
@@ -270,7 +269,7 @@ class CertifyRun {
   oracle::ExactAnswer answer_;
   ProgressBar progress_;
   report::Certificate certificate_;
-  std::vector<oracle::Candidate> kept_;  // one a run that was judged, for the pictures
+  std::vector<Claims> kept_;  // one a run that was judged, for the pictures
   bool limit_reached_ = false;
 };
 

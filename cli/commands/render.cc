@@ -15,7 +15,7 @@
 #include "cli/common/output.h"
 #include "cli/common/scene_options.h"
 #include "gnomon/algorithms/painters_order.h"
-#include "gnomon/oracle/read_candidate.h"
+#include "gnomon/result/read_claims.h"
 #include "report/pictures/picture.h"
 #include "report/pictures/shaded_picture.h"
 #include "report/text/number_text.h"
@@ -72,19 +72,18 @@ Expected<report::Camera> camera_of(const RenderOptions& options, const PreparedS
   return camera;
 }
 
-const oracle::CandidateLight* find_light(const oracle::Candidate& candidate,
-                                         const std::string& id) {
-  for (const oracle::CandidateLight& light : candidate.lights) {
+const ClaimedLight* find_light(const Claims& candidate, const std::string& id) {
+  for (const ClaimedLight& light : candidate.lights) {
     if (light.id == id) return &light;
   }
   return nullptr;
 }
 
 /// What is in shadow as a whole for a reason is none.
-std::size_t fragment_count(const oracle::CandidateLight& light) {
+std::size_t fragment_count(const ClaimedLight& light) {
   std::size_t count = 0;
-  for (const oracle::CandidatePolygon& polygon : light.polygons) {
-    for (const oracle::CandidateFragment& fragment : polygon.fragments) {
+  for (const ClaimedPolygon& polygon : light.polygons) {
+    for (const ClaimedFragment& fragment : polygon.fragments) {
       if (fragment.reason.empty()) ++count;
     }
   }
@@ -166,15 +165,15 @@ Expected<void> render(const RenderOptions& options) {
 
   // What is shown: a result if one is named, else the exact answer; marked is what a candidate has
   // otherwise.
-  std::deque<oracle::Candidate> kept;  // panels point into them
+  std::deque<Claims> kept;  // panels point into them
   for (const std::string& file : {options.result, options.candidate}) {
     if (file.empty()) continue;
-    auto result = oracle::read_candidate(file, loaded->scene);
+    auto result = read_claims(file, loaded->scene);
     if (!result) return tl::unexpected(result.error());
     kept.push_back(std::move(*result));
   }
-  const oracle::Candidate* candidate = options.candidate.empty() ? nullptr : &kept.back();
-  std::vector<const oracle::Candidate*> shown;
+  const Claims* candidate = options.candidate.empty() ? nullptr : &kept.back();
+  std::vector<const Claims*> shown;
   if (options.result.empty()) {
     for (const AlgorithmChoice& algorithm : *algorithms) {
       auto exact = exact_fragments(*loaded, algorithm);

@@ -14,7 +14,6 @@
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/write.h"
 #include "report/json/json_writer.h"
-#include "report/sides/polygon_sides.h"
 #include "scene/base/text_file.h"
 #include "scene/json/json_value.h"
 
@@ -327,7 +326,7 @@ void write_shares(report::JsonWriter& json, const RecordedLight& light, const Re
   const auto names = share_names(light.area);
   json.begin_object(report::JsonLayout::kInline);
   json.member("id", side.polygon);
-  json.member("side", report::side_name(side.side));
+  json.member("side", name_of(side.side));
   for (std::size_t k = 0; k < names.size(); ++k) {
     json.key(names[k]);
     if (side.shares[k].exact) {
@@ -410,10 +409,10 @@ Expected<std::vector<fs::path>> scene_files(const fs::path& path) {
   return scenes;
 }
 
-Expected<std::string> fixture_text(const Scene& scene, const FixtureNote& note) {
+Expected<std::string> fixture_text(const JudgedScene& scene, const FixtureNote& note) {
   const auto lights = exact_answer_of(scene);
   if (!lights) return tl::unexpected(lights.error());
-  Scene noted = scene;
+  Scene noted = scene.scene();
   noted.extra = extra_text(note, *lights);
   const auto written = scene_to_text(noted, SceneFormat::kJson);
   if (!written) return tl::unexpected(written.error());

@@ -68,7 +68,7 @@ Expected<ZooVerdict> judge_shadows(const ZooEntry& entry, const ZooCase& zoo_cas
   if (!right) return tl::unexpected(right.error());
   // The oracle takes far longer than the subjects, and on most scenes no mistake is made at all.
   if (same(*wrong, *right)) return verdict;
-  const oracle::Candidate candidate = zoo_case.candidate_of(*wrong, entry.mutant());
+  const Claims candidate = zoo_case.candidate_of(*wrong, entry.mutant());
   const oracle::Report report = zoo_case.certified(candidate);
   verdict.mutant.regions = report.verdict == oracle::Verdict::kFailed;
   if (!verdict.mutant.regions) return verdict;
@@ -76,7 +76,7 @@ Expected<ZooVerdict> judge_shadows(const ZooEntry& entry, const ZooCase& zoo_cas
     verdict.disagreement = oracle::name_of(report.worst->kind);
     verdict.text = report.worst->text;
   }
-  const oracle::Candidate sound = zoo_case.candidate_of(*right, std::string(entry.sound));
+  const Claims sound = zoo_case.candidate_of(*right, std::string(entry.sound));
   verdict.sound_fails =
       zoo_case.certified(sound).verdict == oracle::Verdict::kFailed || !zoo_case.claims_hold(sound);
   if (verdict.sound_fails) return verdict;

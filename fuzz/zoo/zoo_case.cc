@@ -7,7 +7,7 @@
 #include "fuzz/mistakes/compute.h"
 #include "gnomon/algorithms/illumination.h"
 #include "gnomon/oracle/witness_check.h"
-#include "report/sides/candidate_from_result.h"
+#include "report/sides/claims_of.h"
 
 namespace gnomon::fuzz {
 
@@ -17,7 +17,6 @@ constexpr std::uint64_t kMostFragments = 20'000;
 
 oracle::CertifyOptions certify_options() {
   oracle::CertifyOptions options;
-  options.threads = 1;
   options.most_regions = 1;
   return options;
 }
@@ -27,7 +26,7 @@ oracle::CertifyOptions certify_options() {
 ZooCase::ZooCase(const ZooEntry& entry, const Scene& scene, PreparedScene prepared)
     : scene_(scene),
       prepared_(std::move(prepared)),
-      answer_(scene_, prepared_),
+      judged_(scene_, prepared_),
       sound_(*parse_subject(entry.sound)) {}
 
 Expected<ShadowResult> ZooCase::shadows(Mistake mistake) const {
@@ -36,22 +35,21 @@ Expected<ShadowResult> ZooCase::shadows(Mistake mistake) const {
   return compute_shadows(prepared_, options, mistake);
 }
 
-oracle::Candidate ZooCase::candidate_of(const ShadowResult& result, std::string name) const {
-  return report::candidate_from_result(scene_, prepared_, result, std::move(name),
-                                       sound_.kernel.exact());
+Claims ZooCase::candidate_of(const ShadowResult& result, std::string name) const {
+  return report::claims_of(scene_, prepared_, result, std::move(name), sound_.kernel.exact());
 }
 
-oracle::Report ZooCase::certified(const oracle::Candidate& candidate) const {
-  return *oracle::certify(answer_, candidate, certify_options());
+oracle::Report ZooCase::certified(const Claims& candidate) const {
+  return *judged_.judge(candidate, certify_options());
 }
 
-oracle::Report ZooCase::certified_by_points(const oracle::Candidate& candidate) const {
+oracle::Report ZooCase::certified_by_points(const Claims& candidate) const {
   oracle::CertifyOptions options = certify_options();
   options.most_pairs = 0;
-  return *oracle::certify(answer_, candidate, options);
+  return *judged_.judge(candidate, options);
 }
 
-bool ZooCase::claims_hold(const oracle::Candidate& candidate) const {
+bool ZooCase::claims_hold(const Claims& candidate) const {
   oracle::WitnessOptions options;
   options.most = 1;
   return oracle::check_witnesses(scene_, prepared_, candidate, options).violations == 0;
@@ -79,8 +77,7 @@ oracle::MeshReport ZooCase::check(const ShadingMesh& mesh) const {
   for (const MeshFace& face : mesh.faces) {
     oracle::MeshFaceClaim claim;
     claim.polygon = scene_.polygons[prepared_.parts[face.part].polygon].id;
-    claim.side =
-        face.side == Side::kFront ? oracle::PolygonSide::kFront : oracle::PolygonSide::kBack;
+    claim.side = face.side;
     claim.dark = face.lit_by == 0 && face.penumbra_of == 0;
     for (const MeshCorner& corner : mesh.loop(face)) {
       claim.loop.push_back(mesh.exact_points[corner.vertex].rational());

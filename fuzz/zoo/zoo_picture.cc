@@ -49,8 +49,8 @@ Expected<std::string> shadow_picture(const ZooEntry& entry, const Scene& scene,
   exact.keep_exact_points = true;
   const auto right = compute_shadows(zoo_case.prepared(), exact);
   if (!right) return tl::unexpected(right.error());
-  const oracle::Candidate shown = zoo_case.candidate_of(*wrong, entry.mutant());
-  const oracle::Candidate truth = zoo_case.candidate_of(*right, "exact");
+  const Claims shown = zoo_case.candidate_of(*wrong, entry.mutant());
+  const Claims truth = zoo_case.candidate_of(*right, "exact");
   const oracle::Report report = zoo_case.certified(shown);
   if (report.verdict != oracle::Verdict::kFailed || !report.worst) return shows_nothing(entry);
   for (std::uint32_t light = 0; light < shown.lights.size(); ++light) {

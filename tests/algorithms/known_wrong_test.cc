@@ -61,8 +61,8 @@ TEST_F(KnownWrong, Warning1PlanesComputedAnewFromFragments) {
   for (const std::string policy : {"double@0", "longdouble@0", "epick"}) {
     const oracle::Report report = failed(policy, MethodId::kSvbsp);
     ASSERT_TRUE(report.worst);
-    EXPECT_EQ(report.worst->found, oracle::ShadeClass::kShadow) << policy;
-    EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kLit) << policy;
+    EXPECT_EQ(report.worst->found, LightState::kShadow) << policy;
+    EXPECT_EQ(report.worst->truth, LightState::kLit) << policy;
     EXPECT_GT(report.totals.width.lower, 1.0) << policy;  // a blunder, not a sliver
     not_failed(policy, MethodId::kSectors);               // computes none
   }
@@ -105,8 +105,8 @@ TEST_F(KnownWrong, Warning4LightInThePlane) {
                                      "longdouble@0", "epick", "epick+identity"}) {
       const oracle::Report report = failed(policy, algorithm);
       ASSERT_TRUE(report.worst);
-      EXPECT_EQ(report.worst->found, oracle::ShadeClass::kLit) << policy;
-      EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kShadow) << policy;
+      EXPECT_EQ(report.worst->found, LightState::kLit) << policy;
+      EXPECT_EQ(report.worst->truth, LightState::kShadow) << policy;
       EXPECT_NE(report.worst->text.find("in its plane"), std::string::npos) << report.worst->text;
     }
     // Here a thickness helps; a lamp far away takes that back, see the next.
@@ -121,7 +121,7 @@ TEST_F(KnownWrong, Warning4LampFarAwayInThePlane) {
          {"float@0", "double@0", "double@1e-12", "double+identity@0", "double+identity@1e-12"}) {
       const oracle::Report report = failed(policy, algorithm);
       ASSERT_TRUE(report.worst);
-      EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kShadow) << policy;
+      EXPECT_EQ(report.worst->truth, LightState::kShadow) << policy;
     }
     not_failed("epick", algorithm);
   }

@@ -182,8 +182,8 @@ TEST(Merged, TheOracleCatchesTheWrongUnion) {
   const oracle::Report report = judge(*scene, wrong, false);
   EXPECT_EQ(report.verdict, oracle::Verdict::kFailed);
   ASSERT_TRUE(report.worst.has_value());
-  EXPECT_EQ(report.worst->found, oracle::ShadeClass::kLit);
-  EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kPenumbra);
+  EXPECT_EQ(report.worst->found, LightState::kLit);
+  EXPECT_EQ(report.worst->truth, LightState::kPenumbra);
 }
 
 /// 1992, fig. 4(f): between the umbras of two polygons that together hide the light is penumbra.

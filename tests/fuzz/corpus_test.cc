@@ -100,8 +100,8 @@ TEST_P(CorpusKind, FractionsAreThoseRecorded) {
 }
 
 TEST_P(CorpusKind, RoundedKernelsDifferWhereRecorded) {
-  for_each_scene([](const Fixture& fixture, const Case&) {
-    const std::vector<std::string> wrong = wrong_subjects(fixture.scene, recorded_subjects());
+  for_each_scene([](const Fixture& fixture, const Case& scene) {
+    const std::vector<std::string> wrong = wrong_subjects(scene.judged(), recorded_subjects());
     EXPECT_EQ(wrong, fixture.wrong);
     if (fixture.expectation == Expectation::kInform) {
       EXPECT_FALSE(wrong.empty()) << "an i_ scene that all get right is a y_ scene";

@@ -106,10 +106,9 @@ TEST(ZooTable, NothingIsShownWhereNothingIsWrong) {
 
 // --- The oracle on meshes, by hand ---
 
-using oracle::ExactPoint;
 using oracle::MeshFaceClaim;
 
-MeshFaceClaim face(std::vector<ExactPoint> loop, std::vector<double> shades) {
+MeshFaceClaim face(std::vector<RationalPoint> loop, std::vector<double> shades) {
   MeshFaceClaim claim;
   claim.polygon = "a";
   claim.loop = std::move(loop);
@@ -137,7 +136,7 @@ TEST(MeshCheck, FindsTheTVertexAndItsJump) {
   ASSERT_EQ(report.t_vertices, 1u);
   EXPECT_EQ(report.worst[0].face, 0u);
   EXPECT_EQ(report.worst[0].edge, 2u);
-  EXPECT_EQ(report.worst[0].point, (ExactPoint{1, 1, 0}));
+  EXPECT_EQ(report.worst[0].point, (RationalPoint{1, 1, 0}));
   EXPECT_DOUBLE_EQ(report.largest_jump, 0.5);  // 3.5 against the middle of 4 and 2
 }
 

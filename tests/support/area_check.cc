@@ -110,7 +110,7 @@ std::string compare_with_oracle(const Case& scene, const ShadowResult& result) {
     for (const std::string& problem : report.problems) wrong += "; " + problem;
     if (report.worst) {
       wrong += fmt::format("; light '{}', polygon '{}' {}, at ({}, {}, {})", report.worst->light,
-                           report.worst->polygon, oracle::name_of(report.worst->side),
+                           report.worst->polygon, name_of(report.worst->side),
                            report.worst->point[0].get_str(), report.worst->point[1].get_str(),
                            report.worst->point[2].get_str());
     }
@@ -119,8 +119,8 @@ std::string compare_with_oracle(const Case& scene, const ShadowResult& result) {
   oracle::WitnessOptions exactly;
   exactly.tolerance = 0;
   exactly.width = 0;
-  const oracle::WitnessReport claims = oracle::check_witnesses(
-      scene.scene(), scene.prepared(), candidate_of(scene, result), exactly);
+  const oracle::WitnessReport claims =
+      oracle::check_witnesses(scene.scene(), scene.prepared(), claims_of(scene, result), exactly);
   if (claims.findings.empty()) return {};
   const oracle::WitnessFinding& finding = claims.findings.front();
   return fmt::format("{} by {}: claims, light '{}', polygon '{}': {}", result.kernel,

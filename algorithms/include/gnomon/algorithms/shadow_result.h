@@ -13,13 +13,9 @@
 
 #include "gnomon/kernel/sign.h"
 #include "gnomon/kernel/stage_counts.h"
+#include "gnomon/result/classes.h"
 
 namespace gnomon {
-
-enum class LightState : std::uint8_t { kLit, kShadow, kPenumbra, kUmbra };
-
-/// Why a whole part is in shadow without any caster.
-enum class ShadowReason : std::uint8_t { kNone, kFacesAway, kLightInPlane, kBehindLight };
 
 /// Certified bounds: the true value is in [lower, upper].
 struct Interval {

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "gnomon/oracle/read_candidate.h"
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gnomon/result/read_claims.h"
 
 #include <fmt/format.h>
 #include <rapidjson/document.h>
@@ -13,7 +13,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace gnomon::oracle {
+namespace gnomon {
 
 namespace {
 
@@ -77,7 +77,7 @@ class Reader {
  public:
   Reader(std::string file, const Scene& scene) : file_(std::move(file)), scene_(scene) {}
 
-  Expected<Candidate> read(std::string_view text);
+  Expected<Claims> read(std::string_view text);
 
  private:
   tl::unexpected<Error> wrong(ErrorCode code, const std::string& pointer, std::string what,
@@ -91,12 +91,12 @@ class Reader {
   Expected<std::string> text_of(const Json& value, const std::string& pointer) const;
   Expected<const Json*> list_of(const Json& object, const char* key, bool required,
                                 const std::string& pointer) const;
-  Expected<ShadeClass> shade_of(const Json& value, const std::string& pointer) const;
-  Expected<CandidateLight> light(const Json& value, const std::string& pointer) const;
-  Expected<CandidatePolygon> polygon(const Json& value, const std::string& pointer) const;
-  Expected<CandidateFragment> fragment(const Json& value, const std::string& pointer) const;
+  Expected<LightState> state_of(const Json& value, const std::string& pointer) const;
+  Expected<ClaimedLight> light(const Json& value, const std::string& pointer) const;
+  Expected<ClaimedPolygon> polygon(const Json& value, const std::string& pointer) const;
+  Expected<ClaimedFragment> fragment(const Json& value, const std::string& pointer) const;
   Expected<mpq_class> coordinate(const Json& value, bool exact, const std::string& pointer) const;
-  std::optional<mpq_class> fraction(const Json& polygon, const char* shade) const;
+  std::optional<mpq_class> fraction(const Json& polygon, const char* state) const;
   Expected<bool> per_caster(const Json& object, const std::string& pointer) const;
 
   std::string file_;
@@ -161,13 +161,10 @@ Expected<const Json*> Reader::list_of(const Json& object, const char* key, bool 
   return found;
 }
 
-Expected<ShadeClass> Reader::shade_of(const Json& value, const std::string& pointer) const {
+Expected<LightState> Reader::state_of(const Json& value, const std::string& pointer) const {
   Expected<std::string> text = text_of(value, pointer);
   if (!text) return tl::unexpected(text.error());
-  if (*text == "lit") return ShadeClass::kLit;
-  if (*text == "shadow") return ShadeClass::kShadow;
-  if (*text == "penumbra") return ShadeClass::kPenumbra;
-  if (*text == "umbra") return ShadeClass::kUmbra;
+  if (const auto state = light_state_by_name(*text)) return *state;
   return wrong(ErrorCode::kFormat, pointer, fmt::format("unknown class \"{}\"", *text),
                "lit, shadow, penumbra or umbra");
 }
@@ -189,8 +186,8 @@ Expected<mpq_class> Reader::coordinate(const Json& value, bool exact,
                exact ? "a number, or a string \"p/q\"" : "a number");
 }
 
-std::optional<mpq_class> Reader::fraction(const Json& polygon, const char* shade) const {
-  const auto entry = polygon.FindMember(shade);
+std::optional<mpq_class> Reader::fraction(const Json& polygon, const char* state) const {
+  const auto entry = polygon.FindMember(state);
   if (entry == polygon.MemberEnd() || !entry->value.IsObject()) return std::nullopt;
   const auto found = entry->value.FindMember("fraction");
   // A number is rounded and claims nothing exactly; a string does.
@@ -213,13 +210,13 @@ Expected<bool> Reader::per_caster(const Json& object, const std::string& pointer
                "\"per-caster\", or no such key");
 }
 
-Expected<CandidateFragment> Reader::fragment(const Json& value, const std::string& pointer) const {
-  CandidateFragment result;
-  const Expected<const Json*> shade = member(value, "class", true, pointer);
-  if (!shade) return tl::unexpected(shade.error());
-  const Expected<ShadeClass> known = shade_of(**shade, pointer + "/class");
+Expected<ClaimedFragment> Reader::fragment(const Json& value, const std::string& pointer) const {
+  ClaimedFragment result;
+  const Expected<const Json*> state = member(value, "class", true, pointer);
+  if (!state) return tl::unexpected(state.error());
+  const Expected<LightState> known = state_of(**state, pointer + "/class");
   if (!known) return tl::unexpected(known.error());
-  result.shade = *known;
+  result.state = *known;
   Expected<const Json*> loop = list_of(value, "exact_loop", false, pointer);
   if (!loop) return tl::unexpected(loop.error());
   const char* key = "exact_loop";
@@ -235,7 +232,7 @@ Expected<CandidateFragment> Reader::fragment(const Json& value, const std::strin
     if (!vertex.IsArray() || vertex.Size() != 3) {
       return wrong(ErrorCode::kFormat, place, "not a point", "three coordinates");
     }
-    ExactPoint point;
+    RationalPoint point;
     for (rapidjson::SizeType k = 0; k < 3; ++k) {
       const Expected<mpq_class> found =
           coordinate(vertex[k], result.exact, fmt::format("{}/{}", place, k));
@@ -256,8 +253,8 @@ Expected<CandidateFragment> Reader::fragment(const Json& value, const std::strin
   return result;
 }
 
-Expected<CandidatePolygon> Reader::polygon(const Json& value, const std::string& pointer) const {
-  CandidatePolygon result;
+Expected<ClaimedPolygon> Reader::polygon(const Json& value, const std::string& pointer) const {
+  ClaimedPolygon result;
   const Expected<const Json*> id = member(value, "id", true, pointer);
   if (!id) return tl::unexpected(id.error());
   const Expected<std::string> text = text_of(**id, pointer + "/id");
@@ -269,11 +266,12 @@ Expected<CandidatePolygon> Reader::polygon(const Json& value, const std::string&
   if (*side) {
     const Expected<std::string> name = text_of(**side, pointer + "/side");
     if (!name) return tl::unexpected(name.error());
-    if (*name != "front" && *name != "back") {
+    const std::optional<Side> known = side_by_name(*name);
+    if (!known) {
       return wrong(ErrorCode::kFormat, pointer + "/side", fmt::format("unknown side \"{}\"", *name),
                    "front or back");
     }
-    result.side = *name == "back" ? PolygonSide::kBack : PolygonSide::kFront;
+    result.side = *known;
   }
   result.lit_fraction = fraction(value, "lit");
   result.shadow_fraction = fraction(value, "shadow");
@@ -286,7 +284,7 @@ Expected<CandidatePolygon> Reader::polygon(const Json& value, const std::string&
                  "a result written with fragments");
   }
   for (rapidjson::SizeType i = 0; i < (*fragments)->Size(); ++i) {
-    Expected<CandidateFragment> own =
+    Expected<ClaimedFragment> own =
         fragment((**fragments)[i], fmt::format("{}/fragments/{}", pointer, i));
     if (!own) return tl::unexpected(own.error());
     result.fragments.push_back(std::move(*own));
@@ -294,8 +292,8 @@ Expected<CandidatePolygon> Reader::polygon(const Json& value, const std::string&
   return result;
 }
 
-Expected<CandidateLight> Reader::light(const Json& value, const std::string& pointer) const {
-  CandidateLight result;
+Expected<ClaimedLight> Reader::light(const Json& value, const std::string& pointer) const {
+  ClaimedLight result;
   const Expected<const Json*> id = member(value, "id", true, pointer);
   if (!id) return tl::unexpected(id.error());
   const Expected<std::string> text = text_of(**id, pointer + "/id");
@@ -304,9 +302,9 @@ Expected<CandidateLight> Reader::light(const Json& value, const std::string& poi
   const Expected<const Json*> background = member(value, "background", false, pointer);
   if (!background) return tl::unexpected(background.error());
   if (*background) {
-    const Expected<ShadeClass> shade = shade_of(**background, pointer + "/background");
-    if (!shade) return tl::unexpected(shade.error());
-    result.background = *shade;
+    const Expected<LightState> state = state_of(**background, pointer + "/background");
+    if (!state) return tl::unexpected(state.error());
+    result.background = *state;
   }
   const Expected<bool> own_umbra = per_caster(value, pointer);
   if (!own_umbra) return tl::unexpected(own_umbra.error());
@@ -314,7 +312,7 @@ Expected<CandidateLight> Reader::light(const Json& value, const std::string& poi
   const Expected<const Json*> polygons = list_of(value, "polygons", true, pointer);
   if (!polygons) return tl::unexpected(polygons.error());
   for (rapidjson::SizeType i = 0; i < (*polygons)->Size(); ++i) {
-    Expected<CandidatePolygon> own =
+    Expected<ClaimedPolygon> own =
         polygon((**polygons)[i], fmt::format("{}/polygons/{}", pointer, i));
     if (!own) return tl::unexpected(own.error());
     result.polygons.push_back(std::move(*own));
@@ -322,7 +320,7 @@ Expected<CandidateLight> Reader::light(const Json& value, const std::string& poi
   return result;
 }
 
-Expected<Candidate> Reader::read(std::string_view text) {
+Expected<Claims> Reader::read(std::string_view text) {
   if (text.empty()) return wrong_place(text, 0, "the file is empty");
   Generator generator{text};
   rapidjson::Document document;
@@ -331,7 +329,7 @@ Expected<Candidate> Reader::read(std::string_view text) {
     return wrong_place(text, generator.result.Offset(),
                        rapidjson::GetParseError_En(generator.result.Code()));
   }
-  Candidate result;
+  Claims result;
   result.name = file_;
   const Expected<const Json*> format = member(document, "format", false, "");
   if (!format) return tl::unexpected(format.error());
@@ -345,18 +343,18 @@ Expected<Candidate> Reader::read(std::string_view text) {
   }
   const Expected<const Json*> background = member(document, "background", false, "");
   if (!background) return tl::unexpected(background.error());
-  std::optional<ShadeClass> for_all;
+  std::optional<LightState> for_all;
   if (*background) {
-    const Expected<ShadeClass> shade = shade_of(**background, "/background");
-    if (!shade) return tl::unexpected(shade.error());
-    for_all = *shade;
+    const Expected<LightState> state = state_of(**background, "/background");
+    if (!state) return tl::unexpected(state.error());
+    for_all = *state;
   }
   const Expected<bool> per_caster_for_all = per_caster(document, "");
   if (!per_caster_for_all) return tl::unexpected(per_caster_for_all.error());
   const Expected<const Json*> lights = list_of(document, "lights", true, "");
   if (!lights) return tl::unexpected(lights.error());
   for (rapidjson::SizeType i = 0; i < (*lights)->Size(); ++i) {
-    Expected<CandidateLight> own = light((**lights)[i], fmt::format("/lights/{}", i));
+    Expected<ClaimedLight> own = light((**lights)[i], fmt::format("/lights/{}", i));
     if (!own) return tl::unexpected(own.error());
     if (!own->background) own->background = for_all;
     own->per_caster_umbra = own->per_caster_umbra || *per_caster_for_all;
@@ -367,12 +365,11 @@ Expected<Candidate> Reader::read(std::string_view text) {
 
 }  // namespace
 
-Expected<Candidate> parse_candidate(std::string_view text, const std::string& file,
-                                    const Scene& scene) {
+Expected<Claims> parse_claims(std::string_view text, const std::string& file, const Scene& scene) {
   return Reader(file, scene).read(text);
 }
 
-Expected<Candidate> read_candidate(const std::string& path, const Scene& scene) {
+Expected<Claims> read_claims(const std::string& path, const Scene& scene) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
     return fail(ErrorCode::kFile, fmt::format("cannot be opened: {}", std::strerror(errno)), {},
@@ -383,7 +380,7 @@ Expected<Candidate> read_candidate(const std::string& path, const Scene& scene) 
   if (stream.bad()) {
     return fail(ErrorCode::kFile, "cannot be read", {}, ErrorPlace{path, 0, 0, {}});
   }
-  return parse_candidate(text, path, scene);
+  return parse_claims(text, path, scene);
 }
 
-}  // namespace gnomon::oracle
+}  // namespace gnomon

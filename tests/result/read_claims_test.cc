@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "gnomon/oracle/read_candidate.h"
+#include "gnomon/result/read_claims.h"
 
 #include <gtest/gtest.h>
 
-namespace gnomon::oracle {
+namespace gnomon {
 namespace {
 
-Expected<Candidate> parse(const std::string& text, NumberMeaning numbers = NumberMeaning::kDouble) {
+Expected<Claims> parse(const std::string& text, NumberMeaning numbers = NumberMeaning::kDouble) {
   Scene scene;
   scene.numbers = numbers;
-  return parse_candidate(text, "r.json", scene);
+  return parse_claims(text, "r.json", scene);
 }
 
 std::string with_fragment(const std::string& fragment) {
@@ -17,12 +17,12 @@ std::string with_fragment(const std::string& fragment) {
 }
 
 std::string message(const std::string& text) {
-  const Expected<Candidate> found = parse(text);
+  const Expected<Claims> found = parse(text);
   return found ? "no error" : to_string(found.error());
 }
 
-TEST(ReadCandidate, AResultOfOurs) {
-  const Expected<Candidate> found = parse(R"({ "format": "gnomon-result", "version": 1,
+TEST(ReadClaims, AResultOfOurs) {
+  const Expected<Claims> found = parse(R"({ "format": "gnomon-result", "version": 1,
     "scene": "table", "kernel": "plane", "exact": true, "lights": [ {"id": "bulb", "polygons": [
       {"id": "floor", "side": "back", "area": 16.0,
        "lit": {"fraction": "3/4", "area": 12.0}, "shadow": {"fraction": 0.25, "area": 4.0},
@@ -30,8 +30,8 @@ TEST(ReadCandidate, AResultOfOurs) {
                        "exact_loop": [["0","0","0"],["1/3","0","0"],["0","-3/2",0]]},
                       {"class": "lit", "loop": [[0.1,0,0],[1,0,0],[0,1,0]]} ] } ] } ] })");
   ASSERT_TRUE(found.has_value()) << to_string(found.error());
-  const CandidatePolygon& polygon = found->lights.at(0).polygons.at(0);
-  EXPECT_EQ(polygon.side, PolygonSide::kBack);
+  const ClaimedPolygon& polygon = found->lights.at(0).polygons.at(0);
+  EXPECT_EQ(polygon.side, Side::kBack);
   EXPECT_TRUE(polygon.side_given);
   EXPECT_EQ(polygon.lit_fraction, mpq_class(3, 4));
   EXPECT_FALSE(polygon.shadow_fraction.has_value());
@@ -43,20 +43,20 @@ TEST(ReadCandidate, AResultOfOurs) {
   EXPECT_EQ(polygon.fragments[1].loop[0][0], mpq_class(0.1));
 }
 
-TEST(ReadCandidate, ForeignResultsAndDecimals) {
-  const Expected<Candidate> found = parse(
+TEST(ReadClaims, ForeignResultsAndDecimals) {
+  const Expected<Claims> found = parse(
       R"({"made by": {"x": [1, null, true]}, "lights": [{"id": "s", "background": "lit",
           "polygons": [{"id": "a", "fragments": [{"class": "shadow",
           "loop": [[0.1,0,0],[1,0,0],[0,1,0]], "colour": 3}]}]}]})",
       NumberMeaning::kDecimal);
   ASSERT_TRUE(found.has_value()) << to_string(found.error());
-  EXPECT_EQ(found->lights[0].background, ShadeClass::kLit);
+  EXPECT_EQ(found->lights[0].background, LightState::kLit);
   EXPECT_FALSE(found->lights[0].polygons[0].side_given);
   EXPECT_EQ(found->lights[0].polygons[0].fragments[0].loop[0][0], mpq_class(1, 10));
 }
 
-TEST(ReadCandidate, AreaLights) {
-  const Expected<Candidate> found = parse(R"({"lights": [
+TEST(ReadClaims, AreaLights) {
+  const Expected<Claims> found = parse(R"({"lights": [
       {"id": "a", "umbra": "per-caster", "polygons": [{"id": "p", "side": "front",
         "lit": {"fraction": "1/4"}, "penumbra": {"fraction": "1/2"}, "umbra": {"fraction": "1/4"},
         "fragments": [{"class": "penumbra", "loop": [[0,0,0],[1,0,0],[0,1,0]], "caster": "q"},
@@ -67,19 +67,19 @@ TEST(ReadCandidate, AreaLights) {
   ASSERT_TRUE(found.has_value()) << to_string(found.error());
   EXPECT_TRUE(found->lights[0].per_caster_umbra);
   EXPECT_FALSE(found->lights[1].per_caster_umbra);
-  const CandidatePolygon& front = found->lights[0].polygons.at(0);
+  const ClaimedPolygon& front = found->lights[0].polygons.at(0);
   EXPECT_EQ(front.penumbra_fraction, mpq_class(1, 2));
   EXPECT_EQ(front.umbra_fraction, mpq_class(1, 4));
-  EXPECT_EQ(front.fragments[0].shade, ShadeClass::kPenumbra);
+  EXPECT_EQ(front.fragments[0].state, LightState::kPenumbra);
   EXPECT_EQ(front.fragments[1].reason, "behind-light");
-  EXPECT_EQ(found->lights[0].polygons[1].side, PolygonSide::kBack);
+  EXPECT_EQ(found->lights[0].polygons[1].side, Side::kBack);
   EXPECT_TRUE(parse(R"({"umbra": "per-caster", "lights": [{"id": "b", "polygons": []}]})")
                   ->lights[0]
                   .per_caster_umbra);
   EXPECT_NE(message(R"({"umbra": "deep", "lights": []})").find("/umbra"), std::string::npos);
 }
 
-TEST(ReadCandidate, EveryErrorHasAPlace) {
+TEST(ReadClaims, EveryErrorHasAPlace) {
   EXPECT_EQ(message(""), "r.json:1:1: the file is empty; expected a result in JSON, UTF-8");
   EXPECT_NE(message("{\n \"lights\": [1,\n").find("r.json:3:1"), std::string::npos);
   EXPECT_NE(message("[]").find("not an object"), std::string::npos);
@@ -104,7 +104,7 @@ TEST(ReadCandidate, EveryErrorHasAPlace) {
             std::string::npos);
 }
 
-TEST(ReadCandidate, DeepNestingIsNoCrash) {
+TEST(ReadClaims, DeepNestingIsNoCrash) {
   std::string text = R"({"x": )";
   text.append(300'000, '[');
   EXPECT_FALSE(parse(text).has_value());
@@ -113,11 +113,11 @@ TEST(ReadCandidate, DeepNestingIsNoCrash) {
   EXPECT_TRUE(parse(text).has_value());
 }
 
-TEST(ReadCandidate, AFileThatIsNotThere) {
-  const Expected<Candidate> found = read_candidate("no/such/file.json", Scene{});
+TEST(ReadClaims, AFileThatIsNotThere) {
+  const Expected<Claims> found = read_claims("no/such/file.json", Scene{});
   ASSERT_FALSE(found.has_value());
   EXPECT_EQ(found.error().code, ErrorCode::kFile);
 }
 
 }  // namespace
-}  // namespace gnomon::oracle
+}  // namespace gnomon
