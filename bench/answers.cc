@@ -100,8 +100,28 @@ double lit_area(const LightResult& light, const std::vector<double>& areas) {
 }
 
 const std::vector<NamedAlgorithm>& algorithms() {
-  static const std::vector<NamedAlgorithm> kAlgorithms = {{"svbsp", Algorithm::kSvbsp},
-                                                          {"sectors", Algorithm::kSectors}};
+  static const std::vector<NamedAlgorithm> kAlgorithms = [] {
+    std::vector<NamedAlgorithm> found;
+    for (const Method& method : methods()) {
+      if (method.lights.point && !method.lights.area) {
+        found.push_back({std::string(method.name), method.id});
+      }
+    }
+    return found;
+  }();
+  return kAlgorithms;
+}
+
+const std::vector<NamedAlgorithm>& area_algorithms() {
+  static const std::vector<NamedAlgorithm> kAlgorithms = [] {
+    std::vector<NamedAlgorithm> found;
+    for (const Method& method : methods()) {
+      if (method.lights.area && method.chosen_by_name) {
+        found.push_back({std::string(method.name), method.id});
+      }
+    }
+    return found;
+  }();
   return kAlgorithms;
 }
 

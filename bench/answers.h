@@ -42,9 +42,11 @@ double lit_area(const LightResult& light, const std::vector<double>& areas);
 /// The algorithms by name, in the order of the tables.
 struct NamedAlgorithm {
   std::string name;
-  Algorithm algorithm;
+  MethodId algorithm;
 };
 const std::vector<NamedAlgorithm>& algorithms();
+/// The methods for area lights.
+const std::vector<NamedAlgorithm>& area_algorithms();
 /// Index into algorithms() of the one that runs where none is asked for.
 std::size_t default_algorithm();
 

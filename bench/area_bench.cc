@@ -28,24 +28,20 @@ namespace {
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-struct NamedAreaAlgorithm {
-  std::string name;
-  AreaAlgorithm algorithm;
-};
-const std::vector<NamedAreaAlgorithm>& area_algorithms() {
-  static const std::vector<NamedAreaAlgorithm> kAlgorithms = {
-      {"merged", AreaAlgorithm::kMerged}, {"receiver", AreaAlgorithm::kReceiver}};
-  return kAlgorithms;
+/// Index into area_algorithms().
+std::size_t receiver_index() {
+  return static_cast<std::size_t>(
+      std::ranges::find(area_algorithms(), MethodId::kReceiver, &NamedAlgorithm::algorithm) -
+      area_algorithms().begin());
 }
-constexpr std::size_t kReceiver = 1;
 
 std::vector<std::string> names() {
   std::vector<std::string> result;
-  for (const NamedAreaAlgorithm& algorithm : area_algorithms()) result.push_back(algorithm.name);
+  for (const NamedAlgorithm& algorithm : area_algorithms()) result.push_back(algorithm.name);
   return result;
 }
 
-ShadowOptions options_for(AreaAlgorithm algorithm, KernelId kernel, bool identity = false) {
+ShadowOptions options_for(MethodId algorithm, KernelId kernel, bool identity = false) {
   ShadowOptions options;
   options.area_algorithm = algorithm;
   options.kernel = kernel;
@@ -127,7 +123,7 @@ bool measure_ratios(Extent extent, Verdicts& verdicts) {
                    "widest", "answer"});
       std::vector<double> double_ratios, epeck_ratios;
       std::string checksum;
-      for (const NamedAreaAlgorithm& algorithm : area_algorithms()) {
+      for (const NamedAlgorithm& algorithm : area_algorithms()) {
         std::vector<ShadowResult> results(rows.size());
         std::vector<std::function<void()>> work;
         for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -161,16 +157,16 @@ bool measure_ratios(Extent extent, Verdicts& verdicts) {
       const Choice less = choice_of(family, small ? 60 : 600, light);
       const PreparedScene less_scene = make_scene(less.generator, less.parameters);
       std::vector<ShadowResult> results(2);
-      const std::vector<Times> times =
-          interleaved({[&] {
-                         results[0] = shadows_or_stop(
-                             less_scene, options_for(AreaAlgorithm::kReceiver, KernelId::kPlane));
-                       },
-                       [&] {
-                         results[1] = shadows_or_stop(
-                             less_scene, options_for(AreaAlgorithm::kReceiver, KernelId::kEpeck));
-                       }},
-                      extent == Extent::kLong ? 3 : 1);
+      const std::vector<Times> times = interleaved(
+          {[&] {
+             results[0] =
+                 shadows_or_stop(less_scene, options_for(MethodId::kReceiver, KernelId::kPlane));
+           },
+           [&] {
+             results[1] =
+                 shadows_or_stop(less_scene, options_for(MethodId::kReceiver, KernelId::kEpeck));
+           }},
+          extent == Extent::kLong ? 3 : 1);
       const bool overlap = enclosures_overlap(results[0], results[1]);
       good = good && overlap;
       const double epeck = median_ratio(times[1].cpu, times[0].cpu);
@@ -210,14 +206,14 @@ bool measure_growth(Extent extent, Verdicts& verdicts) {
         for (const std::int64_t n : sizes) {
           // The merged trees grow with the square where a large light's volumes all overlap.
           const std::int64_t limit = extent == Extent::kLong ? 10000 : 1000;
-          if (area_algorithms()[a].algorithm == AreaAlgorithm::kMerged && n > limit) continue;
+          if (area_algorithms()[a].algorithm == MethodId::kMerged && n > limit) continue;
           const Choice choice = choice_of(family, n, light);
           title = choice.title;
           // The middle of three: what else the machine does weighs most on the smallest.
           std::array<ChildReport, 3> runs;
           for (ChildReport& own : runs) {
             own = run_in_child({choice.generator, choice.parameters, Coordinates::kGrid},
-                               Algorithm::kSectors, 1, area_algorithms()[a].algorithm);
+                               MethodId::kSectors, 1, area_algorithms()[a].algorithm);
           }
           std::sort(runs.begin(), runs.end(),
                     [](const ChildReport& x, const ChildReport& y) { return x.cpu() < y.cpu(); });
@@ -240,7 +236,7 @@ bool measure_growth(Extent extent, Verdicts& verdicts) {
                    exponents);
       if (family == std::string("city") && extent != Extent::kShort) {
         std::vector<double> seconds(area_algorithms().size(), kNotMeasured);
-        seconds[kReceiver] = largest[kReceiver];
+        seconds[receiver_index()] = largest[receiver_index()];
         verdicts.add("all classes, one core", fmt::format("{}, {}", title, grouped(most)),
                      {"at most 3 s", 3, false, Unit::kSeconds}, seconds);
       }
@@ -289,7 +285,7 @@ bool measure_figure8(Extent extent, Verdicts&) {
   for (const Plate& plate : plates) {
     const Scene scene = generated({plate.generator, plate.parameters, Coordinates::kGrid});
     const PreparedScene prepared = prepared_or_stop(scene);
-    ShadowOptions options = options_for(AreaAlgorithm::kReceiver, KernelId::kPlane);
+    ShadowOptions options = options_for(MethodId::kReceiver, KernelId::kPlane);
     options.keep_exact_points = true;
     options.combined = prepared.lights.size() > 1;
     double start = cpu_seconds();
@@ -341,7 +337,7 @@ bool measure_figure8(Extent extent, Verdicts&) {
 }  // namespace
 
 bool run_area(Extent extent) {
-  Verdicts verdicts(names(), kReceiver);
+  Verdicts verdicts(names(), receiver_index());
   bool good = true;
   for (const auto measure : {measure_ratios, measure_growth, measure_figure8}) {
     good = measure(extent, verdicts) && good;

@@ -68,8 +68,8 @@ std::optional<std::string> output_of(std::vector<std::string> words) {
 
 }  // namespace
 
-ChildReport run_in_child(const SceneRecipe& recipe, Algorithm algorithm, unsigned jobs,
-                         AreaAlgorithm area_algorithm) {
+ChildReport run_in_child(const SceneRecipe& recipe, MethodId algorithm, unsigned jobs,
+                         MethodId area_algorithm) {
   std::vector<std::string> words = {"gnomon_bench",
                                     "child",
                                     recipe.generator,
@@ -101,8 +101,8 @@ int child_main(int argc, char** argv) {
   if (argc < 5 || argc % 2 != 1) return 2;
   SceneRecipe recipe{argv[0], {}, static_cast<Coordinates>(std::atoi(argv[1]))};
   ShadowOptions options;
-  options.algorithm = static_cast<Algorithm>(std::atoi(argv[2]));
-  options.area_algorithm = static_cast<AreaAlgorithm>(std::atoi(argv[3]));
+  options.algorithm = static_cast<MethodId>(std::atoi(argv[2]));
+  options.area_algorithm = static_cast<MethodId>(std::atoi(argv[3]));
   options.jobs = static_cast<unsigned>(std::atoi(argv[4]));
   for (int i = 5; i < argc; i += 2) recipe.parameters[argv[i]] = std::atoll(argv[i + 1]);
 

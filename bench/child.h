@@ -26,8 +26,8 @@ struct ChildReport {
 
 /// Generates (not timed), prepares and classifies, kernel plane, on `jobs` threads (0: all). Ends
 /// the program with a message if the child fails.
-ChildReport run_in_child(const SceneRecipe& recipe, Algorithm algorithm, unsigned jobs,
-                         AreaAlgorithm area_algorithm = AreaAlgorithm::kReceiver);
+ChildReport run_in_child(const SceneRecipe& recipe, MethodId algorithm, unsigned jobs,
+                         MethodId area_algorithm = MethodId::kReceiver);
 
 /// What the child does. Arguments: those after the word `child`. Returns the exit status.
 int child_main(int argc, char** argv);

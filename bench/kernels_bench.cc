@@ -25,7 +25,7 @@ struct Runner {
   KernelId kernel;
   bool identity;
   bool slow;  // numbers on the heap: fewer repetitions
-  Algorithm algorithm = Algorithm::kAutomatic;
+  MethodId algorithm = MethodId::kAutomatic;
 };
 
 /// Every kernel with each algorithm, one algorithm after the other.
@@ -69,7 +69,7 @@ const std::vector<SceneChoice>& scene_choices() {
   return kScenes;
 }
 
-std::string algorithm_name(Algorithm algorithm) {
+std::string algorithm_name(MethodId algorithm) {
   for (const NamedAlgorithm& named : algorithms()) {
     if (named.algorithm == algorithm) return named.name;
   }

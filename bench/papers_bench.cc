@@ -53,7 +53,7 @@ const std::vector<PaperRow>& paper_rows() {
 
 ShadowOptions paper_options(std::vector<std::uint32_t> lights) {
   ShadowOptions options;
-  options.algorithm = Algorithm::kSvbsp;
+  options.algorithm = MethodId::kSvbsp;
   options.lights = std::move(lights);
   options.prefix = false;
   options.merge = false;

@@ -39,7 +39,7 @@ std::vector<std::string> algorithm_names() {
   return names;
 }
 
-ShadowOptions options_for(Algorithm algorithm, KernelId kernel, bool identity = false) {
+ShadowOptions options_for(MethodId algorithm, KernelId kernel, bool identity = false) {
   ShadowOptions options;
   options.algorithm = algorithm;
   options.kernel = kernel;
@@ -461,7 +461,7 @@ bool measure_threads(Extent extent, Verdicts& verdicts) {
                short_number(1e3 * contest.wall(2 * a + 1)), short_number(ratios.back()),
                same ? "same" : "DIFFERS"});
     // The SVBSP takes no threads.
-    if (algorithms()[a].algorithm == Algorithm::kSvbsp) ratios.back() = kNothing;
+    if (algorithms()[a].algorithm == MethodId::kSvbsp) ratios.back() = kNothing;
   }
   table.print();
   verdicts.add("two threads / one", fmt::format("city, {}", grouped(scene.parts.size())),

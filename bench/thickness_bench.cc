@@ -76,7 +76,7 @@ bool run_thickness(Extent extent) {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       const PreparedScene scene = make_scene(family.name, family.parameters, seed);
       ShadowOptions options;
-      options.algorithm = Algorithm::kSvbsp;  // the papers' method, for which a thickness was meant
+      options.algorithm = MethodId::kSvbsp;  // the papers' method, for which a thickness was meant
       options.exact_fractions = true;
       const ExactAnswers exact = exact_answers(shadows_or_stop(scene, options));
       ++scenes;

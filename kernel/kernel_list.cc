@@ -2,23 +2,17 @@
 // The table of kernels; the README's and docs/exactness.md's tables say the same.
 #include "gnomon/kernel/kernel_list.h"
 
+#include <array>
 #include <cstddef>
 
 namespace gnomon {
 
-const std::array<KernelInfo, 7>& kernel_list() {
-  static constexpr std::string_view kRounded = "rounded coordinates";
-  static constexpr std::string_view kThickness = "rounded, with a stated plane thickness";
-  static constexpr std::array<KernelInfo, 7> kList{{
-      {KernelId::kFloat, "float", false, kRounded, kThickness},
-      {KernelId::kDouble, "double", false, kRounded, kThickness},
-      {KernelId::kLongDouble, "longdouble", false, kRounded, kThickness},
-      {KernelId::kEpick, "epick", false, kRounded, "CGAL's exact predicates, on rounded points"},
-      {KernelId::kEpeck, "epeck", true, "CGAL lazy exact", "exact"},
-      {KernelId::kRational, "rational", true, "GMP rationals", "exact"},
-      {KernelId::kPlane, "plane", true, "never constructed: a vertex is the planes that meet in it",
-       "filtered, then exact"},
-  }};
+std::span<const KernelInfo> kernel_list() {
+  static constexpr std::array kList{
+#define GNOMON_KERNEL(id, name, kernel, header, exact, points, decisions) \
+  KernelInfo{KernelId::id, name, exact, points, decisions},
+#include "gnomon/kernel/kernels.def"
+  };
   return kList;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Points of receivers as the eye sees the light from them: exactly, and as pairs of doubles from
-// which differences to the scene's vertices come without cancellation.
+// Points of receivers, from which the light is looked at: exact points, and pairs of doubles whose
+// differences to the scene's vertices have no cancellation.
 //
 // Everything in doubles is in units of 2^bits grid steps (bits of the scene's grid), so that all
 // vertices of scene and lights lie in the unit cube.
@@ -31,11 +31,11 @@ inline BallVector cross(const BallVector& a, const BallVector& b) {
 inline Ball dot(const BallVector& a, const BallVector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-/// A number with an error of at most 4u relative, and what underflow adds.
+/// Encloses a number that has a relative error of at most 4u, and what underflow adds.
 inline Ball rounded_ball(double value) {
   return {value, 4 * Ball::kUnit * std::fabs(value) + Ball::kTiny};
 }
-/// Nothing if the number may be 0.
+/// The sign of the number, or kZero if the number may be 0.
 inline Sign certain_sign(const Ball& ball) {
   return ball.middle > ball.radius    ? Sign::kPositive
          : ball.middle < -ball.radius ? Sign::kNegative
@@ -64,7 +64,7 @@ struct Apex {
   static Apex from(const Geometry& geometry, ExactVector point, mpz_class weight);
 };
 
-/// All vertices of a scene.
+/// VertexPairs has all vertices of a scene as pairs of doubles.
 class VertexPairs {
  public:
   explicit VertexPairs(const Geometry& geometry);

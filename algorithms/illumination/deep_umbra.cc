@@ -11,7 +11,6 @@
 
 #include "algorithms/illumination/umbra_cell.h"
 #include "algorithms/partition/fractions.h"
-#include "gnomon/algorithms/shadows.h"
 #include "kernel/signs/nearest_double.h"
 
 namespace gnomon {
@@ -173,18 +172,6 @@ Expected<std::vector<DeepUmbraBounds>> deep_umbra_bounds(const PreparedScene& sc
     return fail(ErrorCode::kInterrupted, "interrupted");
   }
   return result;
-}
-
-Expected<std::vector<DeepUmbraBounds>> deep_umbra_bounds(const PreparedScene& scene,
-                                                         std::uint32_t light,
-                                                         const DeepUmbraOptions& options) {
-  ShadowOptions shadows;
-  shadows.lights = {light};
-  shadows.keep_exact_points = true;
-  shadows.interrupted = options.interrupted;
-  const auto classified = compute_shadows(scene, shadows);
-  if (!classified) return tl::unexpected(classified.error());
-  return deep_umbra_bounds(scene, classified->lights[0], options);
 }
 
 }  // namespace gnomon

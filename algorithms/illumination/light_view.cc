@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace gnomon {
@@ -31,16 +32,18 @@ LightShaft::Plane shaft_plane(const std::array<double, 3>& normal,
 }
 std::array<double, 3> negated(const std::array<double, 3>& a) { return {-a[0], -a[1], -a[2]}; }
 
-void enclose_point(ShaftBox& box, const PairPoint& point) {
+void enclose_point(Box& box, const PairPoint& point) {
   for (int k = 0; k < 3; ++k) {
     const double value = point[k].high, error = 2 * Ball::kUnit * std::fabs(value) + Ball::kTiny;
     box.low[k] = std::min(box.low[k], value - error);
     box.high[k] = std::max(box.high[k], value + error);
   }
 }
-ShaftBox empty_box() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  return {{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+
+/// Appends the members whose boxes may reach into the shaft, in no particular order.
+void find_in(const BoxTree& tree, const LightShaft& shaft, std::vector<std::uint32_t>& found) {
+  tree.find([&](const BoxTree::Node& node, std::uint32_t) { return !shaft.misses(node.box); },
+            [&](std::uint32_t number) { return !shaft.misses(tree.box(number)); }, found);
 }
 
 }  // namespace
@@ -115,7 +118,7 @@ void LightView::make_chart() {
 void LightView::find_sides() {
   std::vector<Sides> sides(scene_.geometry.planes.size());
   std::vector<bool> known(scene_.geometry.planes.size());
-  std::vector<ShaftBox> boxes;
+  std::vector<Box> boxes;
   for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
     const Part& part = scene_.parts[i];
     if (!part.casts) continue;
@@ -129,11 +132,13 @@ void LightView::find_sides() {
     if (!part.two_sided) own.back = false;
     if (!own.front && !own.back) continue;
     casters_.push_back({i, own.front, own.back, cuts});
-    ShaftBox box = empty_box();
+    Box box;
     for (const VertexId vertex : scene_.loop(part)) enclose_point(box, pairs_[vertex]);
     boxes.push_back(box);
   }
-  tree_ = ShaftTree(std::move(boxes));
+  std::vector<std::uint32_t> all(boxes.size());
+  std::iota(all.begin(), all.end(), 0u);
+  tree_ = BoxTree(std::move(boxes), std::move(all));
 }
 
 ExactVector LightView::grid_point(VertexId vertex) const {
@@ -242,7 +247,6 @@ std::array<Ball, 3> LightView::line_of(const BallVector& normal,
 
 LightShaft LightView::shaft_of(const Apex& apex, PlaneId receiver, bool back) const {
   LightShaft shaft;
-  shaft.box = empty_box();
   enclose_point(shaft.box, apex.near);
   const std::array<double, 3> p = rounded(apex.near);
   if (light().point.directional) {
@@ -298,12 +302,12 @@ void LightView::add_planes(LightShaft& shaft, PlaneId receiver, bool back) const
 
 void LightView::find_casters(const Apex& apex, PlaneId receiver, bool back,
                              std::vector<std::uint32_t>& found) const {
-  tree_.find(shaft_of(apex, receiver, back), found);
+  find_in(tree_, shaft_of(apex, receiver, back), found);
   // Only the work depends on this order: the more a caster hides, the less is left to be cut.
   std::vector<std::pair<double, std::uint32_t>> keys;
   keys.reserve(found.size());
   for (const std::uint32_t caster : found) {
-    const ShaftBox& box = tree_.box(caster);
+    const Box& box = tree_.box(caster);
     double size = 0, distance = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double extent = box.high[k] - box.low[k];
@@ -320,11 +324,10 @@ void LightView::find_casters(const Apex& apex, PlaneId receiver, bool back,
 void LightView::find_casters(std::span<const Apex> apexes, PlaneId receiver, bool back,
                              std::vector<std::uint32_t>& found) const {
   LightShaft shaft;
-  shaft.box = empty_box();
   for (const Apex& apex : apexes) enclose_point(shaft.box, apex.near);
   for (const PairPoint& point : light_pairs_) enclose_point(shaft.box, point);
   add_planes(shaft, receiver, back);
-  tree_.find(shaft, found);
+  find_in(tree_, shaft, found);
 }
 
 }  // namespace gnomon

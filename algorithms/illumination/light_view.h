@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What all points that look at one light have in common: the casters that can hide any of it, their
-// planes, and the affine chart of an area light's plane in which everything is decided.
+// LightView holds what all points that look at one light share: the casters that can hide any of
+// it, their planes, and the affine chart of an area light's plane in which everything is decided.
 //
 // Chart: the point a0 + s e1 + t e2 of the light's plane is (s, t), homogeneous (s w, t w, w) with
 // w > 0; a plane cuts the chart in a line (l1, l2, l3), whose value l1 s + l2 t + l3 is the plane's
@@ -14,13 +14,14 @@
 #include <vector>
 
 #include "algorithms/illumination/apex.h"
-#include "algorithms/illumination/shaft_tree.h"
+#include "algorithms/illumination/light_shaft.h"
+#include "algorithms/partition/box_tree.h"
 #include "gnomon/kernel/sign.h"
 #include "gnomon/scene/prepare.h"
 
 namespace gnomon {
 
-/// Counts of decisions; one for each call, added up by whoever made the call.
+/// SignCounts counts decisions. Each call counts its own, and its caller adds them up.
 struct SignCounts {
   std::uint64_t all = 0, exact = 0;
 };
@@ -53,7 +54,7 @@ class LightView {
   // --- The plane through an edge (from its a to its b) and an apex: normal (b - a) x (p - a) ---
   BallVector edge_normal(EdgeId edge, const Apex& apex) const;
   ExactPlane exact_edge_plane(EdgeId edge, const Apex& apex) const;
-  /// On which side of that plane is a point?
+  /// Tells on which side of that plane a point is.
   Sign side_of_edge_plane(EdgeId edge, const Apex& apex, const Apex& point,
                           SignCounts& counts) const;
   const PairPoint& pairs(VertexId vertex) const { return pairs_[vertex]; }
@@ -75,7 +76,7 @@ class LightView {
   const ExactVector& origin() const { return light_grid_[0]; }
   const ExactVector& axis(int i) const { return axes_[static_cast<std::size_t>(i)]; }
   const BallVector& near_axis(int i) const { return near_axes_[static_cast<std::size_t>(i)]; }
-  /// On which side of the light's plane; kPositive: in front.
+  /// Tells on which side of the light's plane an apex is; kPositive: in front.
   Sign side_of_light(const Apex& apex, SignCounts& counts) const;
   /// Whether some, or all, of the light is strictly in front of, or behind, a plane.
   struct Sides {
@@ -83,13 +84,13 @@ class LightView {
   };
   Sides sides_of(PlaneId plane) const;
 
-  /// Appends indices into casters() of all that may hide something from the apex, those first that
-  /// look large from there. `receiver`, if
-  /// not kNoPlane: the plane of the receiver, which looks to its front (or back, if `back`).
+  /// Appends the indices, in casters(), of all casters that may hide something from the apex; those
+  /// that look large from there come first. `receiver`, if not kNoPlane: the plane of the receiver,
+  /// which looks to its front (or to its back, if `back`).
   static constexpr PlaneId kNoPlane = 0xffffffffu;
   void find_casters(const Apex& apex, PlaneId receiver, bool back,
                     std::vector<std::uint32_t>& found) const;
-  /// From any point of the convex hull of some apexes on the receiver.
+  /// Appends those that may hide something from any point of the convex hull of the apexes.
   void find_casters(std::span<const Apex> apexes, PlaneId receiver, bool back,
                     std::vector<std::uint32_t>& found) const;
 
@@ -103,7 +104,7 @@ class LightView {
   std::uint32_t light_;
   VertexPairs pairs_;
   std::vector<Caster> casters_;
-  ShaftTree tree_;
+  BoxTree tree_;  // of casters, by number in casters_
   std::vector<ExactVector> light_grid_;
   std::vector<PairPoint> light_pairs_;
   std::array<ExactVector, 2> axes_;

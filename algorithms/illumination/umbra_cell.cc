@@ -27,10 +27,11 @@ class CellShadow {
     }
   }
 
-  /// Some of the cell is behind that side.
+  /// Whether some of the cell is behind that side.
   bool exists() const { return deepest_ != kCorners; }
 
-  /// Lines between which the light is hidden from every point of the cell. False: nothing is.
+  /// Finds the lines between which the light is hidden from every point of the cell. Returns false
+  /// if none of it is.
   bool inner(std::vector<PlaneRef>& region) {
     region.clear();
     if (!exists() || in_front_) return false;
@@ -64,7 +65,7 @@ class CellShadow {
   /// them.
   bool is_in_front_of(PlaneRef edge) const { return edge.flipped() != front_; }
 
-  /// Lines between which is all that is hidden from any point of the cell.
+  /// Finds lines between which lies all that is hidden from any point of the cell.
   void outer(std::vector<PlaneRef>& region) {
     region.clear();
     for (const PlaneRef edge : edges()) {
@@ -177,7 +178,7 @@ class JoinedShadows {
     for (std::uint32_t f = 0; f < faces_.size() && !pieces_.empty(); ++f) {
       for (std::uint32_t e = 0; e < faces_[f].shadow->edges().size(); ++e) {
         for (const FaceEdge other : across({f, e})) {
-          if (other.face < f) continue;  // was the other's turn
+          if (other.face < f) continue;  // the other face has handled it
           region.clear();
           append(region, faces_[f], e, e);
           append(region, faces_[other.face], other.edge, other.edge);
@@ -187,7 +188,7 @@ class JoinedShadows {
     }
   }
 
-  /// All the way round a vertex, from face to face.
+  /// Goes all the way round a vertex, from face to face.
   void subtract_fans() {
     std::vector<PlaneRef> region;
     for (std::uint32_t f = 0; f < faces_.size() && !pieces_.empty(); ++f) {
@@ -213,7 +214,7 @@ class JoinedShadows {
           }
           is_first = is_first && at.face > f;
         }
-        // Each fan once, from its first face.
+        // Each fan is taken once, from its first face.
         if (closed && is_first) pieces_.subtract(region);
       }
     }

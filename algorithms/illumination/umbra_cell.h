@@ -40,9 +40,9 @@ class UmbraCells {
   UmbraCells(const LightView& view, const Part& part, Side side)
       : view_(view), part_(part), side_(side) {}
 
-  /// All that may hide something of the light from some point of the cell.
+  /// Finds all casters that may hide something of the light from some point of the cell.
   std::vector<CasterSide> casters_of(const UmbraCell& cell) const;
-  /// `casters`: a superset of those; leaves the ones that may reach the cell.
+  /// Decides a cell. `casters`: a superset of casters_of(cell), from which it removes others.
   CellAnswer decide(const UmbraCell& cell, std::vector<CasterSide>& casters) const;
 
  private:

@@ -28,7 +28,7 @@ class LightPieces {
     std::vector<PlaneRef> lines;
   };
 
-  /// The whole light.
+  /// Makes the piece that is the whole light.
   explicit LightPieces(const LightView& view);
 
   std::uint32_t add_apex(Apex apex);
@@ -38,10 +38,10 @@ class LightPieces {
   PlaneRef line_of_plane(PlaneId plane);
   /// Where the plane through an edge and an apex cuts the chart, front as edge_normal has it.
   PlaneRef line_of_edge(EdgeId edge, std::uint32_t apex);
-  /// Whether that plane is none: the apex is on the line of the edge. Exact.
+  /// Whether there is no such plane, because the apex is on the line of the edge. Exact.
   bool is_on_edge(EdgeId edge, std::uint32_t apex) const;
 
-  /// Keeps what is in front.
+  /// Keeps what is in front of a line.
   void clip(PlaneRef line);
   /// Takes away what is in front of all the lines.
   void subtract(std::span<const PlaneRef> region);
@@ -87,7 +87,7 @@ class LightPieces {
 
   void enclose_exactly(std::uint32_t vertex);
   const ExactVector& exact_line(std::uint32_t line);
-  /// The sign of the line's value; `value` encloses it.
+  /// Returns the sign of the line's value; `value` encloses it.
   Sign sign(PlaneRef line, std::uint32_t vertex, Ball& value);
   std::uint32_t crossing(PlaneRef edge, PlaneRef line, std::uint32_t from, const Ball& from_value,
                          std::uint32_t to, const Ball& to_value);

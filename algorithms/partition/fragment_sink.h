@@ -16,10 +16,13 @@
 #include <vector>
 
 #include "algorithms/partition/fractions.h"
+#include "algorithms/partition/fragment_stays.h"
 #include "algorithms/partition/loop_store.h"
-#include "algorithms/partition/sliver.h"
-#include "algorithms/shadow_volumes/receiver_cutter.h"
-#include "gnomon/algorithms/shadows.h"
+#include "algorithms/partition/piece_class.h"
+#include "algorithms/partition/rules.h"
+#include "algorithms/partition/run_options.h"
+#include "gnomon/algorithms/shadow_result.h"
+#include "gnomon/scene/prepare.h"
 #include "kernel/concept/kernel_concept.h"
 
 namespace gnomon {
@@ -47,7 +50,7 @@ inline SideResult dark_side(std::uint32_t part, Side side, ShadowReason reason, 
 /// Appends the points of a loop to those that the options ask for; a back side's is reversed, so
 /// that it is counter-clockwise seen from that side.
 template <VolumeSpaceModel Space, class OutputFragment>
-void export_volume_loop(const Space& space, const ShadowOptions& options,
+void export_volume_loop(const Space& space, const RunOptions& options,
                         const LoopView<typename Space::Vertex>& loop, bool reversed,
                         OutputFragment& fragment, std::vector<std::array<double, 3>>& points,
                         std::vector<std::array<mpq_class, 3>>& exact_points) {
@@ -67,8 +70,8 @@ class FragmentSink {
   using Vertex = typename Space::Vertex;
   using Loop = LoopView<Vertex>;
 
-  FragmentSink(const PreparedScene& scene, const ShadowOptions& options)
-      : scene_(&scene), options_(&options) {}
+  FragmentSink(const PreparedScene& scene, const RunOptions& options, const Rules& rules)
+      : scene_(&scene), options_(&options), rules_(&rules) {}
 
   void begin(std::uint32_t part, Side side, bool area) {
     part_ = part;
@@ -99,7 +102,8 @@ class FragmentSink {
   void measure(const Space& space, const Loop& whole, SideResult& result) const;
 
   const PreparedScene* scene_;
-  const ShadowOptions* options_;
+  const RunOptions* options_;
+  const Rules* rules_;
   std::uint32_t part_ = 0;
   Side side_ = Side::kFront;
   bool area_ = true;
@@ -119,14 +123,14 @@ SideResult FragmentSink<Space>::finish(const Space& space, const Loop& whole) {
     pieces_.resize(1);
     pieces_.front().loop = loops_.append(whole);
   }
-  if (options_->mutation == Mutation::kSliversDropped && pieces_.size() > 1) {
+  if (pieces_.size() > 1) {
     std::erase_if(pieces_, [&](const Piece& piece) {
-      return is_sliver(space, loops_.view(piece.loop, scene_->parts[part_].plane));
+      return !fragment_stays(space, loops_.view(piece.loop, scene_->parts[part_].plane), *rules_);
     });
   }
   measure(space, whole, result);
   const PlaneId plane = scene_->parts[part_].plane;
-  const bool keep = options_->keep_points || options_->keep_exact_points;
+  const bool keep = options_->keeps_any_points();
   result.fragments.reserve(pieces_.size());
   for (const Piece& piece : pieces_) {
     Fragment fragment;

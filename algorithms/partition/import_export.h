@@ -12,7 +12,10 @@
 
 #include "algorithms/partition/fractions.h"
 #include "algorithms/partition/loop_store.h"
-#include "gnomon/algorithms/shadows.h"
+#include "algorithms/partition/rules.h"
+#include "algorithms/partition/run_options.h"
+#include "gnomon/algorithms/shadow_result.h"
+#include "gnomon/scene/prepare.h"
 #include "kernel/concept/kernel_concept.h"
 
 namespace gnomon {
@@ -29,10 +32,11 @@ struct Facing {
   bool faces() const { return reason == ShadowReason::kNone; }
 };
 
-/// `in_plane_faces`: Mutation::kLightInPlaneFaces.
-inline Facing facing_of(const Part& part, Sign plane_at_light, bool in_plane_faces = false) {
-  if (plane_at_light == Sign::kZero && in_plane_faces) return {};
-  if (plane_at_light == Sign::kZero) return {Side::kFront, ShadowReason::kLightInPlane};
+inline Facing facing_of(const Part& part, Sign plane_at_light, const Rules& rules) {
+  if (plane_at_light == Sign::kZero) {
+    if (!rules.light_in_plane_does_not_reach) return {};
+    return {Side::kFront, ShadowReason::kLightInPlane};
+  }
   const Sign at_light = part.flipped ? -plane_at_light : plane_at_light;
   if (at_light == Sign::kPositive) return {Side::kFront, ShadowReason::kNone};
   if (part.two_sided) return {Side::kBack, ShadowReason::kNone};
@@ -47,7 +51,7 @@ struct FacingParts {
   std::uint64_t edges = 0;           // of those
 
   template <LightSpaceModel Space>
-  FacingParts(const PreparedScene& scene, const Space& space, bool in_plane_faces = false) {
+  FacingParts(const PreparedScene& scene, const Space& space, const Rules& rules) {
     plane_signs.reserve(scene.geometry.planes.size());
     for (PlaneId plane = 0; plane < scene.geometry.planes.size(); ++plane) {
       plane_signs.push_back(space.light_side(plane));
@@ -55,7 +59,7 @@ struct FacingParts {
     facing.reserve(scene.parts.size());
     for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
       const Part& part = scene.parts[i];
-      facing.push_back(facing_of(part, plane_signs[part.plane], in_plane_faces));
+      facing.push_back(facing_of(part, plane_signs[part.plane], rules));
       if (facing.back().faces()) {
         parts.push_back(i);
         edges += part.count;
@@ -114,7 +118,7 @@ inline std::array<double, 3> nearest_doubles(const std::array<mpq_class, 3>& poi
 
 /// Appends the vertices of a loop to the points that the options ask for.
 template <LightSpaceModel Space, class OutputFragment>
-void export_loop(const Space& space, const Geometry& geometry, const ShadowOptions& options,
+void export_loop(const Space& space, const Geometry& geometry, const RunOptions& options,
                  const LoopView<typename Space::Vertex>& loop, OutputFragment& fragment,
                  std::vector<std::array<double, 3>>& points,
                  std::vector<std::array<mpq_class, 3>>& exact_points) {

@@ -65,6 +65,9 @@ struct SplitChildren {
   LoopRange front, back;  // count < 3: vanished (rounded kernels only)
 };
 
+/// A space may have crossing_of_child(plane, edge, kept, lost), the vertex of a split edge as the
+/// child sees it that keeps the corner `kept`; without it both children have the same vertex.
+///
 /// Appends both children of `loop` to `store`, back first. `loop` must not live in `store`
 /// (appending may move it). The cut edge of the front child lies in `plane`, that of the back child
 /// in its opposite, so that the interior stays in front of every edge.
@@ -75,9 +78,11 @@ SplitChildren make_children(const Space& space, PlaneRef plane,
                             LoopStore<typename Space::Vertex>& store) {
   using Vertex = typename Space::Vertex;
   const std::uint32_t n = loop.size();
-  // Each crossing is constructed once and shared by both children (but where a kernel is wrong on
-  // purpose: mutant_space.h).
-  constexpr bool kShared = !requires { Space::kVerticesPerSide; };
+  // Each crossing is constructed once and shared by both children, unless the space makes one for
+  // each child.
+  constexpr bool kShared = !requires(const Corner<Vertex>& corner) {
+    space.crossing_of_child(plane, plane, corner, corner);
+  };
   crossings.clear();
   for (std::uint32_t i = 0; i < n; ++i) {
     const Side here = record.side(i), there = record.side(loop.next(i));
@@ -102,8 +107,8 @@ SplitChildren make_children(const Space& space, PlaneRef plane,
           store.push(vertex, here == kept ? cut : loop.edges[i]);
         } else {
           const Corner<Vertex> from = loop.corner(i), to = loop.corner(loop.next(i));
-          store.push(here == kept ? space.crossing(plane, loop.edges[i], true, from, to)
-                                  : space.crossing(plane, loop.edges[i], true, to, from),
+          store.push(here == kept ? space.crossing_of_child(plane, loop.edges[i], from, to)
+                                  : space.crossing_of_child(plane, loop.edges[i], to, from),
                      here == kept ? cut : loop.edges[i]);
         }
       }

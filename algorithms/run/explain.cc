@@ -4,8 +4,9 @@
 #include <array>
 #include <charconv>
 
-#include "algorithms/run/explain_run.h"
-#include "algorithms/run/light_selection.h"
+#include "algorithms/run/compute.h"
+#include "algorithms/run/explain_on.h"
+#include "algorithms/run/on_every_kernel.h"
 
 namespace gnomon {
 namespace {
@@ -48,13 +49,14 @@ Expected<std::optional<FirstDifference>> explain(const PreparedScene& scene,
   std::erase_if(*lights,
                 [&](std::uint32_t light) { return scene.lights[light].type == LightType::kArea; });
   if (lights->empty()) return std::nullopt;
-  if (options.kernel != KernelId::kEpick) return explain_coordinates(scene, options, *lights);
-#ifndef GNOMON_NO_CGAL_KERNELS
-  return explain_epick(scene, options, *lights);
-#else
-  return fail(ErrorCode::kUsage, "kernel epick was not built",
-              "another kernel, or a build with GNOMON_CGAL_KERNELS");
-#endif
+  static constexpr auto kExplain = on_every_kernel<ExplainOn, CompiledFor::kRoundedKernels>();
+  const auto explain_on = kExplain[static_cast<std::size_t>(options.kernel)];
+  if (explain_on == nullptr) {
+    return fail(ErrorCode::kUsage,
+                "kernel " + std::string(kernel_info(options.kernel).name) + " was not built",
+                "another kernel, or a build with GNOMON_CGAL_KERNELS");
+  }
+  return explain_on({scene, options, Rules{}, *lights, {}});
 }
 
 std::string to_sentence(const FirstDifference& difference, const PreparedScene& scene,

@@ -1,30 +1,27 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Body of explain, instantiated for each rounded kernel.
+// The SVBSP method on a rounded kernel and kernel `plane` in lock-step, up to the first decision on
+// which they differ. CMake compiles it for each rounded kernel.
 #ifndef GNOMON_ALGORITHMS_RUN_EXPLAIN_RUN_H
 #define GNOMON_ALGORITHMS_RUN_EXPLAIN_RUN_H
 
-#include "algorithms/run/svbsp_run.h"
-#include "gnomon/algorithms/explain.h"
+#include "algorithms/run/explain_on.h"
+#include "algorithms/svbsp/svbsp_run.h"
 #include "kernel/implicit/implicit_light_space.h"
+#include "kernel/pair/kernel_pair.h"
 
 namespace gnomon {
 
-using Explanation = Expected<std::optional<FirstDifference>>;
-using LightList = std::vector<std::uint32_t>;
-
-Explanation explain_coordinates(const PreparedScene&, const ShadowOptions&, const LightList&);
-Explanation explain_epick(const PreparedScene&, const ShadowOptions&, const LightList&);
-
-template <LightSpaceModel Tested>
-Explanation explain_with(const PreparedScene& scene, const ShadowOptions& options,
-                         const LightList& lights) {
-  using Space = PairLightSpace<Tested, ImplicitLightSpace<NoStats>>;
+template <class Kernel>
+Explanation ExplainOn<Kernel>::run(const RunTask& task) {
+  using Space = PairLightSpace<typename Kernel::LightSpace, ImplicitLightSpace<NoStats>>;
+  const PreparedScene& scene = task.scene;
+  const ShadowOptions& options = task.options;
   LockStep lock_step;
   PairOptions kernel_options;
   kernel_options.identity = options.identity;
   kernel_options.thickness = options.thickness;
   kernel_options.lock_step = &lock_step;
-  ShadowOptions run_options = options;
+  RunOptions run_options = run_options_of(options);
   run_options.interrupted = &lock_step.stop;
 
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
@@ -33,11 +30,12 @@ Explanation explain_with(const PreparedScene& scene, const ShadowOptions& option
   const auto bsp =
       build_scene_bsp(scene_space, scene, parts, options.seed, options.identity, &lock_step.stop);
   if (lock_step.first) return FirstDifference{*lock_step.first, std::nullopt};
-  for (const std::uint32_t light : lights) {
-    SvbspRun<Space> run(scene, run_options, scene_space, light, kernel_options);
-    if (!lock_step.first)
+  for (const std::uint32_t light : task.lights) {
+    SvbspRun<Space> run(scene, run_options, task.rules, scene_space, light, kernel_options);
+    if (!lock_step.first) {
       run.run(
           bsp, [](std::size_t) {}, [](std::uint32_t, Side) {});
+    }
     if (lock_step.first) return FirstDifference{*lock_step.first, light};
   }
   return std::optional<FirstDifference>();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Lights of any kind receiver by receiver, from a prepared scene to a result, on several threads;
-// and several lights in one pipeline, with a class per light on each fragment. Instantiated one
-// kernel a source.
+// and several lights in one pipeline, with a class per light on each fragment.
 #ifndef GNOMON_ALGORITHMS_RUN_RECEIVER_RUN_H
 #define GNOMON_ALGORITHMS_RUN_RECEIVER_RUN_H
 
@@ -21,12 +20,15 @@
 #include <vector>
 
 #include "algorithms/partition/fragment_sink.h"
-#include "algorithms/run/area_kernels.h"
+#include "algorithms/partition/rules.h"
+#include "algorithms/partition/run_options.h"
+#include "algorithms/run/by_receiver.h"
 #include "algorithms/shadow_volumes/caster_tree.h"
 #include "algorithms/shadow_volumes/light_geometry.h"
 #include "algorithms/shadow_volumes/light_in_space.h"
 #include "algorithms/volume_trees/light_by_planes.h"
 #include "algorithms/volume_trees/penumbra_and_umbra.h"
+#include "kernel/concept/kernel_model.h"
 #include "kernel/signs/fp_environment.h"
 
 namespace gnomon {
@@ -37,24 +39,34 @@ struct Receiver {
   Side side = Side::kFront;
 };
 
+/// What a thread needs for one receiver after another, by either algorithm.
+template <VolumeSpaceModel Space>
+struct ReceiverRunWorkspace : ReceiverWorkspace<Space> {
+  using ReceiverWorkspace<Space>::ReceiverWorkspace;
+
+  std::unique_ptr<VolumeTreeWorkspace<Space>> trees;  // once a light has trees
+};
+
 template <VolumeSpaceModel Space>
 class ReceiverRun {
  public:
   using Vertex = typename Space::Vertex;
   using Loop = LoopView<Vertex>;
-  using Workspace = ReceiverWorkspace<Space>;
+  using Workspace = ReceiverRunWorkspace<Space>;
   using SceneSpace = typename Space::SceneSpace;
 
-  ReceiverRun(const PreparedScene& scene, const ShadowOptions& options)
+  ReceiverRun(const PreparedScene& scene, const ShadowOptions& options, const Rules& rules)
       : scene_(scene),
         options_(options),
+        run_options_(run_options_of(options)),
+        rules_(rules),
         light_geometry_(make_light_geometry(scene)),
         scene_space_(light_geometry_.geometry, {options.identity, options.thickness}),
         space_(scene_space_, {options.identity, options.thickness}),
         tree_(light_geometry_.geometry, scene, casters(scene)) {}
 
   /// Lights that results are wanted of one by one, and those that fragments are combined of.
-  Expected<AreaOutcome> run(const LightList& lights, const LightList& combined);
+  Expected<ShadowResult> run(const LightList& lights, const LightList& combined);
 
  private:
   using Workspaces = tbb::enumerable_thread_specific<std::unique_ptr<Workspace>>;
@@ -89,11 +101,13 @@ class ReceiverRun {
                                    const PenumbraAndUmbra<Space>* merged, std::uint32_t part);
   bool build_trees(const LightInSpace<Space>& light, double from, double to,
                    PenumbraAndUmbra<Space>& trees);
-  void combine(const LightList& lights, double from, double to, AreaOutcome& outcome);
+  void combine(const LightList& lights, double from, double to, ShadowResult& outcome);
   tl::unexpected<Error> stop_reason() const;
 
   const PreparedScene& scene_;
   const ShadowOptions& options_;
+  RunOptions run_options_;
+  Rules rules_;
   LightGeometry light_geometry_;
   SceneSpace scene_space_;
   Space space_;
@@ -118,7 +132,7 @@ bool ReceiverRun<Space>::for_each(std::size_t n, double from, double to, const B
         stopped_.store(true);
         return;
       }
-      workspace = std::make_unique<Workspace>(space_.fork(), options_.mutation);
+      workspace = std::make_unique<Workspace>(space_.fork(), rules_);
     }
     const std::uint32_t mark = workspace->space.plane_mark();
     body(*workspace, i);
@@ -148,7 +162,7 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
   const Part& part = scene_.parts[index];
   std::vector<SideResult> sides;
   ShadowReason reason = ShadowReason::kNone;
-  FragmentSink<Space> sink(scene_, options_);
+  FragmentSink<Space> sink(scene_, run_options_, rules_);
   for (const Side side : {Side::kFront, Side::kBack}) {
     if (side == Side::kBack && !part.two_sided) break;
     const Sight sight = light.sight(workspace, index, side);
@@ -167,11 +181,11 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
       return count_piece();
     };
     if (by_trees) {
-      if (!workspace.merged) {
-        workspace.merged =
+      if (!workspace.trees) {
+        workspace.trees =
             std::make_unique<VolumeTreeWorkspace<Space>>(workspace.space, options_.merge);
       }
-      merged->cut(workspace.space, workspace.record, *workspace.merged, whole, receiving, emit);
+      merged->cut(workspace.space, workspace.record, *workspace.trees, whole, receiving, emit);
     } else {
       light.cut(workspace, whole, emit);
     }
@@ -189,7 +203,7 @@ bool ReceiverRun<Space>::build_trees(const LightInSpace<Space>& light, double fr
                                      PenumbraAndUmbra<Space>& trees) {
   std::vector<std::uint32_t> receivers;
   {
-    Workspace workspace(space_.fork(), options_.mutation);
+    Workspace workspace(space_.fork(), rules_);
     for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
       if (stopped()) return false;
       for (const Side side : {Side::kFront, Side::kBack}) {
@@ -219,7 +233,7 @@ template <VolumeSpaceModel Space>
 LightResult ReceiverRun<Space>::run_light(std::uint32_t index, double from, double to) {
   pieces_ = 0;
   const std::uint32_t mark = space_.plane_mark();
-  const LightInSpace<Space> light(space_, light_geometry_, tree_, index, options_.mutation);
+  const LightInSpace<Space> light(space_, light_geometry_, tree_, index, rules_);
   LightResult result;
   result.light = index;
   result = run_light(light, std::move(result), from, to);
@@ -255,7 +269,7 @@ void ReceiverRun<Space>::run_pieces(std::uint32_t index, double from, double to,
   for (std::uint32_t i = 0; i < cut.pieces.size() && !stopped_; ++i) {
     const Loop piece = cut.loops.view(cut.pieces[i], face.plane);
     const std::uint32_t mark = space_.plane_mark();
-    const LightInSpace<Space> light(space_, light_geometry_, tree_, index, piece);
+    const LightInSpace<Space> light(space_, light_geometry_, tree_, index, rules_, piece);
     LightResult result;
     result.light = index;
     result.piece = i;
@@ -274,8 +288,8 @@ template <VolumeSpaceModel Space>
 LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, LightResult result,
                                           double from, double to) {
   std::optional<PenumbraAndUmbra<Space>> merged;
-  if (light.is_area() && options_.area_algorithm != AreaAlgorithm::kReceiver) {
-    merged.emplace(space_, light, scene_, tree_, options_);
+  if (light.is_area() && options_.area_algorithm != MethodId::kReceiver) {
+    merged.emplace(space_, light, scene_, tree_, run_options_, rules_);
     const double middle = from + (to - from) / 2;
     if (!build_trees(light, from, middle, *merged)) return result;
     from = middle;
@@ -295,10 +309,9 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
   for_each(order.size(), from, to, [&](Workspace& workspace, std::size_t i) {
     const std::uint64_t cells_before = workspace.cutter.cells(),
                         vanished_before = workspace.cutter.vanished();
-    const std::uint64_t filtered_before =
-        workspace.merged ? workspace.merged->filter.vanished() : 0;
+    const std::uint64_t filtered_before = workspace.trees ? workspace.trees->filter.vanished() : 0;
     parts[order[i]] = run_part(workspace, light, merged ? &*merged : nullptr, order[i]);
-    if (workspace.merged) vanished += workspace.merged->filter.vanished() - filtered_before;
+    if (workspace.trees) vanished += workspace.trees->filter.vanished() - filtered_before;
     cells += workspace.cutter.cells() - cells_before;
     vanished += workspace.cutter.vanished() - vanished_before;
   });
@@ -333,7 +346,7 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
 /// Every fragment of one light goes on to the next (1989, sec. 5).
 template <VolumeSpaceModel Space>
 void ReceiverRun<Space>::combine(const LightList& indices, double from, double to,
-                                 AreaOutcome& outcome) {
+                                 ShadowResult& outcome) {
   struct Combined {
     std::vector<CombinedFragment> fragments;
     std::vector<std::array<double, 3>> points;
@@ -346,8 +359,9 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
   pieces_ = 0;
   const std::uint32_t mark = space_.plane_mark();
   std::deque<LightInSpace<Space>> lights;
-  for (const std::uint32_t light : indices)
-    lights.emplace_back(space_, light_geometry_, tree_, light);
+  for (const std::uint32_t light : indices) {
+    lights.emplace_back(space_, light_geometry_, tree_, light, rules_);
+  }
   std::vector<std::array<Combined, 2>> results(scene_.parts.size());
   const auto run_side = [&](Workspace& workspace, std::uint32_t part, Side side, Combined& out) {
     const PlaneId plane = scene_.parts[part].plane;
@@ -381,7 +395,7 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
     }
     for (const Piece& piece : pieces) {
       CombinedFragment fragment{part, side, piece.lit_by, piece.penumbra_of};
-      export_volume_loop(workspace.space, options_, now.view(piece.loop, plane),
+      export_volume_loop(workspace.space, run_options_, now.view(piece.loop, plane),
                          side == Side::kBack, fragment, out.points, out.exact_points);
       out.fragments.push_back(fragment);
     }
@@ -423,12 +437,12 @@ tl::unexpected<Error> ReceiverRun<Space>::stop_reason() const {
 }
 
 template <VolumeSpaceModel Space>
-Expected<AreaOutcome> ReceiverRun<Space>::run(const LightList& lights, const LightList& combined) {
-  AreaOutcome outcome;
+Expected<ShadowResult> ReceiverRun<Space>::run(const LightList& lights, const LightList& combined) {
+  ShadowResult outcome = empty_result(options_);
   const double steps = static_cast<double>(lights.size() + (combined.empty() ? 0 : 1));
   double step = 0;
   for (const std::uint32_t light : lights) {
-    if (options_.area_algorithm == AreaAlgorithm::kPieces &&
+    if (options_.area_algorithm == MethodId::kPieces &&
         scene_.lights[light].type == LightType::kArea) {
       run_pieces(light, step / steps, (step + 1) / steps, outcome.lights);
     } else {
@@ -441,20 +455,22 @@ Expected<AreaOutcome> ReceiverRun<Space>::run(const LightList& lights, const Lig
     combine(combined, step / steps, 1, outcome);
     if (stopped_) return stop_reason();
   }
-  outcome.stages = stages_;
+  outcome.stages += stages_;
   outcome.stages += space_.stage_counts();
   outcome.stages += scene_space_.stage_counts();
   return outcome;
 }
 
 /// On as many threads as asked for.
-template <VolumeSpaceModel Space>
-Expected<AreaOutcome> area_shadows_with(const PreparedScene& scene, const ShadowOptions& options,
-                                        const LightList& lights, const LightList& combined) {
-  const unsigned most = std::max(1u, std::thread::hardware_concurrency());
-  const unsigned jobs = options.jobs == 0 ? most : std::min(options.jobs, most);
-  tbb::task_arena arena(static_cast<int>(jobs));
-  return arena.execute([&] { return ReceiverRun<Space>(scene, options).run(lights, combined); });
+template <class Kernel>
+Expected<ShadowResult> ByReceiver<Kernel>::run(const RunTask& task) {
+  tbb::task_arena arena(thread_count(task.options.jobs));
+  return arena.execute([&] {
+    return with_volume_space<Kernel>(task.options.count_stages, [&]<class Space>() {
+      return ReceiverRun<Space>(task.scene, task.options, task.rules)
+          .run(task.lights, task.combined);
+    });
+  });
 }
 
 }  // namespace gnomon

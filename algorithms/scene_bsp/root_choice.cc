@@ -43,8 +43,7 @@ std::uint64_t RootChooser::random() {  // splitmix64
 }
 
 std::size_t RootChooser::choose(std::span<const std::uint32_t> candidates,
-                                std::span<const ApproximateBox> boxes,
-                                std::span<const PlaneId> planes) {
+                                std::span<const Box> boxes, std::span<const PlaneId> planes) {
   const std::size_t n = candidates.size();
   if (n <= 2) return 0;
   const std::size_t tries = std::min(n, kCandidates), sample = std::min(n, kSample);
@@ -56,7 +55,7 @@ std::size_t RootChooser::choose(std::span<const std::uint32_t> candidates,
     std::size_t front = 0, back = 0, splits = 0;
     for (std::size_t s = 0; s < sample; ++s) {
       const std::size_t other = n <= kSample ? s : random() % n;
-      const ApproximateBox& box = boxes[candidates[other]];
+      const Box& box = boxes[candidates[other]];
       // The box's extreme values of n . x - d; a tolerance of rounding size keeps touching boxes
       // whole.
       double low = -plane[3], high = -plane[3], size = std::fabs(plane[3]);
@@ -103,7 +102,7 @@ std::vector<std::uint32_t> front_to_back(std::span<const BspNode> nodes,
       continue;
     }
     const BspNode& node = nodes[static_cast<std::size_t>(frame.node)];
-    // A viewpoint in the node's plane: neither half can hide anything of the other.
+    // If the viewpoint is in the node's plane, neither half can hide anything of the other.
     const bool front_first = side_of_node(node.plane) != Sign::kNegative;
     const std::int32_t near = front_first ? node.front : node.back;
     const std::int32_t far = front_first ? node.back : node.front;

@@ -17,7 +17,9 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/partition/box.h"
 #include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "gnomon/scene/prepare.h"
 #include "kernel/concept/kernel_concept.h"
@@ -33,7 +35,7 @@ struct BspNode {
 
 template <class Vertex>
 struct SceneBsp {
-  std::vector<BspNode> nodes;              // root is 0; empty scene: no nodes
+  std::vector<BspNode> nodes;              // nodes[0] is the root; none if the scene is empty
   std::vector<std::uint32_t> node_pieces;  // indices into pieces
   std::vector<LoopRange> pieces;           // also those that were split further
   LoopStore<Vertex> loops;
@@ -44,18 +46,13 @@ struct SceneBsp {
   bool too_many = false;  // more than max_pieces: given up
 };
 
-/// Axis-aligned box in scene units, for heuristics.
-struct ApproximateBox {
-  std::array<double, 3> low{}, high{};
-};
-
-/// Support planes and boxes in plain doubles, the same for every kernel.
+/// RootChooser works on planes and boxes in doubles, in scene units, the same for every kernel.
 class RootChooser {
  public:
   RootChooser(const Geometry& geometry, std::uint64_t seed);
-  /// Index into `candidates` of the piece whose plane should split them.
-  std::size_t choose(std::span<const std::uint32_t> candidates,
-                     std::span<const ApproximateBox> boxes, std::span<const PlaneId> planes);
+  /// Returns the index, in `candidates`, of the piece whose plane should split them.
+  std::size_t choose(std::span<const std::uint32_t> candidates, std::span<const Box> boxes,
+                     std::span<const PlaneId> planes);
 
  private:
   std::uint64_t random();
@@ -65,17 +62,18 @@ class RootChooser {
 
 /// Builds the tree of the given parts. `identity` tells whether pieces of the same support plane go
 /// to the node unasked; without it (what most programs do) only the root's own piece does.
-/// `on_is_behind`: Mutation::kOnSwapped.
+/// A space may have add_plane_of(loop), a support plane of its own for a fragment that becomes the
+/// root of a subtree; without it the root's plane is that of its part.
 template <SceneSpaceModel Space>
 SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedScene& scene,
                                                  std::span<const std::uint32_t> parts,
                                                  std::uint64_t seed, bool identity,
                                                  const std::atomic<bool>* interrupted = nullptr,
                                                  std::uint64_t max_pieces = 100'000'000,
-                                                 bool on_is_behind = false);
+                                                 const Rules& rules = {});
 
-/// Node indices front to back as seen from where `side_of_node` says: kFront if the viewpoint is in
-/// front of a node's plane. O(nodes), explicit stack.
+/// Returns the nodes front to back as seen from a viewpoint; `side_of_node`: the viewpoint's side
+/// of a plane. O(nodes), explicit stack.
 std::vector<std::uint32_t> front_to_back(std::span<const BspNode> nodes,
                                          const std::function<Sign(PlaneId)>& side_of_node);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// One light by the sectors algorithm, from a prepared scene to a result, on several threads.
+// The sectors method from a prepared scene to a result, light by light, on several threads.
 #ifndef GNOMON_ALGORITHMS_SECTORS_SECTOR_RUN_H
 #define GNOMON_ALGORITHMS_SECTORS_SECTOR_RUN_H
 
@@ -15,8 +15,10 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/partition/run_task.h"
+#include "algorithms/sectors/by_sectors.h"
 #include "algorithms/sectors/sector_tree.inl.h"
-#include "gnomon/algorithms/shadows.h"
+#include "kernel/concept/kernel_model.h"
 #include "kernel/signs/fp_environment.h"
 
 namespace gnomon {
@@ -30,15 +32,16 @@ class SectorRun {
   enum class Outcome : std::uint8_t { kDone, kInterrupted, kTooManyFragments, kNoIeee };
 
   /// Call everything in an arena of `jobs` threads.
-  SectorRun(const PreparedScene& scene, const ShadowOptions& options, SceneSpace& scene_space,
-            std::uint32_t light, const KernelOptions& kernel_options)
+  SectorRun(const PreparedScene& scene, const RunOptions& options, const Rules& rules,
+            SceneSpace& scene_space, std::uint32_t light, const KernelOptions& kernel_options)
       : scene_(scene),
         options_(options),
+        rules_(rules),
         scene_space_(scene_space),
         light_(scene.lights[light].point),
         jobs_(Space::kParallel && options.jobs != 1 ? options.jobs : 1),
         space_(scene_space, light_, kernel_options),
-        facing_(scene, space_),
+        facing_(scene, space_, rules),
         charts_(charts_of(scene.geometry)),
         areas_(scene.parts.size()),
         sums_(scene.parts.size()) {
@@ -84,7 +87,8 @@ class SectorRun {
   SectorCell common_cell(Tree& planner, std::span<const SectorItem> items);
 
   const PreparedScene& scene_;
-  const ShadowOptions& options_;
+  const RunOptions& options_;
+  const Rules& rules_;
   SceneSpace& scene_space_;
   const LightPoint& light_;
   unsigned jobs_;
@@ -187,8 +191,8 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run(
   constexpr std::uint32_t kSmallestTask = 256, kLargestTask = 16384, kTasks = 128;
   std::atomic<std::uint64_t> pieces = 0;
   std::atomic<bool> stopped = false, no_ieee = false;
-  const SectorContext context{scene_, options_, facing_, charts_, light_,
-                              areas_, sums_,    pieces,  stopped};
+  const SectorContext context{scene_, options_, rules_, facing_, charts_,
+                              light_, areas_,   sums_,  pieces,  stopped};
   LoopStore<Vertex> loops;
   std::vector<SectorItem> items = import(loops);
   Tree planner(context, std::move(space_));
@@ -250,7 +254,7 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run(
   states_.assign(states.begin(), states.end());
   for (const std::unique_ptr<Tree>& tree : trees) stages_ += tree->space().stage_counts();
   stages_ += planner.space().stage_counts();
-  // Whole parts go out as they came in (1989, sec. 6).
+  // A part with one class and caster is put out as it came in (1989, sec. 6).
   for (std::uint32_t i = 0; i < states_.size(); ++i) {
     if (states_[i] != kMixed && states_[i] != kUndecided) planner.emit_root(i);
   }
@@ -325,6 +329,56 @@ LightResult SectorRun<Space>::finish() {
     }
   }
   return std::move(result_);
+}
+
+/// Every light by the sectors algorithm, one after another.
+template <SectorSpaceModel Space>
+Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
+  using Run = SectorRun<Space>;
+  const PreparedScene& scene = task.scene;
+  const ShadowOptions& options = task.options;
+  const LightList& lights = task.lights;
+  ShadowResult result = empty_result(options);
+  result.algorithm = "sectors";
+  const double start = cpu_seconds();
+  const KernelOptions kernel_options{options.identity, options.thickness};
+  const RunOptions run_options = run_options_of(options);
+  typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    Run run(scene, run_options, task.rules, scene_space, lights[i], kernel_options);
+    std::function<void(double)> progress;
+    if (options.progress) {
+      progress = [&](double share) {
+        options.progress((static_cast<double>(i) + share) / static_cast<double>(lights.size()));
+      };
+    }
+    switch (run.run(progress)) {
+      case Run::Outcome::kDone:
+        break;
+      case Run::Outcome::kInterrupted:
+        return interrupted();
+      case Run::Outcome::kTooManyFragments:
+        return too_many_fragments(options);
+      case Run::Outcome::kNoIeee:
+        return tl::unexpected<Error>(check_fp_environment().error());
+    }
+    result.stages += run.stage_counts();
+    result.lights.push_back(run.finish());
+  }
+  result.stages += scene_space.stage_counts();
+  result.shadow_seconds = cpu_seconds() - start;
+  return result;
+}
+
+/// The same on as many threads as asked for.
+template <class Kernel>
+Expected<ShadowResult> BySectors<Kernel>::run(const RunTask& task) {
+  tbb::task_arena arena(thread_count(task.options.jobs));
+  return arena.execute([&] {
+    return with_light_space<Kernel>(task.options.count_stages, [&]<class Space>() {
+      return compute_by_sectors_here<Space>(task);
+    });
+  });
 }
 
 }  // namespace gnomon

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/partition/kd_tree.h"
+
 namespace gnomon {
 namespace {
 
@@ -12,8 +14,8 @@ constexpr double kNarrowestBin = 1e-15;
 constexpr double kNarrowestAtZero = 1e-17;
 
 /// A value within the given width of `near` that has few bits.
-SectorSplit short_split(int axis, double near, double width) {
-  SectorSplit split;
+ChartSplit short_split(int axis, double near, double width) {
+  ChartSplit split;
   split.axis = axis;
   split.bits = std::clamp(-std::ilogb(width) + 2, 0, 60);
   split.steps = std::llround(std::ldexp(near, split.bits));
@@ -23,21 +25,10 @@ SectorSplit short_split(int axis, double near, double width) {
 
 }  // namespace
 
-double n_log_n(std::size_t n) {
-  static const std::vector<double> kTable = [] {
-    std::vector<double> table(4096, 0.0);
-    for (std::size_t i = 2; i < table.size(); ++i) {
-      table[i] = static_cast<double>(i) * std::log2(static_cast<double>(i));
-    }
-    return table;
-  }();
-  return n < kTable.size() ? kTable[n] : static_cast<double>(n) * std::log2(static_cast<double>(n));
-}
-
-std::optional<SectorSplit> SplitChooser::choose(std::span<const SectorItem> items) {
+std::optional<ChartSplit> SplitChooser::choose(std::span<const SectorItem> items) {
   const std::size_t n = items.size();
-  std::optional<SectorSplit> best;
-  double best_cost = kGrowth * n_log_n(n);
+  std::optional<ChartSplit> best;
+  double best_cost = kSplitGrowth * n_log_n(n);
   for (int axis = 0; axis < 2; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
     float low = INFINITY, high = -INFINITY;
@@ -73,24 +64,6 @@ std::optional<SectorSplit> SplitChooser::choose(std::span<const SectorItem> item
     }
   }
   return best;
-}
-
-// q_axis / q_w > steps / 2^bits, times 2^bits |q_w|. A directional light's chart is in units of 2^b
-// grid steps and q_w is the common denominator: times 2^b.
-PrefixPlane plane_of(const SectorSplit& split, const LightChart& chart, bool directional,
-                     unsigned grid_bits) {
-  mpz_class scale = mpz_class(1) << static_cast<unsigned>(split.bits);
-  mpz_class offset = static_cast<long>(split.steps);
-  if (directional) {
-    offset <<= grid_bits;
-    const unsigned common = std::min(static_cast<unsigned>(split.bits), grid_bits);
-    scale >>= common;
-    offset >>= common;
-  }
-  PrefixPlane plane;
-  plane.n[static_cast<std::size_t>(split.axis == 0 ? chart.u : chart.v)] = chart.sign * scale;
-  plane.n[static_cast<std::size_t>(chart.w)] = -chart.sign * offset;
-  return plane;
 }
 
 }  // namespace gnomon

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "kernel/concept/light_space.h"
+#include "algorithms/partition/chart_split.h"
 
 namespace gnomon {
 
@@ -27,7 +27,7 @@ struct ChartBox {
   }
 };
 
-/// A polygon, clipped to a cell, as the tree sees it. The box and the depths are certified: the
+/// SectorItem is a polygon clipped to a cell. Its box and its depths are certified: the
 /// polygon's directions are within [low, high] and its z within [z_low, z_high] (infinite where
 /// nothing is known, or the kernel rounds: as its coordinates say).
 struct SectorItem : ChartBox {
@@ -39,33 +39,14 @@ struct SectorItem : ChartBox {
   std::uint32_t parent = 0;  // the item of the parent cell that it is a piece of
 };
 
-/// A split of a cell by u = value or v = value; the value is exactly `steps` * 2^-bits.
-struct SectorSplit {
-  int axis = 0;  // 0: u, 1: v
-  double value = 0;
-  std::int64_t steps = 0;
-  int bits = 0;
-};
-
-/// n log2 n.
-double n_log_n(std::size_t n);
-
 class SplitChooser {
  public:
-  /// Splits only while f(below) + f(above) < kGrowth f(n), f(n) = n log n.
-  static constexpr double kGrowth = 1.1;
-
-  /// Nothing if no split pays.
-  std::optional<SectorSplit> choose(std::span<const SectorItem> items);
+  /// Chooses the best split; none if no split pays (kSplitGrowth).
+  std::optional<ChartSplit> choose(std::span<const SectorItem> items);
 
  private:
   static constexpr int kBins = 32;
 };
-
-/// The plane of a split in the coordinates of q; its front is where the coordinate is larger.
-/// `grid_bits`: b of the scene (the unit of a directional light's chart).
-PrefixPlane plane_of(const SectorSplit& split, const LightChart& chart, bool directional,
-                     unsigned grid_bits);
 
 }  // namespace gnomon
 

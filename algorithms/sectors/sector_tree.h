@@ -10,14 +10,14 @@
 // order, no cycles, no coplanar groups: a polygon shadows another if it is nearer in some cell, and
 // polygons of one plane are nowhere nearer than each other.
 //
-// Pieces of a polygon that come to the same end in both children of a cell are one piece again.
+// Pieces of a polygon that have the same class and witness in both children of a cell are merged.
 //
 // Guarantee on exact kernels: the fragments tile the polygon and have the class and a witness of
 // the definition (docs: semantics), whatever planes the heuristics choose. The result does not
 // depend on the number of threads: cells down to a fixed size are made by one thread, everything
-// below is independent, and sums are associative (area_sums.h). Explicit stack; memory is the items
-// and loops of the cells on it, about 2.2 times those of the root. Reference: Slater, A comparison
-// of three shadow volume algorithms (1992), for tiles; docs/algorithms.md.
+// below is independent, and sums are associative (fraction_sums.h). Explicit stack; memory is the
+// items and loops of the cells on it, about 2.2 times those of the root. Reference: Slater, A
+// comparison of three shadow volume algorithms (1992), for tiles; docs/algorithms.md.
 #ifndef GNOMON_ALGORITHMS_SECTORS_SECTOR_TREE_H
 #define GNOMON_ALGORITHMS_SECTORS_SECTOR_TREE_H
 
@@ -34,6 +34,8 @@
 #include "algorithms/partition/import_export.h"
 #include "algorithms/partition/loop_store.h"
 #include "algorithms/partition/piece_fractions.h"
+#include "algorithms/partition/rules.h"
+#include "algorithms/partition/run_options.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/sectors/sector_split.h"
 #include "gnomon/algorithms/shadow_result.h"
@@ -41,13 +43,13 @@
 
 namespace gnomon {
 
-/// What became of a polygon in a cell: a caster's part, or one of these.
+/// SectorState says what became of a polygon in a cell: the part that hides it, or one of these.
 using SectorState = std::uint32_t;
 inline constexpr SectorState kAllLit = Fragment::kNoCaster;
 inline constexpr SectorState kMixed = kAllLit - 1;  // pieces of several kinds, already put out
 inline constexpr SectorState kUndecided = kAllLit - 2;
 
-/// What one task puts out; concatenated in the order of tasks.
+/// SectorOutput is what one task puts out. Outputs are concatenated in the order of tasks.
 struct SectorOutput {
   struct Piece {
     std::uint32_t part;
@@ -60,10 +62,11 @@ struct SectorOutput {
   std::uint64_t piece_count = 0, nodes = 0, vanished = 0;
 };
 
-/// What all threads share. Constant but for the atomics.
+/// SectorContext is what all threads share. Only its atomics change.
 struct SectorContext {
   const PreparedScene& scene;
-  const ShadowOptions& options;
+  const RunOptions& options;
+  const Rules& rules;
   const FacingParts& facing;
   const PlaneCharts& charts;
   const LightPoint& light;
@@ -87,12 +90,12 @@ template <SectorSpaceModel Space>
 class SectorTree {
  public:
   using Vertex = typename Space::Vertex;
-  /// SectorContext::pieces is told of so many at a time; the rest of an output is its taker's to
-  /// tell.
+  /// The tree counts its pieces in SectorContext::pieces in batches of this size; whoever takes an
+  /// output counts the last, incomplete batch.
   static constexpr std::uint64_t kPieceBatch = 1024;
 
-  /// Polygons of one cell, to be worked off by one thread: items [begin, end) of the tree that made
-  /// the task.
+  /// Task is a cell that one thread works off: its polygons are the items [begin, end) of the tree
+  /// that made the task.
   struct Task {
     SectorCell cell;
     std::uint32_t begin = 0, end = 0;
@@ -109,9 +112,9 @@ class SectorTree {
   SectorOutput& output() { return output_; }
   LoopStore<Vertex>& loops() { return loops_; }
 
-  /// The ten planes between the sectors. Call it once, before the space is forked.
+  /// Adds the ten planes between the sectors. Call it once, before the space is forked.
   void add_sector_planes();
-  /// The same planes in a fork.
+  /// Takes over the planes of another tree, whose space this tree's space is a fork of.
   void use_sector_planes(const SectorTree& other) {
     sector_planes_ = other.sector_planes_;
     first_cell_plane_ = other.first_cell_plane_;
@@ -121,14 +124,14 @@ class SectorTree {
   SectorCell cell_of(const LoopView<Vertex>& loop);
   /// Where the tree starts if nothing is known of its polygons.
   SectorCell root_cell() const;
-  /// Box and depths of an item in the chart of a cell. Thread-safe.
+  /// Finds the box and the depths of an item in the chart of a cell. Thread-safe.
   void locate(const LightChart& chart, SectorItem& item) const;
   /// Splits the cell that holds `items` (loops in loops()) down to cells of at most `task_size`,
   /// which become tasks. Call finish() when their states are known. `located`: items have boxes.
   std::vector<Task> plan(std::vector<SectorItem> items, const SectorCell& cell, bool located,
                          std::uint32_t task_size);
   void set_states(const Task& task);
-  /// Joins the cells of plan(); the states of its items follow.
+  /// Joins the cells of plan() and returns the states of its items.
   std::span<const SectorState> finish();
   /// Puts out item i of plan() as a whole. Requires: finished, and its state is not kMixed.
   void emit_root(std::uint32_t i) {
@@ -139,7 +142,6 @@ class SectorTree {
   void run(Task& task, const SectorTree& planner);
 
  private:
-  bool coplanar_is_behind() const { return context_->options.mutation == Mutation::kOnSwapped; }
   /// Cells of so many times the size of a leaf that no k-d plane splits are split by edges of their
   /// polygons.
   static constexpr std::uint32_t kLargeLeaf = 4;
@@ -156,7 +158,7 @@ class SectorTree {
   struct Range {
     std::uint32_t begin, end;
   };
-  /// A piece of a receiver that is lit so far, and its box in the chart once one was asked for.
+  /// LitPiece is a piece of a receiver that is lit so far; its box is made when it is needed.
   struct LitPiece {
     LoopRange loop;
     bool located = false;
@@ -192,7 +194,7 @@ class SectorTree {
   bool split_by_sector_plane(Frame& frame, std::uint32_t open_end);
   PlaneRef next_sector_plane(const SectorCell& cell, SectorCell& above, SectorCell& below) const;
   PlaneRef choose_edge_plane(std::uint32_t begin, std::uint32_t end);
-  void partition(Frame& frame, std::uint32_t open_end, PlaneRef plane, const SectorSplit* split);
+  void partition(Frame& frame, std::uint32_t open_end, PlaneRef plane, const ChartSplit* split);
   /// `chart`: of the cell; null if it has none.
   void leaf(std::uint32_t begin, std::uint32_t end, const LightChart* chart);
   void subtract_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Where casters touch or cross the plane of a receiver: there illumination jumps, and a vertex has
-// one value on each side. The foot of a wall is lit on one side of the wall and dark on the other.
+// Finds where casters touch or cross the plane of a receiver: there illumination jumps, and a
+// vertex has two values. The foot of a wall is lit on one side of the wall and dark on the other.
 //
 // Exactness: candidates by a bounding-volume hierarchy with a margin, then exact tests.
 #ifndef GNOMON_ALGORITHMS_SHADING_MESH_CONTACTS_H
@@ -32,7 +32,7 @@ class Contacts {
   /// face: `inside`, a point inside of the face, is behind a side of it that casts. Requires: the
   /// vertex was looked at.
   bool is_behind(std::uint32_t vertex, const MeshFace& face, const ExactPoint& inside) const;
-  /// Whether it is on any caster but those coplanar with the face.
+  /// Whether the vertex is on any caster that is not coplanar with the face.
   bool touches(std::uint32_t vertex, const MeshFace& face) const;
 
  private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Edges of the faces of a shading mesh, and vertices put into them: an edge is a pair of vertices,
 // and what is inserted between the two is inserted in every face that has this edge. So there are
-// no T-vertices afterwards if there were none before; that there are none before, fit_edges()
-// makes sure of, by the lines that edges lie on.
+// no T-vertices afterwards if there were none before. fit_edges() removes those that are there at
+// first, by the lines that edges lie on.
 //
 // Exactness: lines are compared by their Pluecker coordinates, made primitive.
 #ifndef GNOMON_ALGORITHMS_SHADING_MESH_EDGES_H
@@ -51,8 +51,8 @@ class EdgeList {
   std::vector<std::uint64_t> edges_;
 };
 
-/// inserted[e]: the vertices to put into edge e, in order from its smaller vertex to its larger
-/// one. The loops with them; edges that are not in the list stay as they are.
+/// Returns the loops with vertices put into their edges; inserted[e]: those of edge e, in order
+/// from its smaller vertex to its larger one. Edges that are not in the list stay as they are.
 FaceLoops insert_vertices(const FaceLoops& loops, const EdgeList& edges,
                           const std::vector<std::vector<std::uint32_t>>& inserted);
 

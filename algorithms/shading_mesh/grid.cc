@@ -4,12 +4,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-
-#include "algorithms/partition/fractions.h"
-#include "kernel/implicit/implicit_scene_space.h"
-#include "kernel/signs/nearest_double.h"
+#include <string>
+#include <utility>
 
 namespace gnomon {
 
@@ -199,174 +198,160 @@ std::vector<NewPoint> points_on_edge(const PointTable& points, std::uint32_t fro
   return result;
 }
 
-}  // namespace
-
-GridLines::GridLines(mpq_class step, bool rounded)
-    : step_(std::move(step)), nearest_step_(step_.get_d()), rounded_(rounded) {
-  constexpr std::size_t kShort = 53;
-  is_short_ = mpz_sizeinbase(step_.get_num_mpz_t(), 2) <= kShort &&
-              mpz_sizeinbase(step_.get_den_mpz_t(), 2) <= kShort;
-}
-
-double GridLines::rounded_at(std::int64_t line) const {
-  if (is_short_) {
-    const double numerator = static_cast<double>(line) * step_.get_num().get_d();
-    // Below 2^53 the product is exact.
-    if (std::fabs(numerator) < 0x1p53) return numerator / step_.get_den().get_d();
-  }
-  return nearest_double(step_ * mpq_class(static_cast<long>(line)));
-}
-
-mpq_class GridLines::at(std::int64_t line) const {
-  return rounded_ ? mpq_class(rounded_at(line)) : step_ * mpq_class(static_cast<long>(line));
-}
-
-std::int64_t GridLines::place(const PointTable& points, std::uint32_t point, int axis) const {
-  const auto k = static_cast<std::size_t>(axis);
-  const ExactPoint& exact = points.exact(point);
-  if (!rounded_) {
-    mpz_class quotient, rest;
-    const mpz_class dividend = exact.numerator[k] * step_.get_den();
-    const mpz_class divisor = exact.denominator * step_.get_num();
-    mpz_fdiv_qr(quotient.get_mpz_t(), rest.get_mpz_t(), dividend.get_mpz_t(), divisor.get_mpz_t());
-    return 2 * std::int64_t{quotient.get_si()} + (sgn(rest) != 0 ? 1 : 0);
-  }
-  // Rounding to the nearest double keeps the order, and lines are doubles: only a coordinate whose
-  // nearest double is a line may be on either side of it.
-  const double nearest = points.nearest(point)[k];
-  auto line = static_cast<std::int64_t>(std::floor(nearest / nearest_step_));
-  while (rounded_at(line) > nearest) --line;
-  while (rounded_at(line + 1) <= nearest) ++line;
-  if (rounded_at(line) != nearest) return 2 * line + 1;
-  const mpq_class at(nearest);
-  const int order = cmp(exact.numerator[k] * at.get_den(), at.get_num() * exact.denominator);
-  return 2 * line + (order > 0 ? 1 : order < 0 ? -1 : 0);
-}
-
-MeshPlane mesh_plane(const PreparedScene& scene, PlaneId plane) {
-  const Geometry& geometry = scene.geometry;
-  const ExactGeometry<mpz_class> exact(geometry);
-  const auto [n, d] = exact.plane(plane);
-  const Chart chart = chart_of(geometry, plane);
-  MeshPlane result;
-  // Position = origin + step * grid, so that n . position = n . origin + step * d.
-  result.d = geometry.step * d;
-  for (std::size_t k = 0; k < 3; ++k) {
-    result.n[k] = n[k];
-    result.d += geometry.origin[k] * n[k];
-  }
-  result.axes = {chart.u, chart.v};
-  return result;
-}
-
-Expected<GridCut> cut_by_grids(const PreparedScene& scene, const FaceLoops& loops,
-                               const GridRequest& request, PointTable& points) {
-  const auto interrupted = [&] { return is_set(request.interrupted); };
-  const auto stopped = [] { return fail(ErrorCode::kInterrupted, "interrupted while gridding"); };
-  const std::size_t face_count = loops.faces.size();
-
-  // Planes of the faces that are cut, computed once each.
-  constexpr std::uint32_t kNone = 0xffffffffu;
-  std::vector<std::uint32_t> plane_number(scene.geometry.planes.size(), kNone);
-  std::vector<MeshPlane> planes;
-  for (std::size_t f = 0; f < face_count; ++f) {
-    if (request.grid_of[f] == kNoGrid) continue;
-    const PlaneId plane = scene.parts[loops.faces[f].part].plane;
-    if (plane_number[plane] != kNone) continue;
-    plane_number[plane] = static_cast<std::uint32_t>(planes.size());
-    planes.push_back(mesh_plane(scene, plane));
-  }
-  const auto plane_of = [&](const MeshFace& face) -> const MeshPlane& {
-    return planes[plane_number[scene.parts[face.part].plane]];
-  };
-
-  // The cells of all faces are counted, roughly from above, before any is made.
-  std::uint64_t cells = face_count;
-  for (std::size_t f = 0; f < face_count && cells <= request.max_faces; ++f) {
-    if (request.grid_of[f] == kNoGrid) continue;
-    const GridLines& lines = request.grids[request.grid_of[f]];
-    std::array<std::uint64_t, 2> across{1, 1};
-    for (std::size_t k = 0; k < 2; ++k) {
-      const auto axis = static_cast<std::size_t>(plane_of(loops.faces[f]).axes[k]);
-      double low = INFINITY, high = -INFINITY;
-      for (const std::uint32_t vertex : loops.loop(loops.faces[f])) {
-        low = std::min(low, points.nearest(vertex)[axis]);
-        high = std::max(high, points.nearest(vertex)[axis]);
-      }
-      if (!(std::max(std::fabs(low), std::fabs(high)) < GridLines::kMostLines * lines.step())) {
-        return fail(ErrorCode::kLimit, "the grid's step is too small for coordinates this large",
-                    "a larger step");
-      }
-      across[k] += static_cast<std::uint64_t>(
-          std::min((high - low) / lines.step(), static_cast<double>(request.max_faces)));
+/// Cuts all faces: first their edges, each once, then each face through the vertices of its edges.
+class GridCutter {
+ public:
+  GridCutter(const PreparedScene& scene, const FaceLoops& loops, const GridRequest& request,
+             PointTable& points)
+      : scene_(scene),
+        loops_(loops),
+        request_(request),
+        points_(points),
+        plane_numbers_(scene.geometry.planes.size(), kNone) {
+    for (std::size_t f = 0; f < loops.faces.size(); ++f) {
+      if (!has_grid(f)) continue;
+      const PlaneId plane = scene.parts[loops.faces[f].part].plane;
+      if (plane_numbers_[plane] != kNone) continue;
+      plane_numbers_[plane] = static_cast<std::uint32_t>(planes_.size());
+      planes_.push_back(mesh_plane(scene, plane));
     }
-    cells += across[0] * across[1] - 1;
   }
-  if (cells > request.max_faces) {
+
+  Expected<GridCut> cut() {
+    if (auto done = check_count(); !done) return tl::unexpected(std::move(done.error()));
+    const FaceLoops fitted = cut_edges();
+    if (interrupted()) return stopped();
+    std::vector<FaceCut> cuts(loops_.faces.size());
+    tbb::parallel_for(std::size_t{0}, cuts.size(), [&](std::size_t f) {
+      if (!has_grid(f) || interrupted()) return;
+      const MeshFace& face = fitted.faces[f];
+      FaceCutter cutter(points_, grid(f), plane_of(face));
+      cuts[f] = cutter.cut(fitted.loop(face));
+    });
+    if (interrupted()) return stopped();
+    return collect(fitted, cuts);
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+
+  bool interrupted() const { return is_set(request_.interrupted); }
+  static tl::unexpected<Error> stopped() {
+    return fail(ErrorCode::kInterrupted, "interrupted while gridding");
+  }
+  bool has_grid(std::size_t f) const { return request_.grid_of[f] != kNoGrid; }
+  const GridLines& grid(std::size_t f) const { return request_.grids[request_.grid_of[f]]; }
+  const MeshPlane& plane_of(const MeshFace& face) const {
+    return planes_[plane_numbers_[scene_.parts[face.part].plane]];
+  }
+
+  /// Counts the cells of all faces, roughly from above, before any is made.
+  Expected<void> check_count() const {
+    std::uint64_t cells = loops_.faces.size();
+    for (std::size_t f = 0; f < loops_.faces.size() && cells <= request_.max_faces; ++f) {
+      if (!has_grid(f)) continue;
+      std::array<std::uint64_t, 2> across{1, 1};
+      for (std::size_t k = 0; k < 2; ++k) {
+        const auto axis = static_cast<std::size_t>(plane_of(loops_.faces[f]).axes[k]);
+        double low = INFINITY, high = -INFINITY;
+        for (const std::uint32_t vertex : loops_.loop(loops_.faces[f])) {
+          low = std::min(low, points_.nearest(vertex)[axis]);
+          high = std::max(high, points_.nearest(vertex)[axis]);
+        }
+        const double step = grid(f).step();
+        if (!(std::max(std::fabs(low), std::fabs(high)) < GridLines::kMostLines * step)) {
+          return fail(ErrorCode::kLimit, "the grid's step is too small for coordinates this large",
+                      "a larger step");
+        }
+        across[k] += static_cast<std::uint64_t>(
+            std::min((high - low) / step, static_cast<double>(request_.max_faces)));
+      }
+      cells += across[0] * across[1] - 1;
+    }
+    if (cells <= request_.max_faces) return {};
     return fail(
         ErrorCode::kLimit,
-        "the grid cuts the scene into more than " + std::to_string(request.max_faces) + " faces",
+        "the grid cuts the scene into more than " + std::to_string(request_.max_faces) + " faces",
         "a larger step");
   }
 
-  const EdgeList edges(loops, [&](std::size_t f) { return request.grid_of[f] != kNoGrid; });
-  std::vector<std::uint8_t> asked(edges.size(), 0);
-  for (std::size_t f = 0; f < face_count; ++f) {
-    const std::uint8_t grid = request.grid_of[f];
-    if (grid == kNoGrid) continue;
-    const auto [u, v] = plane_of(loops.faces[f]).axes;
-    const auto loop = loops.loop(loops.faces[f]);
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      asked[edges.find(loop[i], loop[(i + 1) % loop.size()])] |=
-          static_cast<std::uint8_t>(bit_of(grid, u) | bit_of(grid, v));
-    }
-  }
-  std::vector<std::vector<NewPoint>> made(edges.size());
-  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t edge) {
-    if (interrupted()) return;
-    made[edge] =
-        points_on_edge(points, edges.from(edge), edges.to(edge), asked[edge], request.grids);
-  });
-  if (interrupted()) return stopped();
-  std::vector<std::vector<std::uint32_t>> inserted(edges.size());
-  for (std::size_t edge = 0; edge < edges.size(); ++edge) {
-    for (NewPoint& point : made[edge]) inserted[edge].push_back(points.insert(std::move(point)));
-  }
-  made.clear();
-  const FaceLoops fitted = insert_vertices(loops, edges, inserted);
-
-  std::vector<FaceCut> cut(face_count);
-  tbb::parallel_for(std::size_t{0}, face_count, [&](std::size_t f) {
-    if (request.grid_of[f] == kNoGrid || interrupted()) return;
-    const MeshFace& face = fitted.faces[f];
-    FaceCutter cutter(points, request.grids[request.grid_of[f]], plane_of(face));
-    cut[f] = cutter.cut(fitted.loop(face));
-  });
-  if (interrupted()) return stopped();
-  GridCut result;
-  std::vector<std::uint32_t> numbers, loop;
-  for (std::size_t f = 0; f < face_count; ++f) {
-    const MeshFace& face = fitted.faces[f];
-    if (cut[f].counts.empty()) {
-      result.loops.add(face, fitted.loop(face));
-      result.origins.push_back(static_cast<std::uint32_t>(f));
-      continue;
-    }
-    numbers.clear();
-    for (NewPoint& point : cut[f].made) numbers.push_back(points.insert(std::move(point)));
-    std::size_t at = 0;
-    for (const std::uint32_t count : cut[f].counts) {
-      loop.clear();
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t vertex = cut[f].corners[at++];
-        loop.push_back((vertex & CutCorner::kNew) != 0 ? numbers[vertex & ~CutCorner::kNew]
-                                                       : vertex);
+  /// By edge of the list: the grids and axes that cut it, as bit_of().
+  std::vector<std::uint8_t> cuts_of(const EdgeList& edges) const {
+    std::vector<std::uint8_t> asked(edges.size(), 0);
+    for (std::size_t f = 0; f < loops_.faces.size(); ++f) {
+      if (!has_grid(f)) continue;
+      const auto [u, v] = plane_of(loops_.faces[f]).axes;
+      const auto loop = loops_.loop(loops_.faces[f]);
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::uint8_t own = request_.grid_of[f];
+        asked[edges.find(loop[i], loop[(i + 1) % loop.size()])] |=
+            static_cast<std::uint8_t>(bit_of(own, u) | bit_of(own, v));
       }
-      result.loops.add(face, loop);
-      result.origins.push_back(static_cast<std::uint32_t>(f));
     }
+    return asked;
   }
-  return result;
+
+  /// The loops of all faces with the vertices of the grids in their edges; incomplete if
+  /// interrupted.
+  FaceLoops cut_edges() {
+    const EdgeList edges(loops_, [&](std::size_t f) { return has_grid(f); });
+    const std::vector<std::uint8_t> asked = cuts_of(edges);
+    std::vector<std::vector<NewPoint>> made(edges.size());
+    tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t edge) {
+      if (interrupted()) return;
+      made[edge] =
+          points_on_edge(points_, edges.from(edge), edges.to(edge), asked[edge], request_.grids);
+    });
+    if (interrupted()) return {};
+    std::vector<std::vector<std::uint32_t>> inserted(edges.size());
+    for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+      for (NewPoint& point : made[edge]) inserted[edge].push_back(points_.insert(std::move(point)));
+    }
+    made.clear();
+    return insert_vertices(loops_, edges, inserted);
+  }
+
+  /// The cells of all faces in order, their new vertices numbered.
+  GridCut collect(const FaceLoops& fitted, std::vector<FaceCut>& cuts) {
+    GridCut result;
+    std::vector<std::uint32_t> numbers, loop;
+    for (std::size_t f = 0; f < cuts.size(); ++f) {
+      const MeshFace& face = fitted.faces[f];
+      if (cuts[f].counts.empty()) {
+        result.loops.add(face, fitted.loop(face));
+        result.origins.push_back(static_cast<std::uint32_t>(f));
+        continue;
+      }
+      numbers.clear();
+      for (NewPoint& point : cuts[f].made) numbers.push_back(points_.insert(std::move(point)));
+      std::size_t at = 0;
+      for (const std::uint32_t count : cuts[f].counts) {
+        loop.clear();
+        for (std::uint32_t i = 0; i < count; ++i) {
+          const std::uint32_t vertex = cuts[f].corners[at++];
+          loop.push_back((vertex & CutCorner::kNew) != 0 ? numbers[vertex & ~CutCorner::kNew]
+                                                         : vertex);
+        }
+        result.loops.add(face, loop);
+        result.origins.push_back(static_cast<std::uint32_t>(f));
+      }
+    }
+    return result;
+  }
+
+  const PreparedScene& scene_;
+  const FaceLoops& loops_;
+  const GridRequest& request_;
+  PointTable& points_;
+  std::vector<std::uint32_t> plane_numbers_;  // by plane; kNone: no face of it is cut
+  std::vector<MeshPlane> planes_;
+};
+
+}  // namespace
+
+Expected<GridCut> cut_by_grids(const PreparedScene& scene, const FaceLoops& loops,
+                               const GridRequest& request, PointTable& points) {
+  return GridCutter(scene, loops, request, points).cut();
 }
 
 }  // namespace gnomon

@@ -19,7 +19,7 @@ namespace gnomon {
 
 std::uint64_t hash_of(const mpz_class& number, std::uint64_t seed);
 
-/// Exact. Requires: canonical rationals.
+/// Converts a point exactly. Requires: canonical rationals.
 ExactPoint exact_point(const std::array<mpq_class, 3>& point);
 /// Divides by the common factor and makes the denominator positive.
 void make_primitive(ExactPoint& point);
@@ -36,7 +36,7 @@ struct NewPoint {
 };
 NewPoint new_point(ExactPoint exact);
 
-/// Positions by number, each once, in the order in which they came.
+/// PointTable numbers positions, each once, in the order in which they are inserted.
 class PointTable {
  public:
   PointTable() : numbers_(0, Hash{this}, Equal{this}) {}

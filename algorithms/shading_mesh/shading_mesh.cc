@@ -9,10 +9,13 @@
 #include <unordered_map>
 #include <utility>
 
-#include "algorithms/shading_mesh/contacts.h"
 #include "algorithms/shading_mesh/edges.h"
+#include "algorithms/shading_mesh/fragment_faces.h"
 #include "algorithms/shading_mesh/grid.h"
+#include "algorithms/shading_mesh/mesh_by_rules.h"
+#include "algorithms/shading_mesh/nodes.h"
 #include "algorithms/shading_mesh/points.h"
+#include "algorithms/shading_mesh/samples.h"
 
 namespace gnomon {
 
@@ -31,144 +34,19 @@ FaceClass class_of(const MeshFace& face) {
   return face.lit_by != 0 ? FaceClass::kLit : FaceClass::kUmbra;
 }
 
-/// A vertex on an oriented plane: what illumination depends on, whichever part of that plane it
-/// belongs to, since coplanar polygons do not shadow each other. Where a caster touches the plane,
-/// each face behind it has the vertex for itself.
-struct NodeKey {
-  static constexpr std::uint32_t kShared = 0xffffffffu;
-  std::uint32_t vertex = 0;
-  std::uint32_t plane = 0;         // 2 plane, + 1 for its back
-  std::uint32_t inside = kShared;  // a face's own: the number of a point inside of it
-  friend bool operator==(NodeKey, NodeKey) = default;
-};
-struct NodeHash {
-  std::size_t operator()(NodeKey key) const {
-    std::uint64_t hash = (std::uint64_t{key.vertex} << 32 | key.plane) * 0x9e3779b97f4a7c15u;
-    hash = (hash ^ key.inside) * 0x9e3779b97f4a7c15u;
-    return static_cast<std::size_t>(hash ^ hash >> 29);
-  }
-};
-
-struct Node {
-  std::uint32_t vertex = 0;
-  std::uint32_t inside = NodeKey::kShared;  // of the face whose own it is
-  std::uint32_t part = 0;
-  Side side = Side::kFront;
-  std::uint64_t lit_by = 0, penumbra_of = 0;        // classes of faces that meet in it
-  std::uint64_t known_lit = 0, known_penumbra = 0;  // what its values were computed as
-};
-
-/// Vertices of one side of the mesh and their illumination, each computed once.
-class NodeTable {
- public:
-  NodeTable(const PreparedScene& scene, std::size_t lights) : scene_(scene), lights_(lights) {}
-
-  /// The node of a vertex of this face, which now belongs to the face's classes too. `inside`: a
-  /// point inside of the face if the node is to be its own, else kShared.
-  std::uint32_t add(std::uint32_t vertex, const MeshFace& face, std::uint32_t inside) {
-    const Part& part = scene_.parts[face.part];
-    const bool back = part.flipped != (face.side == Side::kBack);
-    const auto [at, is_new] =
-        numbers_.emplace(NodeKey{vertex, 2 * part.plane + (back ? 1 : 0), inside},
-                         static_cast<std::uint32_t>(nodes_.size()));
-    if (is_new) {
-      nodes_.push_back({vertex, inside, face.part, face.side, 0, 0, 0, 0});
-      values_.resize(values_.size() + lights_, 0);
-      errors_.resize(errors_.size() + lights_, 0);
-    }
-    Node& node = nodes_[at->second];
-    node.lit_by |= face.lit_by;
-    node.penumbra_of |= face.penumbra_of;
-    return at->second;
-  }
-
-  std::size_t size() const { return nodes_.size(); }
-  const Node& operator[](std::uint32_t node) const { return nodes_[node]; }
-  double value(std::uint32_t node, std::size_t light) const {
-    return values_[node * lights_ + light];
-  }
-  /// What a face of these classes has at this node.
-  double shade(std::uint32_t node, const MeshFace& face) const {
-    double sum = 0;
-    const std::uint64_t shone_on = face.lit_by | face.penumbra_of;
-    for (std::size_t light = 0; light < lights_; ++light) {
-      if ((shone_on >> light & 1) != 0) sum += value(node, light);
-    }
-    return sum;
-  }
-
-  /// Computes by one light what is not known yet. Values do not depend on each other, nor on the
-  /// order in which they are computed.
-  void illuminate(std::size_t light, const PointTable& points, const ShadeFunction& shade,
-                  const std::function<bool(double)>& go_on) {
-    const std::uint64_t bit = std::uint64_t{1} << light;
-    std::vector<std::uint32_t> missing;
-    for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
-      const Node& node = nodes_[n];
-      const bool lit = (node.lit_by & bit) != 0;
-      const std::uint64_t known = lit ? node.known_lit : node.known_lit | node.known_penumbra;
-      if ((known & bit) == 0 && ((node.lit_by | node.penumbra_of) & bit) != 0) missing.push_back(n);
-    }
-    // Pieces between two looks at the clock of progress and at interruption.
-    constexpr std::size_t kPiece = 1024;
-    for (std::size_t begin = 0; begin < missing.size(); begin += kPiece) {
-      if (!go_on(static_cast<double>(begin) / static_cast<double>(missing.size()))) return;
-      const std::size_t end = std::min(missing.size(), begin + kPiece);
-      tbb::parallel_for(begin, end, [&](std::size_t i) {
-        Node& node = nodes_[missing[i]];
-        const bool lit = (node.lit_by & bit) != 0;
-        std::array<mpq_class, 3> inside;
-        if (node.inside != NodeKey::kShared) inside = points.exact(node.inside).rational();
-        const PointShade result = shade({static_cast<std::uint32_t>(light), node.part, node.side,
-                                         points.exact(node.vertex).rational(), lit,
-                                         node.inside == NodeKey::kShared ? nullptr : &inside});
-        values_[missing[i] * lights_ + light] = result.value;
-        errors_[missing[i] * lights_ + light] = result.error_bound;
-        (lit ? node.known_lit : node.known_penumbra) |= bit;
-      });
-    }
-  }
-
-  /// Of all lights together.
-  double largest_shade() const {
-    double largest = 0;
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      double sum = 0;
-      for (std::size_t light = 0; light < lights_; ++light) sum += values_[n * lights_ + light];
-      largest = std::max(largest, sum);
-    }
-    return largest;
-  }
-
-  double largest_error(std::size_t light) const {
-    double largest = 0;
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      largest = std::max(largest, errors_[n * lights_ + light]);
-    }
-    return largest;
-  }
-
- private:
-  const PreparedScene& scene_;
-  std::size_t lights_;
-  std::vector<Node> nodes_;
-  std::vector<double> values_, errors_;  // of node n by light i: [n * lights_ + i]
-  std::unordered_map<NodeKey, std::uint32_t, NodeHash> numbers_;
-};
-
 class MeshMaker {
  public:
   MeshMaker(const PreparedScene& scene, const ShadowResult& result, const ShadeFunction& shade,
-            const ShadingOptions& options)
+            const ShadingOptions& options, const Rules& rules)
       : scene_(scene),
         result_(result),
         shade_(shade),
         options_(options),
-        contacts_(scene),
-        nodes_(scene, result.lights.size()) {}
+        rules_(rules),
+        nodes_(scene, result.lights.size(), points_) {}
 
   Expected<ShadingMesh> make() {
-    if (auto done = check(); !done) return tl::unexpected(std::move(done.error()));
+    if (auto done = check_result(result_); !done) return tl::unexpected(std::move(done.error()));
     for (const LightResult& light : result_.lights) {
       LightShadingStats stats;
       stats.light = light.light;
@@ -177,16 +55,16 @@ class MeshMaker {
     }
     mesh_.ambient = options_.ambient;
     auto start = Clock::now();
-    take_fragments();
+    loops_ = fragment_faces(scene_, result_, points_);
     mesh_.stats.fragments = loops_.faces.size();
     if (is_interrupted()) return stopped();
-    if (options_.mutation != Mutation::kTVerticesLeftIn) loops_ = fit_edges(loops_, points_);
+    if (rules_.neighbour_vertices_are_in_the_face) loops_ = fit_edges(loops_, points_);
     if (auto done = regular_grid(); !done) return tl::unexpected(std::move(done.error()));
     mesh_.stats.grid_seconds += seconds_since(start);
     if (options_.tolerance > 0) {
       if (auto done = refine(); !done) return tl::unexpected(std::move(done.error()));
     }
-    find_contacts({});
+    nodes_.find_contacts(loops_, {});
     for (std::uint32_t f = 0; f < loops_.faces.size(); ++f) {
       for (const std::uint32_t vertex : loops_.loop(loops_.faces[f])) node(vertex, f);
     }
@@ -196,29 +74,6 @@ class MeshMaker {
   }
 
  private:
-  Expected<void> check() const {
-    if (!result_.exact) {
-      return fail(ErrorCode::kUsage,
-                  "kernel " + result_.kernel + " rounds: its fragments do not fit",
-                  "the result of an exact kernel");
-    }
-    if (result_.lights.empty() || result_.lights.size() > 64) {
-      return fail(ErrorCode::kUsage, std::to_string(result_.lights.size()) + " lights to shade by",
-                  "1 to 64");
-    }
-    const bool has_points =
-        result_.lights.size() > 1 || !result_.combined.empty()
-            ? !result_.combined_exact_points.empty()
-            : result_.lights[0].fragments.empty() || !result_.lights[0].exact_points.empty();
-    if (!has_points) {
-      return fail(ErrorCode::kUsage,
-                  "the result has no exact points of fragments that are shared "
-                  "by all lights",
-                  "ShadowOptions::keep_exact_points, and combined for several lights");
-    }
-    return {};
-  }
-
   bool is_interrupted() const {
     return options_.interrupted != nullptr && options_.interrupted->load(std::memory_order_relaxed);
   }
@@ -229,110 +84,8 @@ class MeshMaker {
     if (options_.progress) options_.progress(fraction);
   }
 
-  // ---- fragments
-
-  struct Given {
-    MeshFace face;
-    std::span<const std::array<mpq_class, 3>> loop;  // empty: the part's own
-  };
-
-  std::vector<Given> given_fragments() const {
-    std::vector<Given> given;
-    if (result_.lights.size() > 1 || !result_.combined.empty()) {
-      for (const CombinedFragment& fragment : result_.combined) {
-        given.push_back(
-            {{fragment.part, fragment.side, fragment.lit_by, fragment.penumbra_of, 0, 0},
-             {result_.combined_exact_points.data() + fragment.first, fragment.count}});
-      }
-    } else {
-      const LightResult& light = result_.lights[0];
-      for (const PartResult& part : light.parts) {
-        if (part.reason != ShadowReason::kNone) continue;
-        for (std::uint32_t i = 0; i < part.fragment_count; ++i) {
-          const Fragment& fragment = light.fragments[part.first_fragment + i];
-          given.push_back({{part.part, part.side, fragment.state == LightState::kLit ? 1u : 0u,
-                            fragment.state == LightState::kPenumbra ? 1u : 0u, 0, 0},
-                           {light.exact_points.data() + fragment.first, fragment.count}});
-        }
-      }
-    }
-    // Sides that no light shines on.
-    std::vector<std::uint8_t> seen(2 * scene_.parts.size(), 0);
-    for (const Given& one : given) {
-      seen[2 * one.face.part + (one.face.side == Side::kBack ? 1 : 0)] = 1;
-    }
-    for (std::uint32_t part = 0; part < scene_.parts.size(); ++part) {
-      if (seen[2 * part] == 0) given.push_back({{part, Side::kFront, 0, 0, 0, 0}, {}});
-      if (scene_.parts[part].two_sided && seen[2 * part + 1] == 0) {
-        given.push_back({{part, Side::kBack, 0, 0, 0, 0}, {}});
-      }
-    }
-    std::stable_sort(given.begin(), given.end(), [](const Given& a, const Given& b) {
-      if (a.face.part != b.face.part) return a.face.part < b.face.part;
-      return a.face.side != b.face.side && a.face.side == Side::kFront;
-    });
-    return given;
-  }
-
-  std::vector<ExactPoint> exact_loop(const Given& given) const {
-    std::vector<ExactPoint> loop;
-    if (!given.loop.empty()) {
-      for (const auto& point : given.loop) loop.push_back(exact_point(point));
-      return loop;
-    }
-    const Geometry& geometry = scene_.geometry;
-    for (const VertexId vertex : scene_.loop(scene_.parts[given.face.part])) {
-      std::array<mpq_class, 3> point;
-      for (int k = 0; k < 3; ++k) {
-        const auto axis = static_cast<std::size_t>(k);
-        point[axis] = geometry.origin[axis] + geometry.step * geometry.grid.at(vertex, k);
-      }
-      loop.push_back(exact_point(point));
-    }
-    if (given.face.side == Side::kBack) std::reverse(loop.begin(), loop.end());
-    return loop;
-  }
-
-  void take_fragments() {
-    const std::vector<Given> given = given_fragments();
-    std::vector<std::vector<NewPoint>> made(given.size());
-    tbb::parallel_for(std::size_t{0}, given.size(), [&](std::size_t i) {
-      for (ExactPoint& point : exact_loop(given[i])) made[i].push_back(new_point(std::move(point)));
-    });
-    std::vector<std::uint32_t> loop;
-    for (std::size_t i = 0; i < given.size(); ++i) {
-      loop.clear();
-      for (NewPoint& point : made[i]) loop.push_back(points_.insert(std::move(point)));
-      loops_.add(given[i].face, loop);
-    }
-  }
-
-  // ---- nodes
-
-  /// Finds where casters touch the penumbra faces, at their corners and at other points. To be
-  /// called whenever there are new faces, before their nodes are asked for.
-  void find_contacts(std::vector<std::uint32_t> vertices) {
-    insides_.assign(loops_.faces.size(), NodeKey::kShared);
-    for (const MeshFace& face : loops_.faces) {
-      if (face.penumbra_of == 0) continue;
-      const auto loop = loops_.loop(face);
-      vertices.insert(vertices.end(), loop.begin(), loop.end());
-    }
-    contacts_.find(points_, vertices);
-  }
-
-  /// The node of a point of a face. Lit faces need no node of their own: they are lit whatever
-  /// touches them.
   std::uint32_t node(std::uint32_t vertex, std::uint32_t f) {
-    const MeshFace& face = loops_.faces[f];
-    if (face.penumbra_of == 0 || !contacts_.touches(vertex, face)) {
-      return nodes_.add(vertex, face, NodeKey::kShared);
-    }
-    if (insides_[f] == NodeKey::kShared) {
-      insides_[f] = points_.insert(new_point(inner_point(loops_.loop(face), points_)));
-    }
-    const bool own = contacts_.is_behind(vertex, face, points_.exact(insides_[f]));
-    return nodes_.add(vertex, face, own ? insides_[f] : NodeKey::kShared);
+    return nodes_.node(vertex, loops_, f);
   }
 
   // ---- subdivision
@@ -433,81 +186,96 @@ class MeshMaker {
     return new_point(exact_point(point));
   }
 
-  /// Closes the open faces on which linear interpolation is good enough. False: interrupted.
-  bool test(std::vector<std::uint8_t>& open) {
-    std::vector<std::uint32_t> tested;
+  /// A step of adaptive subdivision: the faces that are open, and the points where they are tested.
+  struct Tested {
+    std::vector<std::uint32_t> faces;
+    EdgeList edges;                      // of those faces
+    std::vector<std::uint32_t> middles;  // of those edges
+    std::vector<std::uint32_t> centres;  // of those faces
+  };
+
+  Tested test_points(const std::vector<std::uint8_t>& open) {
+    Tested tested{{}, EdgeList(loops_, [&](std::size_t f) { return open[f] != 0; }), {}, {}};
     for (std::uint32_t f = 0; f < loops_.faces.size(); ++f) {
-      if (class_of(loops_.faces[f]) == FaceClass::kUmbra) open[f] = 0;
-      if (open[f] != 0) tested.push_back(f);
+      if (open[f] != 0) tested.faces.push_back(f);
     }
-    // The middle of every edge of a tested face, each made once.
-    const EdgeList edges(loops_, [&](std::size_t f) { return open[f] != 0; });
+    const EdgeList& edges = tested.edges;
     std::vector<NewPoint> made(edges.size());
     tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t edge) {
       made[edge] =
           new_point(middle(points_.exact(edges.from(edge)), points_.exact(edges.to(edge))));
     });
-    std::vector<std::uint32_t> middles(edges.size(), 0);
-    for (std::size_t edge = 0; edge < edges.size(); ++edge) {
-      middles[edge] = points_.insert(std::move(made[edge]));
-    }
+    for (NewPoint& point : made) tested.middles.push_back(points_.insert(std::move(point)));
     std::unordered_map<PlaneId, MeshPlane> planes;
-    for (const std::uint32_t f : tested) {
+    for (const std::uint32_t f : tested.faces) {
       const PlaneId plane = scene_.parts[loops_.faces[f].part].plane;
       if (!planes.contains(plane)) planes.emplace(plane, mesh_plane(scene_, plane));
     }
-    std::vector<NewPoint> centres(tested.size());
-    tbb::parallel_for(std::size_t{0}, tested.size(), [&](std::size_t i) {
-      const MeshFace& face = loops_.faces[tested[i]];
+    std::vector<NewPoint> centres(tested.faces.size());
+    tbb::parallel_for(std::size_t{0}, tested.faces.size(), [&](std::size_t i) {
+      const MeshFace& face = loops_.faces[tested.faces[i]];
       centres[i] = centre(face, planes.at(scene_.parts[face.part].plane));
     });
-    if (is_interrupted()) return false;
+    for (NewPoint& point : centres) tested.centres.push_back(points_.insert(std::move(point)));
+    return tested;
+  }
 
-    // Nodes of every face that has a tested edge: where a lit face meets a penumbra face, its
-    // middle is lit for both.
-    std::vector<std::uint32_t> centre_points;
-    centre_points.reserve(centres.size());
-    for (NewPoint& point : centres) centre_points.push_back(points_.insert(std::move(point)));
-    std::vector<std::uint32_t> others = middles;
-    others.insert(others.end(), centre_points.begin(), centre_points.end());
-    find_contacts(std::move(others));
+  /// Asks for the nodes of every face that has a tested edge: where a lit face meets a penumbra
+  /// face, the middle of their edge is lit for both.
+  void add_test_nodes(const Tested& tested) {
+    std::vector<std::uint32_t> others = tested.middles;
+    others.insert(others.end(), tested.centres.begin(), tested.centres.end());
+    nodes_.find_contacts(loops_, std::move(others));
     for (std::uint32_t f = 0; f < loops_.faces.size(); ++f) {
       const auto loop = loops_.loop(loops_.faces[f]);
       for (std::size_t i = 0; i < loop.size(); ++i) {
-        const std::size_t edge = edges.find(loop[i], loop[(i + 1) % loop.size()]);
+        const std::size_t edge = tested.edges.find(loop[i], loop[(i + 1) % loop.size()]);
         if (edge == EdgeList::kNone) continue;
         node(loop[i], f);
         node(loop[(i + 1) % loop.size()], f);
-        node(middles[edge], f);
+        node(tested.middles[edge], f);
       }
     }
-    std::vector<std::uint32_t> centre_nodes;
-    for (std::size_t i = 0; i < tested.size(); ++i) {
-      centre_nodes.push_back(node(centre_points[i], tested[i]));
-    }
-    if (!illuminate()) return false;
+    for (std::size_t i = 0; i < tested.faces.size(); ++i) node(tested.centres[i], tested.faces[i]);
+  }
 
+  /// Whether interpolation of its corners is good enough in the middles of a face and of its edges.
+  /// `least`: what counts as the face's brightest corner if none is brighter.
+  bool is_flat(const Tested& tested, std::size_t i, double least) {
+    const std::uint32_t f = tested.faces[i];
+    const MeshFace& face = loops_.faces[f];
+    const auto loop = loops_.loop(face);
+    const auto shade = [&](std::uint32_t vertex) { return nodes_.shade(node(vertex, f), face); };
+    double sum = 0, brightest = least;
+    for (const std::uint32_t vertex : loop) {
+      const double value = shade(vertex);
+      sum += value;
+      brightest = std::max(brightest, value);
+    }
+    const double allowed = options_.tolerance * brightest;
+    const double mean = sum / static_cast<double>(loop.size());
+    if (!(std::fabs(shade(tested.centres[i]) - mean) <= allowed)) return false;
+    for (std::size_t c = 0; c < loop.size(); ++c) {
+      const std::uint32_t next = loop[(c + 1) % loop.size()];
+      const double ends = (shade(loop[c]) + shade(next)) / 2;
+      const std::uint32_t between = tested.middles[tested.edges.find(loop[c], next)];
+      if (!(std::fabs(shade(between) - ends) <= allowed)) return false;
+    }
+    return true;
+  }
+
+  /// Closes the open faces on which linear interpolation is good enough. False: interrupted.
+  bool test(std::vector<std::uint8_t>& open) {
+    for (std::uint32_t f = 0; f < loops_.faces.size(); ++f) {
+      if (class_of(loops_.faces[f]) == FaceClass::kUmbra) open[f] = 0;
+    }
+    const Tested tested = test_points(open);
+    if (is_interrupted()) return false;
+    add_test_nodes(tested);
+    if (!illuminate()) return false;
     const double least = nodes_.largest_shade() * ShadingOptions::kDark;
-    for (std::size_t i = 0; i < tested.size(); ++i) {
-      const MeshFace& face = loops_.faces[tested[i]];
-      const auto loop = loops_.loop(face);
-      double sum = 0, brightest = least;
-      for (const std::uint32_t vertex : loop) {
-        const double value = nodes_.shade(node(vertex, tested[i]), face);
-        sum += value;
-        brightest = std::max(brightest, value);
-      }
-      const double allowed = options_.tolerance * brightest;
-      bool good = std::fabs(nodes_.shade(centre_nodes[i], face) -
-                            sum / static_cast<double>(loop.size())) <= allowed;
-      for (std::size_t c = 0; c < loop.size() && good; ++c) {
-        const std::uint32_t next = loop[(c + 1) % loop.size()];
-        const double a = nodes_.shade(node(loop[c], tested[i]), face);
-        const double b = nodes_.shade(node(next, tested[i]), face);
-        const std::uint32_t between = node(middles[edges.find(loop[c], next)], tested[i]);
-        good = std::fabs(nodes_.shade(between, face) - (a + b) / 2) <= allowed;
-      }
-      if (good) open[tested[i]] = 0;
+    for (std::size_t i = 0; i < tested.faces.size(); ++i) {
+      if (is_flat(tested, i, least)) open[tested.faces[i]] = 0;
     }
     return true;
   }
@@ -519,7 +287,7 @@ class MeshMaker {
     const auto lights = static_cast<double>(mesh_.lights.size());
     for (std::size_t light = 0; light < mesh_.lights.size(); ++light) {
       const auto start = Clock::now();
-      nodes_.illuminate(light, points_, shade_, [&](double fraction) {
+      nodes_.illuminate(light, shade_, [&](double fraction) {
         if (is_interrupted()) return false;
         progress((static_cast<double>(light) + fraction) / lights);
         return true;
@@ -530,83 +298,19 @@ class MeshMaker {
     return true;
   }
 
-  /// Numbers the vertices that faces have, and gives each corner its sample.
   void finish() {
-    const std::size_t lights = mesh_.lights.size();
-    constexpr std::uint32_t kNone = 0xffffffffu;
-    std::vector<std::uint32_t> vertex_numbers(points_.size(), kNone);
-    std::vector<std::uint32_t> numbered;
-    struct SampleHash {
-      std::size_t operator()(const std::pair<std::uint32_t, std::uint64_t>& key) const {
-        const std::uint64_t hash = (key.second ^ key.first) * 0x9e3779b97f4a7c15u + key.first;
-        return static_cast<std::size_t>(hash ^ hash >> 31);
-      }
-    };
-    std::unordered_map<std::pair<std::uint32_t, std::uint64_t>, std::uint32_t, SampleHash> samples;
-    std::vector<std::uint64_t> umbra(nodes_.size(), 0);
-    const std::uint64_t all = lights == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << lights) - 1;
-    for (std::uint32_t f = 0; f < loops_.faces.size(); ++f) {
-      const MeshFace& face = loops_.faces[f];
-      MeshFace copy = face;
-      copy.first = static_cast<std::uint32_t>(mesh_.corners.size());
-      const std::uint64_t shone_on = face.lit_by | face.penumbra_of;
-      for (const std::uint32_t vertex : loops_.loop(face)) {
-        const std::uint32_t at_vertex = node(vertex, f);
-        umbra[at_vertex] |= all & ~shone_on;
-        std::uint32_t& number = vertex_numbers[vertex];
-        if (number == kNone) {
-          number = static_cast<std::uint32_t>(mesh_.points.size());
-          mesh_.points.push_back(points_.nearest(vertex));
-          numbered.push_back(vertex);
-        }
-        const auto [at, is_new] = samples.emplace(std::pair(at_vertex, shone_on),
-                                                  static_cast<std::uint32_t>(mesh_.samples.size()));
-        if (is_new) {
-          mesh_.samples.push_back({number, nodes_[at_vertex].part, nodes_[at_vertex].side});
-          for (std::size_t light = 0; light < lights; ++light) {
-            mesh_.values.push_back((shone_on >> light & 1) != 0 ? nodes_.value(at_vertex, light)
-                                                                : 0);
-          }
-        }
-        mesh_.corners.push_back({number, at->second});
-      }
-      mesh_.faces.push_back(copy);
-      for (std::size_t light = 0; light < lights; ++light) {
-        LightShadingStats& stats = mesh_.stats.lights[light];
-        ((face.lit_by >> light & 1) != 0        ? stats.lit
-         : (face.penumbra_of >> light & 1) != 0 ? stats.penumbra
-                                                : stats.umbra) += face.count;
-      }
-    }
-    for (const std::uint32_t vertex : numbered) {
-      mesh_.exact_points.push_back(std::move(points_.exact_points()[vertex]));
-    }
+    number_corners(loops_, points_, nodes_, mesh_);
     mesh_.stats.faces = mesh_.faces.size();
     mesh_.stats.vertices = mesh_.points.size();
-    for (std::size_t light = 0; light < lights; ++light) {
-      LightShadingStats& stats = mesh_.stats.lights[light];
-      const std::uint64_t bit = std::uint64_t{1} << light;
-      for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
-        // Values for tests count too: they were computed.
-        if ((nodes_[n].known_lit & bit) != 0) {
-          ++stats.illuminated_lit;
-        } else if ((nodes_[n].known_penumbra & bit) != 0) {
-          ++stats.illuminated_penumbra;
-        }
-        if ((umbra[n] & bit) != 0) ++stats.illuminated_umbra;
-      }
-      stats.largest_error = nodes_.largest_error(light);
-    }
   }
 
   const PreparedScene& scene_;
   const ShadowResult& result_;
   const ShadeFunction& shade_;
   const ShadingOptions& options_;
+  const Rules& rules_;
   PointTable points_;
   FaceLoops loops_;
-  std::vector<std::uint32_t> insides_;  // of faces, or kShared if not asked for yet
-  Contacts contacts_;
   NodeTable nodes_;
   ShadingMesh mesh_;
 };
@@ -621,9 +325,15 @@ double ShadingMesh::shade(std::uint32_t sample) const {
   return sum;
 }
 
+Expected<ShadingMesh> make_shading_mesh_by(const PreparedScene& scene, const ShadowResult& result,
+                                           const ShadeFunction& shade,
+                                           const ShadingOptions& options, const Rules& rules) {
+  return MeshMaker(scene, result, shade, options, rules).make();
+}
+
 Expected<ShadingMesh> make_shading_mesh(const PreparedScene& scene, const ShadowResult& result,
                                         const ShadeFunction& shade, const ShadingOptions& options) {
-  return MeshMaker(scene, result, shade, options).make();
+  return make_shading_mesh_by(scene, result, shade, options, Rules{});
 }
 
 }  // namespace gnomon

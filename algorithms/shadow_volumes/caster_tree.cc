@@ -17,6 +17,16 @@ double diagonal_of(const Box& box) {
   return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
 }
 
+std::vector<Box> boxes_of_parts(const Geometry& geometry, const PreparedScene& scene) {
+  std::vector<Box> boxes(scene.parts.size());
+  for (std::uint32_t part = 0; part < scene.parts.size(); ++part) {
+    for (const VertexId vertex : scene.loop(scene.parts[part])) {
+      boxes[part].add(grid_fraction(geometry.grid, vertex));
+    }
+  }
+  return boxes;
+}
+
 }  // namespace
 
 std::array<double, 3> grid_fraction(const GridPositions& grid, VertexId vertex) {
@@ -146,93 +156,37 @@ bool UmbraReach::may_reach(const Box& box, double size) const {
 
 CasterTree::CasterTree(const Geometry& geometry, const PreparedScene& scene,
                        std::span<const std::uint32_t> parts)
-    : boxes_(scene.parts.size()), order_(parts.begin(), parts.end()) {
-  for (std::uint32_t part = 0; part < scene.parts.size(); ++part) {
-    for (const VertexId vertex : scene.loop(scene.parts[part])) {
-      boxes_[part].add(grid_fraction(geometry.grid, vertex));
-    }
-  }
-  build();
-}
-
-void CasterTree::build() {
-  struct Task {
-    std::uint32_t begin, end, parent;  // parent: whose right child it is
-  };
-  constexpr std::uint32_t kNoParent = 0xffffffffu;
-  if (order_.empty()) return;
-  std::vector<Task> tasks{{0, static_cast<std::uint32_t>(order_.size()), kNoParent}};
-  while (!tasks.empty()) {
-    const Task task = tasks.back();
-    tasks.pop_back();
-    const auto index = static_cast<std::uint32_t>(nodes_.size());
-    if (task.parent != kNoParent) nodes_[task.parent].right = index;
-    Node node;
-    node.begin = task.begin;
-    node.end = task.end;
-    Box middles;
-    const auto middle = [&](std::uint32_t part, std::size_t k) {
-      return boxes_[part].low[k] + boxes_[part].high[k];
-    };
-    for (std::uint32_t i = task.begin; i < task.end; ++i) {
-      const std::uint32_t part = order_[i];
-      node.box.add(boxes_[part]);
-      node.largest = std::max(node.largest, diagonal_of(boxes_[part]));
-      middles.add(std::array{middle(part, 0), middle(part, 1), middle(part, 2)});
-    }
-    nodes_.push_back(node);
-    if (task.end - task.begin <= kLeaf) continue;
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-      if (middles.high[k] - middles.low[k] > middles.high[axis] - middles.low[axis]) axis = k;
-    }
-    const std::uint32_t half = task.begin + (task.end - task.begin) / 2;
-    const auto begin = order_.begin();
-    std::nth_element(begin + task.begin, begin + half, begin + task.end,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                       const double x = middle(a, axis), y = middle(b, axis);
-                       return x < y || (x == y && a < b);
-                     });
-    tasks.push_back({half, task.end, index});
-    tasks.push_back({task.begin, half, kNoParent});  // next: the left child follows
-  }
-}
-
-template <class MayBe>
-void CasterTree::search(const MayBe& may_be, std::vector<std::uint32_t>& parts) const {
-  if (nodes_.empty()) return;
-  const std::size_t first = parts.size();
-  // Left children are reached by going on, so that the stack holds right children only: as deep as
-  // the tree, which halves.
-  std::array<std::uint32_t, 64> stack{};
-  std::size_t depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const std::uint32_t index = stack[--depth];
-    const Node& node = nodes_[index];
-    if (!may_be(node.box, node.largest)) continue;
-    if (node.right != 0) {
-      stack[depth++] = node.right;
-      stack[depth++] = index + 1;
+    : tree_(boxes_of_parts(geometry, scene), {parts.begin(), parts.end()}),
+      largest_(tree_.nodes().size(), 0) {
+  const std::span<const BoxTree::Node> nodes = tree_.nodes();
+  for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parents
+    if (nodes[i].right != 0) {
+      largest_[i] = std::max(largest_[i + 1], largest_[nodes[i].right]);
       continue;
     }
-    for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      const Box& box = boxes_[order_[i]];
-      if (may_be(box, diagonal_of(box))) parts.push_back(order_[i]);
+    for (const std::uint32_t part : tree_.members(nodes[i])) {
+      largest_[i] = std::max(largest_[i], diagonal_of(box(part)));
     }
   }
-  std::sort(parts.begin() + static_cast<std::ptrdiff_t>(first), parts.end());
 }
 
 void CasterTree::find(const Shaft& shaft, std::vector<std::uint32_t>& parts) const {
-  search([&](const Box& box, double) { return shaft.may_meet(box); }, parts);
+  const auto first = static_cast<std::ptrdiff_t>(parts.size());
+  tree_.find([&](const BoxTree::Node& node, std::uint32_t) { return shaft.may_meet(node.box); },
+             [&](std::uint32_t part) { return shaft.may_meet(box(part)); }, parts);
+  std::sort(parts.begin() + first, parts.end());
 }
 
 void CasterTree::find(const Shaft& shaft, const UmbraReach& reach,
                       std::vector<std::uint32_t>& parts) const {
-  search([&](const Box& box,
-             double size) { return shaft.may_meet(box) && reach.may_reach(box, size); },
-         parts);
+  const auto first = static_cast<std::ptrdiff_t>(parts.size());
+  tree_.find(
+      [&](const BoxTree::Node& node, std::uint32_t index) {
+        return shaft.may_meet(node.box) && reach.may_reach(node.box, largest_[index]);
+      },
+      [&](std::uint32_t part) { return shaft.may_meet(box(part)) && reach.may_reach(box(part)); },
+      parts);
+  std::sort(parts.begin() + first, parts.end());
 }
 
 }  // namespace gnomon

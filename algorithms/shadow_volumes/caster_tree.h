@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Which parts can be between a receiver and a light: a bounding-volume hierarchy of parts, asked
-// with the shaft of two boxes (Haines & Wallace, Shaft culling for efficient ray-traced radiosity,
-// 1991): the convex hull of the two.
+// Finds the parts that can be between a receiver and a light: a bounding-volume hierarchy of parts
+// is asked with the shaft of two boxes (Haines & Wallace, Shaft culling for efficient ray-traced
+// radiosity, 1991): the convex hull of the two.
 //
 // Guarantee: a part that meets the hull of the two boxes is found; others may be found, too. Boxes
 // are in fractions of the grid's extent, which doubles hold to 2^-53 whatever the grid, and every
@@ -10,32 +10,17 @@
 #define GNOMON_ALGORITHMS_SHADOW_VOLUMES_CASTER_TREE_H
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "algorithms/partition/box.h"
+#include "algorithms/partition/box_tree.h"
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/scene/prepare.h"
 
 namespace gnomon {
-
-struct Box {
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{kInfinity, kInfinity, kInfinity};
-  std::array<double, 3> high{-kInfinity, -kInfinity, -kInfinity};
-
-  void add(const std::array<double, 3>& point) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = point[k] < low[k] ? point[k] : low[k];
-      high[k] = point[k] > high[k] ? point[k] : high[k];
-    }
-  }
-  void add(const Box& other) {
-    add(other.low);
-    add(other.high);
-  }
-};
 
 /// A grid position as fractions of the grid's extent, each to 2^-53.
 std::array<double, 3> grid_fraction(const GridPositions& grid, VertexId vertex);
@@ -62,21 +47,21 @@ class Shaft {
   std::size_t count_ = 0;
 };
 
-/// Where umbras of an area light may reach. From a point p, two corners a, b of the light are seen
-/// at an angle; a caster that hides both from p has a point on each of the rays, and those are at
-/// least |x - p| sin(angle) apart, x the one towards a. So a caster that is smaller than its
-/// distance from the receiver times the sine of the smallest such angle has no umbra there.
+/// UmbraReach tells where umbras of an area light may be. From a point p, two corners a, b of the
+/// light are seen at an angle; a caster that hides both from p has a point on each of the rays, and
+/// those are |x - p| sin(angle) apart or more, x the one towards a. So a caster has no umbra there
+/// if it is smaller than its distance from the receiver times the sine of the smallest such angle.
 class UmbraReach {
  public:
   static constexpr double kMargin = 1e-9;
 
-  /// Everything is reached.
+  /// Umbras reach everything.
   UmbraReach() = default;
-  /// Corners to within kMargin.
+  /// `light`: its corners, to within kMargin.
   UmbraReach(std::span<const std::array<double, 3>> light, const Box& receiver);
   /// False only if a caster in the box certainly has no umbra on the receiver.
   bool may_reach(const Box& caster) const;
-  /// The same of casters of at most that size (the diagonal of a box) anywhere in the box.
+  /// The same for all casters in the box whose own boxes have at most that diagonal.
   bool may_reach(const Box& box, double size) const;
 
  private:
@@ -86,31 +71,19 @@ class UmbraReach {
 
 class CasterTree {
  public:
-  /// Of those parts, by the geometry's grid.
+  /// The hierarchy of those parts, by the geometry's grid.
   CasterTree(const Geometry& geometry, const PreparedScene& scene,
              std::span<const std::uint32_t> parts);
 
-  const Box& box(std::uint32_t part) const { return boxes_[part]; }
+  const Box& box(std::uint32_t part) const { return tree_.box(part); }
   /// Appends the parts that may meet the shaft, in order of their numbers.
   void find(const Shaft& shaft, std::vector<std::uint32_t>& parts) const;
-  /// Of these only those whose umbra may reach the receiver.
+  /// Appends those of them whose umbra may reach the receiver.
   void find(const Shaft& shaft, const UmbraReach& reach, std::vector<std::uint32_t>& parts) const;
 
  private:
-  static constexpr std::uint32_t kLeaf = 4;
-  struct Node {
-    Box box;
-    std::uint32_t begin = 0, end = 0;  // into order_
-    std::uint32_t right = 0;           // 0: a leaf; the left child follows its parent
-    double largest = 0;                // diagonal of a part's box
-  };
-  void build();
-  template <class MayBe>
-  void search(const MayBe& may_be, std::vector<std::uint32_t>& parts) const;
-
-  std::vector<Box> boxes_;  // of all parts
-  std::vector<std::uint32_t> order_;
-  std::vector<Node> nodes_;
+  BoxTree tree_;                 // its boxes are those of all parts
+  std::vector<double> largest_;  // of each node: the longest diagonal of a part's box below it
 };
 
 }  // namespace gnomon

@@ -11,19 +11,19 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "algorithms/partition/import_export.h"
 #include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/piece_class.h"
+#include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/shadow_volumes/caster_tree.h"
 #include "algorithms/shadow_volumes/light_geometry.h"
 #include "algorithms/shadow_volumes/receiver_cutter.h"
 #include "algorithms/shadow_volumes/shadow_volume.h"
-#include "algorithms/volume_trees/volume_tree.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "kernel/concept/kernel_concept.h"
 
@@ -44,10 +44,8 @@ struct Sight {
 /// them are those of the last one.
 template <VolumeSpaceModel Space>
 struct ReceiverWorkspace {
-  explicit ReceiverWorkspace(Space fork, Mutation mutation = Mutation::kNone)
-      : space(std::move(fork)),
-        builder(space, mutation),
-        cutter(space, mutation == Mutation::kOnSwapped) {}
+  ReceiverWorkspace(Space fork, const Rules& rules)
+      : space(std::move(fork)), builder(space, rules), cutter(space, rules) {}
   ReceiverWorkspace(const ReceiverWorkspace&) = delete;
   ReceiverWorkspace& operator=(const ReceiverWorkspace&) = delete;
 
@@ -60,7 +58,6 @@ struct ReceiverWorkspace {
   std::vector<VolumeToCut> volumes;
   SplitRecord record;
   std::vector<typename Space::Vertex> crossings;
-  std::unique_ptr<VolumeTreeWorkspace<Space>> merged;  // once the merged algorithm asks for it
 };
 
 template <VolumeSpaceModel Space>
@@ -73,11 +70,8 @@ class LightInSpace {
   /// Adds the planes of all volumes to `space`, which must be forked afterwards. `tree` and `scene`
   /// must outlive it.
   LightInSpace(Space& space, const LightGeometry& scene, const CasterTree& tree,
-               std::uint32_t light, Mutation mutation = Mutation::kNone)
-      : scene_(*scene.scene),
-        light_(&scene.scene->lights[light]),
-        tree_(&tree),
-        mutation_(mutation) {
+               std::uint32_t light, const Rules& rules)
+      : scene_(*scene.scene), light_(&scene.scene->lights[light]), tree_(&tree), rules_(rules) {
     const LightFace& face = scene.faces[light];
     for (std::size_t i = 0; i < face.loop.size(); ++i) {
       PlaneRef edge;
@@ -93,8 +87,8 @@ class LightInSpace {
   }
   /// The same for a piece of an area light, a convex loop on its plane that support planes cut out.
   LightInSpace(Space& space, const LightGeometry& scene, const CasterTree& tree,
-               std::uint32_t light, const Loop& piece)
-      : scene_(*scene.scene), light_(&scene.scene->lights[light]), tree_(&tree) {
+               std::uint32_t light, const Rules& rules, const Loop& piece)
+      : scene_(*scene.scene), light_(&scene.scene->lights[light]), tree_(&tree), rules_(rules) {
     const LightFace& face = scene.faces[light];
     for (const VertexId vertex : face.loop) {
       box_.add(grid_fraction(scene.geometry.grid, vertex));
@@ -181,7 +175,7 @@ class LightInSpace {
   const PreparedScene& scene_;
   const PreparedLight* light_;
   const CasterTree* tree_;
-  Mutation mutation_ = Mutation::kNone;
+  Rules rules_;
   LoopStore<Vertex> loop_;
   Box box_;
   PlaneId plane_id_ = kNoPlane;
@@ -204,7 +198,7 @@ void add_part_volumes(VolumeBuilder<Space>& builder, const SpaceOfLoops& space,
 
 template <VolumeSpaceModel Space>
 void LightInSpace<Space>::make_volumes(Space& space) {
-  VolumeBuilder<Space> builder(space, mutation_);
+  VolumeBuilder<Space> builder(space, rules_);
   LoopStore<Vertex> loops;
   first_volume_.reserve(scene_.parts.size() + 1);
   for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
@@ -273,7 +267,7 @@ void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Sid
   workspace.own.clear();
   workspace.volumes.clear();
   LightShape<Vertex> light = shape();
-  const bool cut = is_area() && mutation_ != Mutation::kStraddlingLightFaces &&
+  const bool cut = is_area() && rules_.straddling_light_is_cut &&
                    workspace.record.decide(space, receiving, light.loop) == Placement::kSpanning;
   if (cut) {
     workspace.light.clear();

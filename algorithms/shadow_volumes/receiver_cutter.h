@@ -25,20 +25,14 @@
 #include <vector>
 
 #include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/piece_class.h"
+#include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/shadow_volumes/shadow_volume.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "kernel/concept/kernel_concept.h"
 
 namespace gnomon {
-
-/// What is known of a piece.
-struct PieceClass {
-  LightState state = LightState::kLit;
-  std::uint32_t caster = Fragment::kNoCaster;
-  ShadowReason reason = ShadowReason::kNone;
-  friend bool operator==(const PieceClass&, const PieceClass&) = default;
-};
 
 /// A volume that may reach a receiver.
 struct VolumeToCut {
@@ -52,11 +46,10 @@ class ReceiverCutter {
   using Vertex = typename Space::Vertex;
   using Loop = LoopView<Vertex>;
 
-  /// `on_swapped`: Mutation::kOnSwapped.
-  explicit ReceiverCutter(Space& space, bool on_swapped = false)
+  explicit ReceiverCutter(Space& space, const Rules& rules = {})
       : space_(&space),
-        penumbra_border_(on_swapped ? Border::kClosed : Border::kOpen),
-        umbra_border_(on_swapped ? Border::kOpen : Border::kClosed) {}
+        penumbra_border_(rules.on_goes_to_its_own_side ? Border::kOpen : Border::kClosed),
+        umbra_border_(rules.on_goes_to_its_own_side ? Border::kClosed : Border::kOpen) {}
 
   Space& space() { return *space_; }
   std::uint64_t cells() const { return cells_; }

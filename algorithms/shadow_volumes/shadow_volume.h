@@ -28,9 +28,9 @@
 #include <vector>
 
 #include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/shadow_volumes/light_geometry.h"
-#include "gnomon/algorithms/mutation.h"
 #include "kernel/concept/kernel_concept.h"
 
 namespace gnomon {
@@ -89,10 +89,7 @@ class VolumeBuilder {
   using Vertex = typename Space::Vertex;
   using Loop = LoopView<Vertex>;
 
-  explicit VolumeBuilder(Space& space, Mutation mutation = Mutation::kNone)
-      : space_(&space),
-        in_plane_faces_(mutation == Mutation::kLightInPlaneFaces),
-        straddling_faces_(mutation == Mutation::kStraddlingLightFaces) {}
+  explicit VolumeBuilder(Space& space, const Rules& rules = {}) : space_(&space), rules_(rules) {}
 
   /// Adds the volume of one side of a caster, in front of `side`, if it casts anything. `reversed`:
   /// the loop is clockwise seen from that side.
@@ -111,7 +108,7 @@ class VolumeBuilder {
 
   /// On which side of a support plane is the light: in front, all of it or some (area lights).
   bool is_in_front(PlaneRef plane, const LightShape<Vertex>& light) {
-    if (in_plane_faces_ && holds(plane, light)) return true;
+    if (!rules_.light_in_plane_does_not_reach && holds(plane, light)) return true;
     if (light.direction != nullptr) return direction_side(plane, *light.direction) == Side::kFront;
     for (std::uint32_t i = 0; i < light.loop.size(); ++i) {
       if (space_->side_of_plane(plane, light.loop.corner(i)) == Side::kFront) return true;
@@ -203,7 +200,7 @@ class VolumeBuilder {
     Loop front = whole;
     front_sides_ = whole_sides_;
     const bool straddles = placement == Placement::kSpanning;
-    if (straddles && straddling_faces_) {
+    if (straddles && !rules_.straddling_light_is_cut) {
       whole_sides_.assign(whole.size(), Side::kFront);
       front_sides_ = whole_sides_;
     } else if (straddles) {
@@ -216,7 +213,7 @@ class VolumeBuilder {
       front_sides_.resize(front.size());
       for (std::uint32_t i = 0; i < front.size(); ++i) front_sides_[i] = light_sides_.side(i);
     }
-    bool umbra = !straddles || straddling_faces_;
+    bool umbra = !straddles || !rules_.straddling_light_is_cut;
     for (std::uint32_t i = 0; i < caster.size(); ++i) {
       const CornerOf a = to(caster, reversed, i), b = from(caster, reversed, i);
       const PlaneRef outer = extreme(a, b, front, Side::kFront, [&](std::uint32_t k) {
@@ -317,7 +314,7 @@ class VolumeBuilder {
   }
 
   Space* space_;
-  bool in_plane_faces_, straddling_faces_;
+  Rules rules_;
   std::vector<PlaneRef> penumbra_, umbra_;
   SplitRecord caster_sides_, light_sides_;
   std::vector<Side> whole_sides_, front_sides_;

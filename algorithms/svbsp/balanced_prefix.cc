@@ -4,27 +4,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "algorithms/partition/box.h"
+#include "algorithms/partition/chart_split.h"
+#include "algorithms/partition/kd_tree.h"
 
 namespace gnomon {
 namespace {
 
 constexpr std::size_t kFewest = 64;  // parts below which a prefix costs more than it gives
 constexpr std::size_t kLeafSize = 8;
-constexpr double kGrowth = 1.1;    // split only while f(left) + f(right) < 1.1 f(node)
-constexpr int kFractionBits = 20;  // of a split value
 
 using Point = std::array<double, 3>;
 
-/// A part's directions from the light, clipped to the region, as a box in the region's chart.
-struct ChartBox {
-  std::array<double, 2> low, high;
-};
-
-double n_log_n(std::size_t n) { return n < 2 ? 0 : static_cast<double>(n) * std::log2(n); }
-
 /// Keeps the part of a convex polygon of directions with n . q >= 0 (Sutherland & Hodgman).
-void clip(std::vector<Point>& polygon, const std::array<double, 3>& n,
-          std::vector<Point>& workspace) {
+void clip(std::vector<Point>& polygon, const Point& n, std::vector<Point>& workspace) {
   workspace.clear();
   const auto value = [&](const Point& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2]; };
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -59,7 +54,7 @@ class Planner {
   PrefixTree plan(std::span<const std::uint32_t> parts) {
     if (light_.directional) {
       const int z = direction_[axes_.z] < 0 ? -1 : 1;
-      grow(parts, {}, {0, 1, 2}, z, PrefixNode::kLeaf, true);
+      grow(parts, {}, {0, 1, 2, z}, PrefixNode::kLeaf, true);
     } else {
       plan_sectors(parts);
     }
@@ -67,7 +62,8 @@ class Planner {
   }
 
  private:
-  // The wedges of x = +-y; in each, |x| or |y| dominates the other.
+  // Cuts light space into the four wedges between the planes x = y and x = -y: in each of them,
+  // either |x| or |y| is the larger one.
   void plan_sectors(std::span<const std::uint32_t> parts) {
     const std::int32_t a = add({{1, -1, 0}}, PrefixNode::kLeaf, true);  // x > y in front
     for (const bool a_front : {true, false}) {
@@ -76,39 +72,38 @@ class Planner {
         const bool x_rules = a_front == b_front;
         const int sign = a_front ? (b_front ? 1 : -1) : (b_front ? 1 : -1);
         const int major = x_rules ? 0 : 1;
-        std::vector<std::array<double, 3>> wedge = {
-            {a_front ? 1.0 : -1.0, a_front ? -1.0 : 1.0, 0},
-            {b_front ? 1.0 : -1.0, b_front ? 1.0 : -1.0, 0}};
+        std::vector<Point> wedge = {{a_front ? 1.0 : -1.0, a_front ? -1.0 : 1.0, 0},
+                                    {b_front ? 1.0 : -1.0, b_front ? 1.0 : -1.0, 0}};
         plan_wedge(parts, wedge, major, sign, b, b_front);
       }
     }
   }
 
-  // In a wedge where s = sign * component `major` is largest of x and y: s > z, s > -z.
-  void plan_wedge(std::span<const std::uint32_t> parts,
-                  const std::vector<std::array<double, 3>>& wedge, int major, int sign,
-                  std::int32_t parent, bool front) {
+  // Cuts a wedge by the planes z = s and z = -s, where s = sign * component `major` is the largest
+  // of
+  // +-x and +-y, and grows a tree in each of the three regions.
+  void plan_wedge(std::span<const std::uint32_t> parts, const std::vector<Point>& wedge, int major,
+                  int sign, std::int32_t parent, bool front) {
     PrefixPlane above, below;
     above.n[major] = sign;
     above.n[2] = -1;  // s - z
     below.n[major] = sign;
     below.n[2] = 1;  // s + z
     const auto real = [](const PrefixPlane& p, double factor) {
-      return std::array<double, 3>{factor * p.n[0].get_d(), factor * p.n[1].get_d(),
-                                   factor * p.n[2].get_d()};
+      return Point{factor * p.n[0].get_d(), factor * p.n[1].get_d(), factor * p.n[2].get_d()};
     };
     const std::int32_t first = add(above, parent, front);
     auto region = wedge;
     region.push_back(real(above, -1));  // z > s: around the z axis
-    grow(parts, region, {0, 1, 2}, 1, first, false);
+    grow(parts, region, {0, 1, 2, 1}, first, false);
     const std::int32_t second = add(below, first, true);
     region = wedge;
     region.push_back(real(below, -1));  // -z > s
-    grow(parts, region, {0, 1, 2}, -1, second, false);
+    grow(parts, region, {0, 1, 2, -1}, second, false);
     region = wedge;
     region.push_back(real(above, 1));
     region.push_back(real(below, 1));
-    grow(parts, region, {2, 1 - major, major}, sign, second, true);
+    grow(parts, region, {2, 1 - major, major, sign}, second, true);
   }
 
   std::int32_t add(const PrefixPlane& plane, std::int32_t parent, bool front) {
@@ -136,11 +131,12 @@ class Planner {
     return {p[x] * d[z] - p[z] * d[x], p[y] * d[z] - p[z] * d[y], d[z]};
   }
 
-  /// A k-d tree of the region's chart: (q_u / q_w, q_v / q_w) with u, v, w = chart, sign q_w > 0.
-  void grow(std::span<const std::uint32_t> parts, const std::vector<std::array<double, 3>>& region,
-            std::array<int, 3> chart, int sign, std::int32_t parent, bool front) {
-    const auto [u, v, w] = chart;
-    std::vector<ChartBox> boxes;
+  /// The boxes of the parts' directions from the light, clipped to the region, in its chart; the
+  /// third axis is not used.
+  std::vector<Box> chart_boxes(std::span<const std::uint32_t> parts,
+                               const std::vector<Point>& region, const LightChart& chart) const {
+    const auto [u, v, w, sign] = chart;
+    std::vector<Box> boxes;
     std::vector<Point> polygon, workspace;
     for (const std::uint32_t index : parts) {
       polygon.clear();
@@ -150,85 +146,32 @@ class Planner {
       for (const auto& n : region) {
         if (!polygon.empty()) clip(polygon, n, workspace);
       }
-      ChartBox box{{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+      Box box;
       for (const Point& p : polygon) {
-        if (!(sign * p[w] > 0)) continue;
-        const double a = p[u] / p[w], b = p[v] / p[w];
-        box.low = {std::min(box.low[0], a), std::min(box.low[1], b)};
-        box.high = {std::max(box.high[0], a), std::max(box.high[1], b)};
+        if (sign * p[w] > 0) box.add(Point{p[u] / p[w], p[v] / p[w], 0});
       }
       if (box.low[0] <= box.high[0] && std::isfinite(box.low[0]) && std::isfinite(box.high[0]) &&
           std::isfinite(box.low[1]) && std::isfinite(box.high[1])) {
         boxes.push_back(box);
       }
     }
-    struct Task {
-      std::vector<std::uint32_t> members;
-      std::int32_t parent;
-      bool front;
-      int depth;
-    };
-    std::vector<Task> stack;
-    Task all{{}, parent, front, 0};
-    for (std::uint32_t i = 0; i < boxes.size(); ++i) all.members.push_back(i);
-    stack.push_back(std::move(all));
-    std::vector<double> centres;
-    while (!stack.empty()) {
-      Task task = std::move(stack.back());
-      stack.pop_back();
-      const std::size_t n = task.members.size();
-      if (n <= kLeafSize || task.depth > 40) continue;
-      int best_axis = -1;
-      double best_cost = kGrowth * n_log_n(n), best_value = 0;
-      for (int axis = 0; axis < 2; ++axis) {
-        centres.clear();
-        for (const std::uint32_t i : task.members) {
-          centres.push_back((boxes[i].low[axis] + boxes[i].high[axis]) / 2);
-        }
-        std::nth_element(centres.begin(), centres.begin() + static_cast<long>(n / 2),
-                         centres.end());
-        const double value = rounded(centres[n / 2]);
-        if (!(std::fabs(value) < 8)) continue;  // coefficients must stay small
-        std::size_t below = 0, above = 0;
-        for (const std::uint32_t i : task.members) {
-          below += boxes[i].low[axis] < value;
-          above += boxes[i].high[axis] > value;
-        }
-        const double cost = n_log_n(below) + n_log_n(above);
-        if (below < n && above < n && cost < best_cost) {
-          best_cost = cost;
-          best_axis = axis;
-          best_value = value;
-        }
-      }
-      if (best_axis < 0) continue;
-      // q_a / q_w > value, times |q_w|: sign (2^f q_a - 2^f value q_w), f fraction bits. The chart
-      // of a directional light is in units of the grid's extent, q in grid units: value times 2^b.
-      PrefixPlane plane;
-      mpz_class scale = mpz_class(1) << kFractionBits;
-      mpz_class offset = static_cast<long>(std::ldexp(best_value, kFractionBits));
-      if (light_.directional) {
-        offset <<= bits_;
-        const unsigned common = std::min<unsigned>(kFractionBits, bits_);
-        scale >>= common;
-        offset >>= common;
-      }
-      plane.n[static_cast<std::size_t>(best_axis == 0 ? u : v)] = sign * scale;
-      plane.n[static_cast<std::size_t>(w)] = -sign * offset;
-      const std::int32_t node = add(plane, task.parent, task.front);
-      Task above{{}, node, true, task.depth + 1}, below{{}, node, false, task.depth + 1};
-      for (const std::uint32_t i : task.members) {
-        if (boxes[i].high[best_axis] > best_value) above.members.push_back(i);
-        if (boxes[i].low[best_axis] < best_value) below.members.push_back(i);
-      }
-      stack.push_back(std::move(above));
-      stack.push_back(std::move(below));
-    }
+    return boxes;
   }
 
-  /// To kFractionBits after the binary point; exact in a double for the values used.
-  static double rounded(double value) {
-    return std::ldexp(std::nearbyint(std::ldexp(value, kFractionBits)), -kFractionBits);
+  /// A k-d tree of the region's chart.
+  void grow(std::span<const std::uint32_t> parts, const std::vector<Point>& region,
+            const LightChart& chart, std::int32_t parent, bool front) {
+    // Values below 8 keep the coefficients of planes small.
+    const KdRules rules{
+        .axes = 2, .least = -8, .most = 8, .touching_counts = false, .leaf_size = kLeafSize};
+    grow_kd_tree(
+        chart_boxes(parts, region, chart), rules, parent, front,
+        [&](const KdSplit& split, std::int32_t above, bool is_front) {
+          const ChartSplit chart_split{
+              split.axis, split.value,
+              static_cast<std::int64_t>(std::ldexp(split.value, KdSplit::kBits)), KdSplit::kBits};
+          return add(plane_of(chart_split, chart, light_.directional, bits_), above, is_front);
+        });
   }
 
   const PreparedScene& scene_;

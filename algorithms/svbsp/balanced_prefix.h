@@ -26,10 +26,10 @@ struct PrefixNode {
 };
 
 struct PrefixTree {
-  std::vector<PrefixNode> nodes;  // root is 0; none: no prefix
+  std::vector<PrefixNode> nodes;  // nodes[0] is the root; empty if there is no prefix
 };
 
-/// For the parts that face the light. Few parts (below 64) get no prefix.
+/// Plans a prefix for the parts that face the light. Fewer than 64 parts get none.
 PrefixTree plan_prefix(const PreparedScene& scene, const LightPoint& light,
                        std::span<const std::uint32_t> parts);
 

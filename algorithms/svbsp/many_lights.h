@@ -22,7 +22,7 @@
 
 namespace gnomon {
 
-/// Who made an edge: the scene (an input edge or a support plane), or the tree of a light.
+/// EdgeOrigin says who made an edge: the scene (an input edge or support plane) or a light's tree.
 struct EdgeOrigin {
   static constexpr std::uint32_t kScene = 0xffffffffu;
   std::uint32_t light = kScene;  // index of the run
@@ -55,8 +55,8 @@ class Pipeline {
 
   void add_space(Space& space) { spaces_.push_back(&space); }
 
-  /// Filters what is left of a piece through the current run's tree, which nothing behind the piece
-  /// has been inserted into yet. `run` is the index of its space.
+  /// Filters the fragments of a piece through the tree of the current run. Requires: nothing that
+  /// is behind the piece has been inserted into the tree. `run`: the index of the tree's space.
   void filter(std::uint32_t piece, Side side, std::uint32_t run, SvbspTree<Space>& tree) {
     std::vector<Item>& items = side == Side::kFront ? front_[piece] : back_[piece];
     const LoopRange& range = bsp_.pieces[piece];
@@ -111,7 +111,7 @@ class Pipeline {
     return item;
   }
 
-  /// Into loop_, counter-clockwise from the light of `run`.
+  /// Puts an item into loop_, counter-clockwise as seen from the light of `run`.
   void import(const Item& item, const Part& part, bool reversed, std::uint32_t run) {
     Space& space = *spaces_[run];
     const auto n = static_cast<std::uint32_t>(item.vertices.size());
@@ -144,7 +144,7 @@ class Pipeline {
     }
   }
 
-  /// Back from light space: edges that came with the item keep their origin.
+  /// Takes a loop back from light space; edges that the item `from` has keep their origin.
   Item item_of(const LoopView<Vertex>& loop, const Item& from, bool reversed, std::uint32_t run) {
     const std::uint32_t n = loop.size();
     Item item;

@@ -19,6 +19,8 @@
 #include <vector>
 
 #include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/plane_tree_filter.h"
+#include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/svbsp/balanced_prefix.h"
 #include "gnomon/algorithms/shadow_result.h"
@@ -31,15 +33,16 @@ struct ClassifiedLoop {
   LoopRange loop;
   LightState state = LightState::kLit;
   std::uint32_t caster = Fragment::kNoCaster;
+
+  bool is_like(const ClassifiedLoop& other) const {
+    return state == other.state && caster == other.caster;
+  }
 };
 
 template <class Vertex>
-struct SvbspOutput {
-  LoopStore<Vertex> loops;
-  std::vector<ClassifiedLoop> fragments;
-};
+using SvbspOutput = FilteredLoops<Vertex, ClassifiedLoop>;
 
-/// What filtering one polygon shall do.
+/// FilterActions says what filtering does with a polygon.
 struct FilterActions {
   bool classify = true;  // append fragments to the output
   bool insert = true;    // add the shadow volumes of lit fragments to the tree
@@ -50,8 +53,7 @@ class SvbspTree {
  public:
   using Vertex = typename Space::Vertex;
 
-  /// `drops_slivers`: Mutation::kSliversDropped.
-  SvbspTree(Space& space, bool merge_siblings, bool drops_slivers = false);
+  SvbspTree(Space& space, bool merge_siblings, const Rules& rules = {});
 
   /// Puts the balanced prefix at the top. Requires: nothing inserted yet.
   void plant(const PrefixTree& prefix);
@@ -61,7 +63,7 @@ class SvbspTree {
 
   std::uint64_t node_count() const { return nodes_.size() - 1; }
   /// Children with fewer than three vertices that were dropped (rounded kernels).
-  std::uint64_t vanished() const { return vanished_; }
+  std::uint64_t vanished() const { return filter_.vanished(); }
 
  private:
   // Cells are encoded in the child links: OUT, or IN with its caster.
@@ -76,31 +78,17 @@ class SvbspTree {
     PlaneRef plane;
     std::int32_t front = kOut, back = kOut;
   };
-  struct Frame {
-    std::uint32_t node = 0;  // the cell or subtree is this node's front or back child
-    bool front = true;
-    bool leaving = false;            // children done: merge, drop the loop
-    LoopRange loop;                  // in work_
-    std::uint32_t first_output = 0;  // when leaving: outputs before the children's
-  };
+  struct Cells;  // what PlaneTreeFilter asks of this tree while it filters one polygon
 
-  std::int32_t& child(const Frame& frame) {
-    return frame.front ? nodes_[frame.node].front : nodes_[frame.node].back;
+  std::int32_t& child(TreePlace at) {
+    return at.front ? nodes_[at.node].front : nodes_[at.node].back;
   }
-  bool is_kept(const LoopRange& child, PlaneId support) const;
-  void insert(const Frame& frame, const LoopView<Vertex>& fragment,
-              const LoopView<Vertex>& original);
-  void try_merge(const Frame& frame, PlaneId support, SvbspOutput<Vertex>& output);
+  void insert(TreePlace at, const LoopView<Vertex>& fragment, const LoopView<Vertex>& original);
 
   Space* space_;
-  bool merge_siblings_, drops_slivers_;
+  Rules rules_;
   std::vector<Node> nodes_;  // 0 is a sentinel whose front child is the root
-  std::uint64_t vanished_ = 0;
-  // Workspace of filter(), kept to save allocations.
-  std::vector<Frame> stack_;
-  LoopStore<Vertex> work_, parent_;
-  SplitRecord record_;
-  std::vector<Vertex> crossings_;
+  PlaneTreeFilter<Space> filter_;
 };
 
 }  // namespace gnomon

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Shadow volumes have no end; the scene has. The box of the whole scene, in front of the light's
-// plane, as the polyhedron that volumes are cut out of: a point outside it is in no receiver, and
-// one behind the light is in the umbra whatever the casters do.
+// A shadow volume has no end, so it is cut out of a polyhedron: the box of the whole scene, in
+// front of the light's plane. A point outside the box is in no receiver, and a point behind the
+// light is in the umbra whatever the casters do.
 //
-// Receivers that lie in a face of the box are seen from inside only: the lights are in the box,
-// too.
+// A receiver that lies in a face of the box is seen from inside only, because the lights are in the
+// box, too.
 #ifndef GNOMON_ALGORITHMS_VOLUME_TREES_BOUNDING_BOX_H
 #define GNOMON_ALGORITHMS_VOLUME_TREES_BOUNDING_BOX_H
 
@@ -17,7 +17,7 @@
 
 namespace gnomon {
 
-/// The box between two points, in fractions of the grid's extent.
+/// Makes the box between two points, in fractions of the grid's extent.
 template <VolumeSpaceModel Space>
 Polyhedron<typename Space::Vertex> make_box(Space& space, const std::array<double, 3>& low,
                                             const std::array<double, 3>& high) {
@@ -49,7 +49,7 @@ Polyhedron<typename Space::Vertex> make_box(Space& space, const std::array<doubl
   return box;
 }
 
-/// The part of `box` in front of all planes, which become own faces; empty if there is none.
+/// Makes the part of `box` in front of all planes, which become own faces; it may be empty.
 template <VolumeSpaceModel Space>
 void cut_volume(Space& space, const Polyhedron<typename Space::Vertex>& box,
                 std::span<const PlaneRef> planes, PolyhedronSplitter<Space>& splitter,

@@ -25,8 +25,8 @@ struct LightCut {
   std::uint64_t vanished = 0;  // pieces that rounding lost: 0 on exact kernels
 };
 
-/// Pieces in the order of a BSP tree of the planes, what is in front first. False if there are more
-/// than `most`.
+/// Makes the pieces in the order of a BSP tree of the planes, pieces in front first. Returns false
+/// if there are more than `most`.
 template <VolumeSpaceModel Space>
 bool cut_light(Space& space, const LoopView<typename Space::Vertex>& light,
                std::span<const PlaneRef> planes, std::uint64_t most,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// One area light by the merged algorithm (Chin & Feiner 1992): the penumbra tree and the umbra tree
-// of all casters, and receivers filtered down the one and then the other.
+// One area light by the merged algorithm (Chin & Feiner 1992): receivers are filtered down the tree
+// of all casters' penumbras, and what is in a penumbra down the tree of all umbras.
 //
 // Volumes must not depend on the receiver. They do not where the receiver's plane has no vertex of
 // the light behind it: then A_R = A, so that A_O = A n {P_O > 0} is a matter of the caster's side
@@ -11,11 +11,11 @@
 // reaches behind the light's: that piece is cut off. Receivers whose plane does cut the light are
 // for the receiver algorithm, so that both give the same classes.
 //
-// What lies in a face of its own volume is outside: a receiver's front is in front of the caster's
-// plane if they are coplanar and face the same way; if they face opposite ways, the light would
-// have to be on both sides. Classes are those of the definition (docs: semantics), since a point in
-// front of the light is in the penumbra or umbra of a caster iff it is in its volume, and the trees
-// are the unions of the volumes.
+// A receiver that lies in a face of a volume is outside it: the receiver's front is in front of the
+// caster's plane if they are coplanar and face the same way; if they face opposite ways, the light
+// would have to be on both sides. Classes are those of the definition (docs: semantics), since a
+// point in front of the light is in the penumbra or umbra of a caster iff it is in its volume, and
+// the trees are the unions of the volumes.
 #ifndef GNOMON_ALGORITHMS_VOLUME_TREES_PENUMBRA_AND_UMBRA_H
 #define GNOMON_ALGORITHMS_VOLUME_TREES_PENUMBRA_AND_UMBRA_H
 
@@ -27,17 +27,14 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/partition/rules.h"
+#include "algorithms/partition/run_options.h"
 #include "algorithms/shadow_volumes/light_in_space.h"
 #include "algorithms/volume_trees/balanced_prefix.h"
 #include "algorithms/volume_trees/bounding_box.h"
 #include "algorithms/volume_trees/volume_tree.h"
-#include "gnomon/algorithms/shadows.h"
 
 namespace gnomon {
-
-inline Union union_of(const ShadowOptions& options) {
-  return options.mutation == Mutation::kUnionWithoutContinuedPlanes ? Union::kWrong : Union::kTrue;
-}
 
 template <VolumeSpaceModel Space>
 class PenumbraAndUmbra {
@@ -47,21 +44,22 @@ class PenumbraAndUmbra {
 
   /// The trees' planes are added to `space`, which must be forked afterwards.
   PenumbraAndUmbra(Space& space, const LightInSpace<Space>& light, const PreparedScene& scene,
-                   const CasterTree& boxes, const ShadowOptions& options)
+                   const CasterTree& boxes, const RunOptions& options, const Rules& rules)
       : space_(&space),
         light_(&light),
         scene_(&scene),
         boxes_(&boxes),
         options_(&options),
-        penumbra_(space, union_of(options)),
-        umbra_(space, union_of(options)) {}
+        rules_(rules),
+        penumbra_(space, rules),
+        umbra_(space, rules) {}
 
   enum class Outcome : std::uint8_t { kDone, kStopped, kTooManyNodes };
-  /// The trees are kept from outgrowing the fragments by more than this.
+  /// The trees may have so many nodes for each fragment that the limits allow.
   static constexpr std::uint64_t kMostNodesAFragment = 8;
-  /// Of the prefix. Measured on cities and quads of 3,001 to 30,001 polygons, small and large
-  /// lights: no other value is faster than this by more than a half; 8 or no prefix cost up to 3
-  /// times as much.
+  /// Leaves of the prefix. Measured on cities and quads of 3,001 to 30,001 polygons, small and
+  /// large lights: no other value is faster than this by more than a half; 8 or no prefix cost up
+  /// to 3 times as much.
   static constexpr std::uint32_t kReceiversALeaf = 64;
 
   /// Makes the trees for those receivers (parts), which must include all that cut() will be asked
@@ -73,11 +71,10 @@ class PenumbraAndUmbra {
   bool takes(Space& space, SplitRecord& record, PlaneRef receiving) const {
     const auto placement = record.decide(space, receiving, light_->shape().loop);
     return placement == Placement::kFront ||
-           (placement == Placement::kSpanning &&
-            options_->mutation == Mutation::kStraddlingLightFaces);
+           (placement == Placement::kSpanning && !rules_.straddling_light_is_cut);
   }
 
-  /// As LightInSpace::cut, for the whole loop of a side that takes() accepts.
+  /// Does what LightInSpace::cut does, for the whole loop of a side that takes() accepts.
   template <class Emit>
   bool cut(Space& space, SplitRecord& record, VolumeTreeWorkspace<Space>& workspace,
            const Loop& whole, PlaneRef receiving, const Emit& emit) const;
@@ -97,13 +94,14 @@ class PenumbraAndUmbra {
   const LightInSpace<Space>* light_;
   const PreparedScene* scene_;
   const CasterTree* boxes_;
-  const ShadowOptions* options_;
+  const RunOptions* options_;
+  Rules rules_;
   VolumeTree<Space> penumbra_, umbra_;
   PolyhedronSplitter<Space> splitter_;
 };
 
-/// Volumes in order of the distance of their casters from the light: those of near casters hold
-/// those of far ones, which then go into few cells. The other way round the trees explode.
+/// Sorts the volumes by the distance of their casters from the light: the volumes of near casters
+/// hold those of far ones, which then go into few cells. In the other order the trees explode.
 template <VolumeSpaceModel Space>
 std::vector<std::uint32_t> PenumbraAndUmbra<Space>::near_first() const {
   const LightShape<Vertex> light = light_->shape();
@@ -134,18 +132,16 @@ template <VolumeSpaceModel Space>
 template <class Step>
 typename PenumbraAndUmbra<Space>::Outcome PenumbraAndUmbra<Space>::build(
     std::span<const std::uint32_t> receivers, const Step& step) {
-  // What is wrong on purpose is wrong only where no plane but the volumes' cuts them.
-  if (options_->prefix && union_of(*options_) == Union::kTrue) {
-    std::vector<SpaceBox> spaces;
-    spaces.reserve(receivers.size());
-    for (const std::uint32_t part : receivers) {
-      spaces.push_back({boxes_->box(part).low, boxes_->box(part).high});
-    }
-    const SpacePrefix prefix = plan_space_prefix(spaces, kReceiversALeaf);
+  // Volumes that end at others do so only where no plane but the volumes' cuts them.
+  if (options_->prefix && rules_.volumes_continue_behind_others) {
+    std::vector<Box> receiver_boxes;
+    receiver_boxes.reserve(receivers.size());
+    for (const std::uint32_t part : receivers) receiver_boxes.push_back(boxes_->box(part));
+    const SpacePrefix prefix = plan_space_prefix(receiver_boxes, kReceiversALeaf);
     penumbra_.plant(prefix);
     umbra_.plant(prefix);
   }
-  // Nothing in front of the light: nothing to ask for.
+  // Volumes are cut out of the part of the scene's box that is in front of the light.
   Polyhedron<Vertex> box = make_box(*space_, {0, 0, 0}, {1, 1, 1});
   splitter_.clip(*space_, light_->plane(), false, box);
   const VolumeStore& store = light_->volumes();
@@ -178,7 +174,7 @@ bool PenumbraAndUmbra<Space>::filter(VolumeTreeWorkspace<Space>& workspace, cons
                                      const Emit& emit) const {
   workspace.penumbra.clear();
   workspace.filter.filter(penumbra_, loop, receiving, workspace.penumbra);
-  for (const CellLoop& cell : workspace.penumbra.cells) {
+  for (const CellLoop& cell : workspace.penumbra.fragments) {
     const Loop piece = workspace.penumbra.loops.view(cell.loop, loop.support);
     if (cell.caster == Fragment::kNoCaster) {
       if (!emit(PieceClass{LightState::kLit}, piece)) return false;
@@ -186,7 +182,7 @@ bool PenumbraAndUmbra<Space>::filter(VolumeTreeWorkspace<Space>& workspace, cons
     }
     workspace.umbra.clear();
     workspace.filter.filter(umbra_, piece, receiving, workspace.umbra);
-    for (const CellLoop& inner : workspace.umbra.cells) {
+    for (const CellLoop& inner : workspace.umbra.fragments) {
       const bool umbra = inner.caster != Fragment::kNoCaster;
       const PieceClass state{umbra ? LightState::kUmbra : LightState::kPenumbra,
                              umbra ? inner.caster : cell.caster, ShadowReason::kNone};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Convex polyhedra of the merged trees: shadow volumes and the pieces that a tree cuts out of them.
+// Convex polyhedra of the volume trees: shadow volumes, and the pieces that a tree cuts them into.
 //
 // A vertex is shared by the faces that meet in it. A face is a convex loop, counter-clockwise seen
 // from outside, on a plane whose front is the inside; each of its corners names the plane of the
@@ -61,7 +61,7 @@ struct Polyhedron {
   }
 };
 
-/// Splits polyhedra; holds the record of the last decision and workspace.
+/// PolyhedronSplitter splits polyhedra; it holds the record of the last decision and its workspace.
 template <VolumeSpaceModel Space>
 class PolyhedronSplitter {
  public:
@@ -93,8 +93,8 @@ class PolyhedronSplitter {
     return front ? Placement::kFront : back ? Placement::kBack : Placement::kOn;
   }
 
-  /// Both children of a polyhedron that the last decision called spanning. The caps are not own
-  /// faces.
+  /// Makes both children of a polyhedron that the last decision called spanning. Their caps are not
+  /// own faces.
   void split(const Space& space, PlaneRef plane, const Polyhedron<Vertex>& parent,
              Polyhedron<Vertex>& front, Polyhedron<Vertex>& back) {
     construct_crossings(space, plane, parent);
@@ -120,7 +120,7 @@ class PolyhedronSplitter {
     }
   }
 
-  /// Caps that did not close, faces and children that vanished: 0 on exact kernels.
+  /// Counts caps that did not close, faces and children that vanished: 0 on exact kernels.
   std::uint64_t findings() const { return findings_; }
 
  private:

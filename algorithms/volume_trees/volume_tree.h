@@ -20,6 +20,8 @@
 #include <vector>
 
 #include "algorithms/partition/loop_store.h"
+#include "algorithms/partition/plane_tree_filter.h"
+#include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/volume_trees/balanced_prefix.h"
 #include "algorithms/volume_trees/polyhedron.h"
@@ -28,139 +30,120 @@
 
 namespace gnomon {
 
-/// A convex loop that one cell holds.
+/// CellLoop is a convex loop that one cell holds.
 struct CellLoop {
   LoopRange loop;                              // in CellOutput::loops
   std::uint32_t caster = Fragment::kNoCaster;  // kNoCaster: OUT
+
+  bool is_like(const CellLoop& other) const { return caster == other.caster; }
 };
 
 template <class Vertex>
-struct CellOutput {
-  LoopStore<Vertex> loops;
-  std::vector<CellLoop> cells;
-  void clear() {
-    loops.clear();
-    cells.clear();
-  }
-};
+using CellOutput = FilteredLoops<Vertex, CellLoop>;
 
-/// Where the receiving side of a loop is: what lies *in* a node's plane belongs to the cell just in
-/// front of the receiver (docs: semantics, the class is that limit).
+/// ReceivingSide says on which side of a loop light arrives: a loop that lies *in* a node's plane
+/// belongs to the cell just in front of it (docs: semantics, the class is that limit).
 template <class Vertex>
 struct ReceivingSide {
   PlaneRef plane;                // of the loop, receiving side in front
   const Corner<Vertex>* before;  // some point strictly in front of it: a vertex of the light
 };
 
-enum class Union : std::uint8_t {
-  kTrue,
-  kWrong,  // 1992, fig. 6: only cells that the caster itself reaches are extended; for tests
-};
-
-template <VolumeSpaceModel Space>
-class CellFilter;
-
 template <VolumeSpaceModel Space>
 class VolumeTree {
  public:
   using Vertex = typename Space::Vertex;
 
-  explicit VolumeTree(Space& space, Union kind = Union::kTrue)
-      : space_(&space), kind_(kind), nodes_(1) {}
+  explicit VolumeTree(Space& space, const Rules& rules = {})
+      : space_(&space), rules_(rules), nodes_(1) {}
 
   /// Puts a balanced prefix at the top. Requires: nothing inserted yet.
   void plant(const SpacePrefix& prefix);
 
-  /// The union with a volume. `base`: the caster's plane. Returns false, and leaves the tree in an
-  /// undefined state, if it would have more than `most_nodes`.
+  /// Adds a volume to the union. `base`: the caster's plane. Returns false, and leaves the tree in
+  /// an undefined state, if it would have more than `most_nodes`.
   bool insert(const Polyhedron<Vertex>& volume, PlaneId base, std::uint32_t caster,
               std::uint64_t most_nodes);
 
   std::uint64_t node_count() const { return nodes_.size() - 1; }
-  /// What could not be made as it should: 0 on exact kernels.
+  /// Counts what PolyhedronSplitter could not make as it should: 0 on exact kernels.
   std::uint64_t findings() const { return splitter_.findings(); }
 
+  /// The node at a place, or a negative number that stands for a cell.
+  std::int32_t node_at(TreePlace at) const {
+    return at.front ? nodes_[at.node].front : nodes_[at.node].back;
+  }
+  PlaneRef plane(std::uint32_t node) const { return nodes_[node].plane; }
+  /// Whose volume covers the cell at a place; kNoCaster if it is OUT.
+  std::uint32_t caster_at(TreePlace at) const {
+    const std::int32_t cell = node_at(at);
+    return cell == kOut ? Fragment::kNoCaster : static_cast<std::uint32_t>(-2 - cell);
+  }
+
  private:
-  friend class CellFilter<Space>;
   // Cells are encoded in the child links.
   static constexpr std::int32_t kOut = -1;
-  static constexpr std::int32_t kUnused = -2;  // no receiver: nothing will ever be asked here
   static constexpr std::int32_t in_cell(std::uint32_t caster) {
-    return -3 - static_cast<std::int32_t>(caster);
-  }
-  static constexpr std::uint32_t caster_of(std::int32_t cell) {
-    return cell > -3 ? Fragment::kNoCaster : static_cast<std::uint32_t>(-3 - cell);
+    return -2 - static_cast<std::int32_t>(caster);
   }
   struct Node {
     PlaneRef plane;
     std::int32_t front = kOut, back = kOut;
     std::uint32_t parent : 31 = 0;
-    std::uint32_t full : 1 = 0;  // no OUT cell below: nothing to extend any more
-  };
-  struct Place {
-    std::uint32_t node = 0;  // the cell or subtree is this node's front or back child
-    bool front = true;
+    std::uint32_t full : 1 = 0;  // no cell below it is OUT, and so none is extended
   };
 
-  std::int32_t& child(Place at) { return at.front ? nodes_[at.node].front : nodes_[at.node].back; }
-  std::int32_t child(Place at) const {
+  std::int32_t& child(TreePlace at) {
     return at.front ? nodes_[at.node].front : nodes_[at.node].back;
   }
   bool is_full(std::int32_t link) const {
     return link < 0 ? link != kOut : nodes_[static_cast<std::size_t>(link)].full != 0;
   }
   void note_full(std::uint32_t node);
-  void extend(Place at, const Polyhedron<Vertex>& piece, PlaneId base, std::uint32_t caster);
+  void split(std::uint32_t node, std::size_t top);
+  Polyhedron<Vertex>& piece(std::size_t i) {
+    if (pieces_.size() <= i) pieces_.resize(i + 1);
+    return pieces_[i];
+  }
+  void extend(TreePlace at, const Polyhedron<Vertex>& piece, PlaneId base, std::uint32_t caster);
 
   Space* space_;
-  Union kind_;
+  Rules rules_;
   std::vector<Node> nodes_;  // 0 is a sentinel whose front child is the root
-  // Workspace of insert(): places_[i] is where pieces_[i] goes, i < places_.size().
+  // Workspace of insert(): pieces_[i] goes to places_[i], i < places_.size().
   PolyhedronSplitter<Space> splitter_;
-  std::vector<Place> places_;
+  std::vector<TreePlace> places_;
   std::vector<Polyhedron<Vertex>> pieces_;
   Polyhedron<Vertex> whole_;
 };
 
-/// Filters loops down finished trees. One for each thread, with its own fork of the space that the
-/// trees grew in.
+/// CellFilter filters loops down finished trees. Each thread has one, with its own fork of the
+/// space that the trees grew in.
 template <VolumeSpaceModel Space>
 class CellFilter {
  public:
   using Vertex = typename Space::Vertex;
   using Tree = VolumeTree<Space>;
 
-  CellFilter(Space& space, bool merge_siblings) : space_(&space), merge_siblings_(merge_siblings) {}
+  CellFilter(Space& space, bool merge_siblings) : space_(&space), filter_(merge_siblings) {}
 
-  /// Appends the pieces of a loop, each with its cell.
+  /// Appends the fragments of a loop, each with its cell.
   void filter(const Tree& tree, const LoopView<Vertex>& loop,
-              const ReceivingSide<Vertex>& receiving, CellOutput<Vertex>& output);
+              const ReceivingSide<Vertex>& receiving, CellOutput<Vertex>& output) {
+    filter_.filter(*space_, Cells{*space_, tree, receiving, output}, loop, output);
+  }
 
   /// Children with fewer than three vertices that were dropped: 0 on exact kernels.
-  std::uint64_t vanished() const { return vanished_; }
+  std::uint64_t vanished() const { return filter_.vanished(); }
 
  private:
-  struct Frame {
-    typename Tree::Place at;
-    bool leaving = false;          // children done: merge, drop the loop
-    LoopRange loop;                // in work_
-    std::size_t first_output = 0;  // when leaving: outputs before the children's
-  };
-
-  Placement place(PlaneRef plane, const LoopView<Vertex>& loop,
-                  const ReceivingSide<Vertex>& receiving);
-  void try_merge(const Frame& frame, PlaneId support, CellOutput<Vertex>& output);
+  struct Cells;  // what PlaneTreeFilter asks of a tree while it filters one loop
 
   Space* space_;
-  bool merge_siblings_;
-  std::uint64_t vanished_ = 0;
-  std::vector<Frame> stack_;
-  LoopStore<Vertex> work_, parent_;
-  SplitRecord record_;
-  std::vector<Vertex> crossings_;
+  PlaneTreeFilter<Space> filter_;
 };
 
-/// What one thread needs to filter receivers.
+/// VolumeTreeWorkspace is what one thread needs to filter receivers.
 template <VolumeSpaceModel Space>
 struct VolumeTreeWorkspace {
   VolumeTreeWorkspace(Space& space, bool merge) : filter(space, merge) {}
@@ -173,9 +156,7 @@ template <VolumeSpaceModel Space>
 void VolumeTree<Space>::plant(const SpacePrefix& prefix) {
   if (prefix.nodes.empty()) return;
   const auto link = [](std::int32_t planned) {
-    return planned == SpacePrefix::kLeaf     ? kOut
-           : planned == SpacePrefix::kUnused ? kUnused
-                                             : planned + 1;  // after the sentinel
+    return planned == SpacePrefix::kLeaf ? kOut : planned + 1;  // after the sentinel
   };
   for (const SpacePrefix::Node& planned : prefix.nodes) {
     nodes_.push_back({space_->add_axis_plane(planned.axis, planned.value), link(planned.front),
@@ -193,56 +174,50 @@ template <VolumeSpaceModel Space>
 bool VolumeTree<Space>::insert(const Polyhedron<Vertex>& volume, PlaneId base, std::uint32_t caster,
                                std::uint64_t most_nodes) {
   if (volume.empty()) return true;
-  const auto piece = [&](std::size_t i) -> Polyhedron<Vertex>& {
-    if (pieces_.size() <= i) pieces_.resize(i + 1);
-    return pieces_[i];
-  };
-  places_.assign(1, Place{});
+  places_.assign(1, TreePlace{});
   piece(0) = volume;
   while (!places_.empty()) {
     const std::size_t top = places_.size() - 1;
-    Place at = places_.back();
+    TreePlace at = places_.back();
     places_.pop_back();
-    // Down while the piece is whole.
-    bool split = false;
-    while (!split && child(at) >= 0) {
-      const auto node = static_cast<std::uint32_t>(child(at));
-      if (nodes_[node].full != 0) break;
-      const PlaneRef plane = nodes_[node].plane;
-      switch (splitter_.decide(*space_, plane, piece(top))) {
-        case Placement::kOn:  // only where rounding flattens a whole piece
-        case Placement::kFront:
-          at = {node, true};
-          break;
-        case Placement::kBack:
-          at = {node, false};
-          break;
-        case Placement::kSpanning: {
-          split = true;
-          std::swap(whole_, piece(top));
-          piece(top + 1);
-          // What is outside goes last: a chain of outsides is then walked with a short stack.
-          splitter_.split(*space_, plane, whole_, pieces_[top + 1], pieces_[top]);
-          if (!pieces_[top].empty()) places_.push_back({node, false});
-          if (!pieces_[top + 1].empty()) {
-            if (pieces_[top].empty()) std::swap(pieces_[top], pieces_[top + 1]);
-            places_.push_back({node, true});
-          }
-          break;
-        }
-      }
+    const std::int32_t node = descend(
+        at,
+        [&](TreePlace place) {
+          const std::int32_t link = child(place);
+          return link >= 0 && nodes_[static_cast<std::size_t>(link)].full != 0 ? kNoNode : link;
+        },
+        [&](std::uint32_t number) {
+          return splitter_.decide(*space_, nodes_[number].plane, piece(top));
+        });
+    if (node >= 0) {
+      split(static_cast<std::uint32_t>(node), top);
+    } else if (child(at) == kOut) {
+      extend(at, piece(top), base, caster);
+      if (node_count() > most_nodes) return false;
     }
-    if (split || child(at) != kOut) continue;
-    extend(at, piece(top), base, caster);
-    if (node_count() > most_nodes) return false;
   }
   return true;
 }
 
+/// Puts what a node's plane makes of piece `top`, which is no longer needed, where it goes next.
 template <VolumeSpaceModel Space>
-void VolumeTree<Space>::extend(Place at, const Polyhedron<Vertex>& piece, PlaneId base,
+void VolumeTree<Space>::split(std::uint32_t node, std::size_t top) {
+  std::swap(whole_, piece(top));
+  piece(top + 1);
+  // The back child is taken last: a chain of back children is then walked with a short stack.
+  splitter_.split(*space_, nodes_[node].plane, whole_, pieces_[top + 1], pieces_[top]);
+  if (!pieces_[top].empty()) places_.push_back({node, false});
+  if (!pieces_[top + 1].empty()) {
+    if (pieces_[top].empty()) std::swap(pieces_[top], pieces_[top + 1]);
+    places_.push_back({node, true});
+  }
+}
+
+template <VolumeSpaceModel Space>
+void VolumeTree<Space>::extend(TreePlace at, const Polyhedron<Vertex>& piece, PlaneId base,
                                std::uint32_t caster) {
-  if (kind_ == Union::kWrong &&
+  // Else only cells that the caster itself reaches are extended (1992, fig. 6).
+  if (!rules_.volumes_continue_behind_others &&
       std::none_of(piece.faces.begin(), piece.faces.end(), [&](const PolyhedronFace& face) {
         return face.own && face.plane.index() == base;
       })) {
@@ -268,86 +243,29 @@ void VolumeTree<Space>::note_full(std::uint32_t node) {
 }
 
 template <VolumeSpaceModel Space>
-Placement CellFilter<Space>::place(PlaneRef plane, const LoopView<Vertex>& loop,
-                                   const ReceivingSide<Vertex>& receiving) {
-  if (!plane.same_plane(receiving.plane)) {
-    const Placement placement = record_.decide(*space_, plane, loop);
+struct CellFilter<Space>::Cells {
+  Space& space;
+  const Tree& tree;
+  const ReceivingSide<Vertex>& receiving;
+  CellOutput<Vertex>& output;
+
+  std::int32_t node_at(TreePlace at) const { return tree.node_at(at); }
+  PlaneRef plane(std::uint32_t node) const { return tree.plane(node); }
+  Placement placement(SplitRecord& record, PlaneRef plane, const LoopView<Vertex>& loop) const {
+    if (plane.same_plane(receiving.plane)) {
+      return plane == receiving.plane ? Placement::kFront : Placement::kBack;
+    }
+    const Placement placement = record.decide(space, plane, loop);
     if (placement != Placement::kOn) return placement;
     // The node's plane is the receiver's under another name, or rounding flattens the loop.
-    return space_->side_of_plane(plane, *receiving.before) == Side::kFront ? Placement::kFront
-                                                                           : Placement::kBack;
+    return space.side_of_plane(plane, *receiving.before) == Side::kFront ? Placement::kFront
+                                                                         : Placement::kBack;
   }
-  return plane == receiving.plane ? Placement::kFront : Placement::kBack;
-}
-
-template <VolumeSpaceModel Space>
-void CellFilter<Space>::filter(const Tree& tree, const LoopView<Vertex>& loop,
-                               const ReceivingSide<Vertex>& receiving, CellOutput<Vertex>& output) {
-  stack_.clear();
-  work_.clear();
-  const PlaneId support = loop.support;
-  stack_.push_back({{}, false, work_.append(loop), 0});
-  while (!stack_.empty()) {
-    Frame frame = stack_.back();
-    stack_.pop_back();
-    if (frame.leaving) {
-      try_merge(frame, support, output);
-      work_.truncate(frame.loop.first);
-      continue;
-    }
-    bool split = false;
-    while (!split && tree.child(frame.at) >= 0) {
-      const auto node = static_cast<std::uint32_t>(tree.child(frame.at));
-      const PlaneRef plane = tree.nodes_[node].plane;
-      switch (place(plane, work_.view(frame.loop, support), receiving)) {
-        case Placement::kOn:
-        case Placement::kFront:
-          frame.at = {node, true};
-          break;
-        case Placement::kBack:
-          frame.at = {node, false};
-          break;
-        case Placement::kSpanning: {
-          split = true;
-          parent_.clear();
-          const LoopRange copy = parent_.append(work_.view(frame.loop, support));
-          frame.leaving = true;
-          frame.first_output = output.cells.size();
-          stack_.push_back(frame);
-          const SplitChildren children = make_children(*space_, plane, parent_.view(copy, support),
-                                                       record_, crossings_, work_);
-          // The front child was appended last and is taken first, so that the loops are a stack.
-          if (children.back.count >= 3) {
-            stack_.push_back({{node, false}, false, children.back, 0});
-          } else {
-            ++vanished_;
-          }
-          if (children.front.count >= 3) {
-            stack_.push_back({{node, true}, false, children.front, 0});
-          } else {
-            ++vanished_;
-          }
-          break;
-        }
-      }
-    }
-    if (split) continue;
-    output.cells.push_back({output.loops.append(work_.view(frame.loop, support)),
-                            Tree::caster_of(tree.child(frame.at))});
-    work_.truncate(frame.loop.first);
+  bool is_kept(const LoopView<Vertex>&) const { return true; }
+  void at_cell(TreePlace at, const LoopView<Vertex>& fragment) const {
+    output.fragments.push_back({output.loops.append(fragment), tree.caster_at(at)});
   }
-}
-
-template <VolumeSpaceModel Space>
-void CellFilter<Space>::try_merge(const Frame& frame, PlaneId support, CellOutput<Vertex>& output) {
-  if (!merge_siblings_ || output.cells.size() != frame.first_output + 2) return;
-  CellLoop& first = output.cells[frame.first_output];
-  if (first.caster != output.cells.back().caster) return;
-  // The two loops are the last in the output: the whole they were cut from takes their place.
-  output.loops.truncate(first.loop.first);
-  first.loop = output.loops.append(work_.view(frame.loop, support));
-  output.cells.pop_back();
-}
+};
 
 }  // namespace gnomon
 

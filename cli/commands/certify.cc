@@ -18,12 +18,12 @@
 #include "gnomon/algorithms/explain.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/oracle/prepared_check.h"
-#include "gnomon/oracle/read_candidate.h"
 #include "gnomon/oracle/verdict.h"
+#include "gnomon/result/read_claims.h"
 #include "gnomon/scene/digest.h"
 #include "report/certificate/certificate.h"
-#include "report/sides/candidate_from_result.h"
-#include "report/sides/polygon_sides.h"
+#include "report/facts/facing.h"
+#include "report/sides/claims_of.h"
 #include "report/text/number_text.h"
 
 namespace gnomon::cli {
@@ -76,9 +76,9 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
 }
 
 Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const CertifyCommandOptions& options) {
-  if (options.algorithm == kBothName) return both_algorithms();
-  const auto algorithm =
-      parse_algorithm_choice(options.algorithm, {{"--explain", options.explain}}, kBothName);
+  if (auto several = several_algorithms(options.algorithm); !several.empty()) return several;
+  const auto algorithm = parse_algorithm_choice(
+      options.algorithm, {{"--explain", options.explain, &Method::explains}}, "both, all");
   if (!algorithm) return tl::unexpected(algorithm.error());
   return std::vector{*algorithm};
 }
@@ -106,14 +106,14 @@ class CertifyRun {
 
   /// False on an interrupt. Errors: those of a candidate's file, and of options out of range.
   Expected<void> run_candidate(const std::string& file) {
-    auto read = oracle::read_candidate(file, loaded_.scene);
+    auto read = read_claims(file, loaded_.scene);
     if (!read) return tl::unexpected(read.error());
     report::JudgedRun run;
     run.name = file;
     run.foreign = true;
-    for (const oracle::CandidateLight& light : read->lights) {
+    for (const ClaimedLight& light : read->lights) {
       if (!light.per_caster_umbra) run.per_caster_umbra = false;
-      for (const oracle::CandidatePolygon& polygon : light.polygons) {
+      for (const ClaimedPolygon& polygon : light.polygons) {
         // Those that a tree made: what is in shadow as a whole for a reason is none.
         run.fragments += static_cast<std::uint64_t>(std::ranges::count_if(
             polygon.fragments, [](const auto& fragment) { return fragment.reason.empty(); }));
@@ -155,10 +155,9 @@ class CertifyRun {
       run.fragments += light.fragment_total;
       run.dropped_slivers += light.dropped_slivers;
     }
-    auto candidate =
-        report::candidate_from_result(loaded_.scene, loaded_.prepared, *result, run.name, false);
+    auto candidate = report::claims_of(loaded_.scene, loaded_.prepared, *result, run.name, false);
     const bool explained =
-        options_.explain && !kernel.exact() && algorithm.point == Algorithm::kSvbsp;
+        options_.explain && !kernel.exact() && algorithm.point == MethodId::kSvbsp;
     return judge(std::move(run), std::move(candidate),
                  explained ? std::optional(kernel) : std::nullopt);
   }
@@ -166,7 +165,7 @@ class CertifyRun {
   void set_interrupted() { certificate_.interrupted = true; }
   const report::Certificate& certificate() const { return certificate_; }
   const oracle::ExactAnswer& answer() const { return answer_; }
-  const std::vector<oracle::Candidate>& kept() const { return kept_; }
+  const std::vector<Claims>& kept() const { return kept_; }
 
   int status() const {
     bool failed = false, disagree = !certificate_.scene_findings.empty();
@@ -220,7 +219,7 @@ class CertifyRun {
   }
 
   /// `explained`: the kernel to explain, unless it is right.
-  Expected<void> judge(report::JudgedRun run, oracle::Candidate candidate,
+  Expected<void> judge(report::JudgedRun run, Claims candidate,
                        const std::optional<KernelChoice>& explained = std::nullopt) {
     oracle::CertifyOptions certify_options;
     certify_options.tolerance = options_.tolerance;
@@ -249,7 +248,7 @@ class CertifyRun {
 
   std::string first_difference(const KernelChoice& kernel) {
     progress_.set_label("explaining " + kernel.name());
-    ShadowOptions shadow_options = options_of(kernel, {.point = Algorithm::kSvbsp});
+    ShadowOptions shadow_options = options_of(kernel, {.point = MethodId::kSvbsp});
     // The lock-step knows the point and directional lights alone.
     std::erase_if(shadow_options.lights, [&](std::uint32_t light) {
       return loaded_.prepared.lights[light].type == LightType::kArea;
@@ -270,7 +269,7 @@ class CertifyRun {
   oracle::ExactAnswer answer_;
   ProgressBar progress_;
   report::Certificate certificate_;
-  std::vector<oracle::Candidate> kept_;  // one a run that was judged, for the pictures
+  std::vector<Claims> kept_;  // one a run that was judged, for the pictures
   bool limit_reached_ = false;
 };
 
@@ -414,11 +413,9 @@ void add_certify_command(CLI::App& app, Action& action) {
                  "A kernel to run, such as double, double+identity or double+thin (thickness 0)\n"
                  "(repeatable)"))
       ->type_name("K");
-  add_algorithm_option(command, options->algorithm)
-      ->description(
-          "How kernels find shadows: sectors or svbsp (point and directional lights), receiver\n"
-          "or merged (area lights), both one after the other, or auto: sectors, or svbsp with\n"
-          "--explain, and receiver");
+  add_algorithm_option(command, options->algorithm, "How kernels find shadows.",
+                       "both: sectors and receiver, then svbsp and merged; all: every method;\n"
+                       "auto: sectors, or svbsp with --explain, and receiver");
   repeatable(command.add_option("--candidate", options->candidates,
                                 "A result file to judge instead (repeatable)"))
       ->type_name("RESULT");

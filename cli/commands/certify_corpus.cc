@@ -23,6 +23,10 @@ namespace {
 Expected<std::vector<fuzz::Subject>> chosen_subjects(const CorpusCommandOptions& options) {
   std::vector<fuzz::Subject> subjects;
   for (const std::string& name : options.kernels) {
+    // Mistakes are subjects of the fuzzer only: here such a name is no kernel's.
+    if (name.find('~') != std::string::npos) {
+      return tl::unexpected(fuzz::parse_kernel_choice(name).error());
+    }
     const auto subject = fuzz::parse_subject(name);
     if (!subject) return tl::unexpected(subject.error());
     if (std::ranges::find(subjects, *subject) == subjects.end()) subjects.push_back(*subject);

@@ -8,15 +8,14 @@
 #include "cli/common/output.h"
 #include "gnomon/algorithms/painters_order.h"
 #include "report/pictures/picture.h"
-#include "report/sides/candidate_from_result.h"
+#include "report/sides/claims_of.h"
 
 namespace gnomon::cli {
 
 namespace {
 
-const oracle::CandidateLight* find_light(const oracle::Candidate& candidate,
-                                         const std::string& id) {
-  const auto found = std::ranges::find(candidate.lights, id, &oracle::CandidateLight::id);
+const ClaimedLight* find_light(const Claims& candidate, const std::string& id) {
+  const auto found = std::ranges::find(candidate.lights, id, &ClaimedLight::id);
   return found == candidate.lights.end() ? nullptr : &*found;
 }
 
@@ -61,16 +60,16 @@ class Pictures {
     pieces_ = back_to_front(loaded.prepared, options_.camera.eye);
   }
 
-  Expected<void> write(const std::string& file, const oracle::Candidate& exact,
-                       const report::JudgedRun& run, const oracle::Candidate& candidate) {
+  Expected<void> write(const std::string& file, const Claims& exact, const report::JudgedRun& run,
+                       const Claims& candidate) {
     const oracle::Report& report = *run.report;
     const std::string light = light_to_show(report);
-    const oracle::CandidateLight* truth = find_light(exact, light);
+    const ClaimedLight* truth = find_light(exact, light);
     if (truth == nullptr) return {};
     std::vector<report::Panel> panels;
     const std::uint32_t index = light_index(light);
     panels.push_back({index, "exact answer", truth, nullptr, {}});
-    const oracle::CandidateLight* shown = find_light(candidate, light);
+    const ClaimedLight* shown = find_light(candidate, light);
     if (shown != nullptr) {
       panels.push_back({index, run.name + ": " + name_of(report.verdict), shown, truth,
                         worst_places(report, light)});
@@ -78,7 +77,7 @@ class Pictures {
     return write_panels(file, light, panels);
   }
 
-  Expected<void> write_exact(const std::string& file, const oracle::Candidate& exact) {
+  Expected<void> write_exact(const std::string& file, const Claims& exact) {
     if (exact.lights.empty()) return {};
     const std::string& light = exact.lights.front().id;
     return write_panels(file, light,
@@ -119,8 +118,7 @@ class Pictures {
 
 }  // namespace
 
-Expected<oracle::Candidate> exact_fragments(const LoadedScene& loaded,
-                                            const AlgorithmChoice& algorithm) {
+Expected<Claims> exact_fragments(const LoadedScene& loaded, const AlgorithmChoice& algorithm) {
   ShadowOptions options;
   options.algorithm = algorithm.point;
   options.area_algorithm = algorithm.area;
@@ -129,14 +127,13 @@ Expected<oracle::Candidate> exact_fragments(const LoadedScene& loaded,
   options.interrupted = &interrupted();
   const auto result = compute_shadows(loaded.prepared, options);
   if (!result) return tl::unexpected(result.error());
-  return report::candidate_from_result(loaded.scene, loaded.prepared, *result, "exact", false);
+  return report::claims_of(loaded.scene, loaded.prepared, *result, "exact", false);
 }
 
 Expected<void> write_certificate_report(const std::filesystem::path& directory,
                                         const LoadedScene& loaded,
                                         const report::Certificate& certificate,
-                                        const std::vector<oracle::Candidate>& candidates,
-                                        bool times) {
+                                        const std::vector<Claims>& candidates, bool times) {
   std::error_code failed;
   std::filesystem::create_directories(directory, failed);
   if (failed) {
@@ -159,11 +156,11 @@ Expected<void> write_certificate_report(const std::filesystem::path& directory,
   Pictures pictures(directory, loaded);
   // The run that is furthest off gives the main picture.
   const report::JudgedRun* worst = nullptr;
-  const oracle::Candidate* worst_candidate = nullptr;
+  const Claims* worst_candidate = nullptr;
   std::size_t next = 0;
   for (const report::JudgedRun& run : certificate.runs) {
     if (!run.report) continue;
-    const oracle::Candidate& candidate = candidates[next++];
+    const Claims& candidate = candidates[next++];
     if (run.report->verdict == oracle::Verdict::kIdentical) continue;
     if (run.report->verdict == oracle::Verdict::kFailed) {
       const auto done =

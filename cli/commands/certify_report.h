@@ -9,7 +9,7 @@
 
 #include "cli/common/algorithm_choice.h"
 #include "cli/common/scene_options.h"
-#include "gnomon/oracle/candidate.h"
+#include "gnomon/result/claims.h"
 #include "report/certificate/certificate.h"
 
 namespace gnomon::cli {
@@ -20,13 +20,11 @@ namespace gnomon::cli {
 Expected<void> write_certificate_report(const std::filesystem::path& directory,
                                         const LoadedScene& loaded,
                                         const report::Certificate& certificate,
-                                        const std::vector<oracle::Candidate>& candidates,
-                                        bool times);
+                                        const std::vector<Claims>& candidates, bool times);
 
 /// The exact answer of the chosen lights as the kernel `plane` has it, for pictures. Errors:
 /// kInterrupted, kLimit.
-Expected<oracle::Candidate> exact_fragments(const LoadedScene& loaded,
-                                            const AlgorithmChoice& algorithm = {});
+Expected<Claims> exact_fragments(const LoadedScene& loaded, const AlgorithmChoice& algorithm = {});
 
 }  // namespace gnomon::cli
 

@@ -28,7 +28,8 @@ int run_convert(const ConvertOptions& options) {
   }
   if (!format) {
     return report_usage("the name does not say which format to write",
-                        "an extension .json, .obj, .off or .ply, or --format", options.target);
+                        "an extension " + shown_scene_extensions() + ", or --format",
+                        options.target);
   }
   const auto scene = read_scene_with_lights(options.scene);
   if (!scene) return report_error(scene.error());
@@ -59,8 +60,8 @@ void add_convert_command(CLI::App& app, Action& action) {
       ->required()
       ->type_name("FILE");
   command.add_option("--format", options->format, "Format of OUT, whatever its name")
-      ->check(CLI::IsMember({"json", "obj", "off", "ply", "ply-binary"}))
-      ->type_name("json|obj|off|ply|ply-binary");
+      ->check(CLI::IsMember(format_names()))
+      ->type_name(CLI::detail::join(format_names(), "|"));
   command.callback([options, &action] { action = [options] { return run_convert(*options); }; });
 }
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gnomon fuzz: campaigns of scenes made by rule, on any kernel or foreign program.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -16,6 +14,7 @@
 #include "cli/common/jobs.h"
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
+#include "cli/common/progress.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/campaign_report.h"
 #include "fuzz/generate/generator.h"
@@ -42,55 +41,27 @@ struct FuzzOptions {
   std::string findings;
 };
 
-/// One line on a terminal, at most four times a second.
-class CampaignLine {
- public:
-  void show(const fuzz::CampaignProgress& progress) {
-    if (!terminal_) return;
-    std::string line = "fuzz " + grouped(progress.done);
-    if (progress.wanted > 0) line += " of " + grouped(progress.wanted);
-    line += " scenes, " + grouped(static_cast<std::uint64_t>(progress.cases_per_second)) + "/s";
-    if (progress.wanted > progress.done && progress.cases_per_second > 0) {
-      line +=
-          ", " +
-          clock(static_cast<double>(progress.wanted - progress.done) / progress.cases_per_second) +
-          " left";
-    }
-    line += ", " + grouped(progress.failing) + " failing, " + grouped(progress.signatures) +
-            (progress.signatures == 1 ? " kind of failure" : " kinds of failure");
-    std::fprintf(stderr, "\r%s\033[K", line.substr(0, 110).c_str());
-    std::fflush(stderr);
-    shown_ = true;
-  }
-  /// A line that stays, above the one that moves.
-  void say(const std::string& text) {
-    clear();
-    std::fprintf(stderr, "%s\n", text.c_str());
-  }
-  void show(const std::string& text) {
-    if (!terminal_) return;
-    std::fprintf(stderr, "\r%s\033[K", text.substr(0, 110).c_str());
-    std::fflush(stderr);
-    shown_ = true;
-  }
-  void clear() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-    shown_ = false;
-  }
+/// Hours, minutes and seconds.
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<std::uint64_t>(seconds);
+  char text[32];
+  std::snprintf(text, sizeof text, "%lu:%02lu:%02lu", static_cast<unsigned long>(whole / 3600),
+                static_cast<unsigned long>(whole / 60 % 60),
+                static_cast<unsigned long>(whole % 60));
+  return text;
+}
 
- private:
-  static std::string clock(double seconds) {
-    const auto whole = static_cast<std::uint64_t>(seconds);
-    char text[32];
-    std::snprintf(text, sizeof text, "%lu:%02lu:%02lu", static_cast<unsigned long>(whole / 3600),
-                  static_cast<unsigned long>(whole / 60 % 60),
-                  static_cast<unsigned long>(whole % 60));
-    return text;
+std::string progress_text(const fuzz::CampaignProgress& progress) {
+  std::string line = "fuzz " + grouped(progress.done);
+  if (progress.wanted > 0) line += " of " + grouped(progress.wanted);
+  line += " scenes, " + grouped(static_cast<std::uint64_t>(progress.cases_per_second)) + "/s";
+  if (progress.wanted > progress.done && progress.cases_per_second > 0) {
+    const double left = static_cast<double>(progress.wanted - progress.done);
+    line += ", " + clock_text(left / progress.cases_per_second) + " left";
   }
-
-  const bool terminal_ = ::isatty(STDERR_FILENO) != 0;
-  bool shown_ = false;
-};
+  return line + ", " + grouped(progress.failing) + " failing, " + grouped(progress.signatures) +
+         (progress.signatures == 1 ? " kind of failure" : " kinds of failure");
+}
 
 /// "K/N", shard K of N, from 0.
 Expected<fuzz::Shard> parse_shard(const std::string& text) {
@@ -158,7 +129,7 @@ int run_merge(const FuzzOptions& options) {
 int run_zoo(const FuzzOptions& options) {
   constexpr std::uint64_t kHunts = 5, kMostScenes = 1000;
   const ThreadLimit threads(1);
-  CampaignLine line;
+  ProgressLine line;
   std::vector<fuzz::ZooTally> tallies;
   bool all_found = true;
   for (const fuzz::ZooEntry& entry : fuzz::zoo()) {
@@ -191,7 +162,7 @@ int run_fuzz(const FuzzOptions& options) {
   fuzz::CampaignPlan plan;
   plan.seed = options.seed;
   plan.worker = std::move(*worker);
-  CampaignLine line;
+  ProgressLine line;
   fuzz::CampaignRun run;
   run.program = std::move(*program);
   run.database = options.database;
@@ -201,7 +172,9 @@ int run_fuzz(const FuzzOptions& options) {
   run.jobs = options.jobs != 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
   run.shard = *shard;
   run.keep = options.keep;
-  run.progress = [&](const fuzz::CampaignProgress& progress) { line.show(progress); };
+  run.progress = [&](const fuzz::CampaignProgress& progress) {
+    line.show(progress_text(progress));
+  };
   run.found = [&](const fuzz::CampaignFinding& finding) {
     line.say("found " + finding.signature + " in case " + std::to_string(finding.case_index) +
              " (" + finding.recipe + "): " + finding.failure.text);

@@ -134,11 +134,10 @@ Expected<void> ask_for_illumination(const IlluminateOptions& options, const Load
   shadows.keep_exact_points = true;
   if (loaded.lights.size() > 1) {
     // Fragments that have one class by each light come of the pipeline alone.
-    if (algorithm == "sectors") {
-      return fail(ErrorCode::kUsage, "--illuminate with several lights needs svbsp, not sectors",
-                  "--algorithm svbsp, or auto");
-    }
-    if (algorithm == kAutomaticName) shadows.algorithm = Algorithm::kAutomatic;
+    const auto choice = parse_algorithm_choice(
+        algorithm, {{"--illuminate with several lights", true, &Method::combines_lights}});
+    if (!choice) return tl::unexpected(choice.error());
+    if (algorithm == kAutomaticName) shadows.algorithm = MethodId::kAutomatic;
     shadows.combined = true;
   }
   return {};

@@ -15,7 +15,7 @@
 #include "cli/common/output.h"
 #include "cli/common/scene_options.h"
 #include "gnomon/algorithms/painters_order.h"
-#include "gnomon/oracle/read_candidate.h"
+#include "gnomon/result/read_claims.h"
 #include "report/pictures/picture.h"
 #include "report/pictures/shaded_picture.h"
 #include "report/text/number_text.h"
@@ -72,19 +72,18 @@ Expected<report::Camera> camera_of(const RenderOptions& options, const PreparedS
   return camera;
 }
 
-const oracle::CandidateLight* find_light(const oracle::Candidate& candidate,
-                                         const std::string& id) {
-  for (const oracle::CandidateLight& light : candidate.lights) {
+const ClaimedLight* find_light(const Claims& candidate, const std::string& id) {
+  for (const ClaimedLight& light : candidate.lights) {
     if (light.id == id) return &light;
   }
   return nullptr;
 }
 
 /// What is in shadow as a whole for a reason is none.
-std::size_t fragment_count(const oracle::CandidateLight& light) {
+std::size_t fragment_count(const ClaimedLight& light) {
   std::size_t count = 0;
-  for (const oracle::CandidatePolygon& polygon : light.polygons) {
-    for (const oracle::CandidateFragment& fragment : polygon.fragments) {
+  for (const ClaimedPolygon& polygon : light.polygons) {
+    for (const ClaimedFragment& fragment : polygon.fragments) {
       if (fragment.reason.empty()) ++count;
     }
   }
@@ -99,14 +98,14 @@ tl::unexpected<Error> missing_light(const std::string& file, const std::string& 
 }
 
 Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const RenderOptions& options) {
-  if (options.algorithm == kBothName) {
+  if (auto several = several_algorithms(options.algorithm); !several.empty()) {
     if (!options.result.empty() || !options.candidate.empty()) {
-      return fail(ErrorCode::kUsage, "--algorithm both shows exact answers",
+      return fail(ErrorCode::kUsage, "--algorithm " + options.algorithm + " shows exact answers",
                   "no RESULT and no --candidate");
     }
-    return both_algorithms();
+    return several;
   }
-  const auto algorithm = parse_algorithm_choice(options.algorithm, {}, kBothName);
+  const auto algorithm = parse_algorithm_choice(options.algorithm, {}, "both, all");
   if (!algorithm) return tl::unexpected(algorithm.error());
   return std::vector{*algorithm};
 }
@@ -114,7 +113,8 @@ Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const RenderOptions& op
 /// The scene by all lights asked for, as their illumination has it.
 Expected<void> render_illuminated(const RenderOptions& options, const LoadedScene& loaded,
                                   const report::Camera& camera) {
-  if (!options.result.empty() || !options.candidate.empty() || options.algorithm == kBothName) {
+  if (!options.result.empty() || !options.candidate.empty() ||
+      !several_algorithms(options.algorithm).empty()) {
     return fail(ErrorCode::kUsage, "--illuminate shows the exact answer",
                 "no RESULT, no --candidate, one algorithm");
   }
@@ -165,15 +165,15 @@ Expected<void> render(const RenderOptions& options) {
 
   // What is shown: a result if one is named, else the exact answer; marked is what a candidate has
   // otherwise.
-  std::deque<oracle::Candidate> kept;  // panels point into them
+  std::deque<Claims> kept;  // panels point into them
   for (const std::string& file : {options.result, options.candidate}) {
     if (file.empty()) continue;
-    auto result = oracle::read_candidate(file, loaded->scene);
+    auto result = read_claims(file, loaded->scene);
     if (!result) return tl::unexpected(result.error());
     kept.push_back(std::move(*result));
   }
-  const oracle::Candidate* candidate = options.candidate.empty() ? nullptr : &kept.back();
-  std::vector<const oracle::Candidate*> shown;
+  const Claims* candidate = options.candidate.empty() ? nullptr : &kept.back();
+  std::vector<const Claims*> shown;
   if (options.result.empty()) {
     for (const AlgorithmChoice& algorithm : *algorithms) {
       auto exact = exact_fragments(*loaded, algorithm);
@@ -225,10 +225,8 @@ void add_render_command(CLI::App& app, Action& action) {
   add_scene_options(command, options->scene);
   command.add_option("RESULT", options->result, "A result to show, with fragments")
       ->type_name("FILE");
-  add_algorithm_option(command, options->algorithm)
-      ->description(
-          "How the exact answer is found: sectors or svbsp (point and directional lights),\n"
-          "receiver or merged (area lights), auto (sectors, receiver), or both side by side");
+  add_algorithm_option(command, options->algorithm, "How the exact answer is found.",
+                       "auto: sectors and receiver; both, all: several methods side by side");
   command.add_option("--eye", options->eye, "Where the eye is [above a corner of the scene]")
       ->type_name("x,y,z");
   command.add_option("--look-at", options->look_at, "What it looks at [the middle of the scene]")

@@ -47,16 +47,16 @@ struct ShadowsOptions {
 int run_shadows(const ShadowsOptions& options) {
   auto kernel = parse_kernel_choice(options.kernel);
   if (!kernel) return report_error(kernel.error());
-  auto algorithm =
-      parse_algorithm_choice(options.algorithm, {{"--combined", options.combined, true},
-                                                 {"--no-merge", options.no_merge},
-                                                 {"--no-prefix", options.no_prefix}});
+  auto algorithm = parse_algorithm_choice(
+      options.algorithm, {{"--combined", options.combined, &Method::combines_lights},
+                          {"--no-merge", options.no_merge, &Method::leaves_out_steps},
+                          {"--no-prefix", options.no_prefix, &Method::leaves_out_steps}});
   if (!algorithm) return report_error(algorithm.error());
   if (options.pieces) {
-    if (algorithm->point == Algorithm::kReceiver) {
+    if (algorithm->point == MethodId::kReceiver) {
       return report_usage("--pieces needs merged, not receiver", "--algorithm merged, or auto");
     }
-    algorithm->area = AreaAlgorithm::kPieces;
+    algorithm->area = MethodId::kPieces;
   }
   for (const auto& [option, given] : {std::pair("--exact-fractions", options.exact_fractions),
                                       std::pair("--exact-loops", options.exact_loops),

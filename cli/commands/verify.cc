@@ -10,8 +10,8 @@
 #include "cli/common/progress.h"
 #include "cli/common/scene_options.h"
 #include "gnomon/oracle/prepared_check.h"
-#include "gnomon/oracle/read_candidate.h"
 #include "gnomon/oracle/witness_check.h"
+#include "gnomon/result/read_claims.h"
 #include "report/json/json_writer.h"
 #include "report/text/number_text.h"
 #include "report/text/table.h"
@@ -93,7 +93,7 @@ int run_verify(const VerifyOptions& options) {
   const ThreadLimit threads(options.scene.jobs);
   const auto loaded = load_scene(options.scene, true);
   if (!loaded) return report_error(loaded.error());
-  const auto candidate = oracle::read_candidate(options.result, loaded->scene);
+  const auto candidate = read_claims(options.result, loaded->scene);
   if (!candidate) return report_error(candidate.error());
   const auto scene_findings = oracle::check_prepared(loaded->scene, loaded->prepared);
 

@@ -7,47 +7,37 @@ namespace gnomon::cli {
 
 namespace {
 
-constexpr std::string_view kSvbspName = "svbsp";
-constexpr std::string_view kSectorsName = "sectors";
-constexpr std::string_view kReceiverName = "receiver";
-constexpr std::string_view kMergedName = "merged";
-constexpr std::string_view kPiecesName = "pieces";
-
-std::string_view name_of(Algorithm algorithm) {
-  switch (algorithm) {
-    case Algorithm::kAutomatic:
-      return kAutomaticName;
-    case Algorithm::kSvbsp:
-      return kSvbspName;
-    case Algorithm::kSectors:
-      return kSectorsName;
-    case Algorithm::kReceiver:
-      return kReceiverName;
+/// "sectors (needs no order), svbsp (...)": the methods for lights of one kind, for a help text.
+std::string described(LightKinds lights) {
+  std::string text;
+  for (const Method& method : methods()) {
+    const bool takes = (lights.point && method.lights.point) || (lights.area && method.lights.area);
+    if (!method.chosen_by_name || !takes) continue;
+    text += (text.empty() ? "" : ",\n  ") + std::string(method.name) + " (" +
+            std::string(method.summary) + ")";
   }
-  return {};
+  return text;
 }
 
-std::string_view name_of(AreaAlgorithm algorithm) {
-  switch (algorithm) {
-    case AreaAlgorithm::kReceiver:
-      return kReceiverName;
-    case AreaAlgorithm::kMerged:
-      return kMergedName;
-    case AreaAlgorithm::kPieces:
-      return kPiecesName;
+/// The method that `auto` takes for point and directional lights: the first that can do all that is
+/// needed.
+MethodId automatic_method(std::initializer_list<NeedyOption> needs) {
+  for (const Method& method : methods()) {
+    const bool can = std::ranges::all_of(
+        needs, [&](const NeedyOption& option) { return !option.given || method.*option.ability; });
+    if (method.lights.point && can) return method.id;
   }
-  return {};
+  return MethodId::kSectors;
 }
 
 }  // namespace
 
-CLI::Option* add_algorithm_option(CLI::App& command, std::string& name) {
-  return command
-      .add_option("--algorithm", name,
-                  "How shadows are found. Point and directional lights: sectors (needs no order)\n"
-                  "or svbsp (front to back by a scene BSP); area lights: receiver (each polygon\n"
-                  "against its casters; point lights too) or merged (two trees of all casters);\n"
-                  "auto: sectors and receiver wherever they can do what is asked")
+CLI::Option* add_algorithm_option(CLI::App& command, std::string& name, std::string_view question,
+                                  std::string_view besides) {
+  std::string text(question);
+  text += "\nPoint and directional lights: " + described({.point = true});
+  text += ";\narea lights: " + described({.area = true}) + ";\n";
+  return command.add_option("--algorithm", name, text + std::string(besides))
       ->type_name("A")
       ->default_str(std::string(kAutomaticName));
 }
@@ -59,42 +49,59 @@ std::string AlgorithmChoice::name(const LoadedScene& loaded) const {
       return (loaded.scene.lights[light].type == LightType::kArea) == area;
     });
   };
-  if (has(false)) name = name_of(point);
-  if (has(true) && name_of(area) != name)
-    name += (name.empty() ? "" : "+") + std::string(name_of(area));
+  if (has(false)) name = method_info(point).name;
+  const std::string area_name(method_info(area).name);
+  if (has(true) && area_name != name) name += (name.empty() ? "" : "+") + area_name;
   return name;
 }
 
 Expected<AlgorithmChoice> parse_algorithm_choice(std::string_view name,
                                                  std::initializer_list<NeedyOption> needs,
                                                  std::string_view also) {
-  const auto need = std::ranges::find(needs, true, &NeedyOption::given);
-  const Algorithm point = need == needs.end() ? Algorithm::kSectors : Algorithm::kSvbsp;
-  if (name == kSvbspName) return AlgorithmChoice{.point = Algorithm::kSvbsp};
-  if (name == kAutomaticName) return AlgorithmChoice{.point = point};
-  if (name == kMergedName) return AlgorithmChoice{.point = point, .area = AreaAlgorithm::kMerged};
-  if (name != kSectorsName && name != kReceiverName) {
-    std::string names("one of: ");
-    for (const std::string_view known :
-         {kAutomaticName, kSectorsName, kSvbspName, kReceiverName, kMergedName, also}) {
-      if (!known.empty()) names += (known == kAutomaticName ? "" : ", ") + std::string(known);
-    }
+  AlgorithmChoice choice{.point = automatic_method(needs)};
+  if (name == kAutomaticName) return choice;
+  const std::optional<MethodId> id = method_by_name(name);
+  if (!id) {
+    std::string names = "one of: " + std::string(kAutomaticName) + ", " +
+                        method_names({.point = true, .area = true});
+    if (!also.empty()) names += ", " + std::string(also);
     return fail(ErrorCode::kUsage, "--algorithm " + std::string(name) + ": no such algorithm",
                 std::move(names));
   }
-  const bool receiver = name == kReceiverName;
-  for (const NeedyOption& option : needs) {
-    if (!option.given || (receiver && option.receiver_can)) continue;
-    return fail(ErrorCode::kUsage,
-                std::string(option.name) + " needs svbsp, not " + std::string(name),
-                "--algorithm svbsp, or auto");
+  const Method& method = method_info(*id);
+  if (!method.lights.point) {
+    choice.area = *id;
+    return choice;
   }
-  return AlgorithmChoice{.point = receiver ? Algorithm::kReceiver : Algorithm::kSectors};
+  for (const NeedyOption& option : needs) {
+    if (!option.given || method.*option.ability) continue;
+    const std::string able(method_info(automatic_method({option})).name);
+    return fail(ErrorCode::kUsage,
+                std::string(option.name) + " needs " + able + ", not " + std::string(name),
+                "--algorithm " + able + ", or auto");
+  }
+  choice.point = *id;
+  return choice;
 }
 
-std::vector<AlgorithmChoice> both_algorithms() {
-  return {{.point = Algorithm::kSectors, .area = AreaAlgorithm::kReceiver},
-          {.point = Algorithm::kSvbsp, .area = AreaAlgorithm::kMerged}};
+std::vector<AlgorithmChoice> several_algorithms(std::string_view name) {
+  if (name == kBothName) {
+    return {{.point = MethodId::kSectors, .area = MethodId::kReceiver},
+            {.point = MethodId::kSvbsp, .area = MethodId::kMerged}};
+  }
+  if (name != kAllName) return {};
+  // Pairs of a method for point lights and one for area lights, until each has been in a pair.
+  std::vector<MethodId> point, area;
+  for (const Method& method : methods()) {
+    if (method.chosen_by_name && method.lights.point) point.push_back(method.id);
+    if (method.chosen_by_name && method.lights.area) area.push_back(method.id);
+  }
+  std::vector<AlgorithmChoice> choices;
+  for (std::size_t i = 0; i < std::max(point.size(), area.size()); ++i) {
+    choices.push_back({.point = point[std::min(i, point.size() - 1)],
+                       .area = area[std::min(i, area.size() - 1)]});
+  }
+  return choices;
 }
 
 }  // namespace gnomon::cli

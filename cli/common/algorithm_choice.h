@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Algorithms as they are named on the command line: `sectors` and `svbsp` for point and directional
-// lights, `receiver` and `merged` for area lights, `auto`, `both`.
+// Methods as they are named on the command line: those of the table of methods, `auto`, and for
+// commands that compare, `both` and `all`.
 #ifndef GNOMON_CLI_COMMON_ALGORITHM_CHOICE_H
 #define GNOMON_CLI_COMMON_ALGORITHM_CHOICE_H
 
@@ -19,35 +19,41 @@ namespace gnomon::cli {
 inline constexpr std::string_view kAutomaticName = "auto";
 /// For commands that take each of them.
 inline constexpr std::string_view kBothName = "both";
+inline constexpr std::string_view kAllName = "all";
 
-/// --algorithm, into `name`.
-CLI::Option* add_algorithm_option(CLI::App& command, std::string& name);
+/// --algorithm, into `name`. `question` opens the help text, `besides` says what the command takes
+/// beyond names of methods.
+CLI::Option* add_algorithm_option(
+    CLI::App& command, std::string& name, std::string_view question = "How shadows are found.",
+    std::string_view besides = "auto: sectors and receiver wherever they can do what is asked");
 
-/// An option of the command line that only some algorithms can serve, and whether it was given.
+/// An option of the command line that only some methods can serve, and whether it was given.
 struct NeedyOption {
   std::string_view name;  // such as "--combined"
   bool given = false;
-  bool receiver_can = false;  // svbsp can anyhow
+  bool Method::*ability;  // what the method needs for it
 };
 
 struct AlgorithmChoice {
-  Algorithm point = Algorithm::kSectors;  // for point and directional lights
-  AreaAlgorithm area = AreaAlgorithm::kReceiver;
+  MethodId point = MethodId::kSectors;  // for point and directional lights
+  MethodId area = MethodId::kReceiver;
 
   /// Such as "sectors", "merged" or "sectors+receiver", by the lights that there are.
   std::string name(const LoadedScene& loaded) const;
   friend bool operator==(const AlgorithmChoice&, const AlgorithmChoice&) = default;
 };
 
-/// `auto` is sectors and receiver; where one of `needs` was given svbsp stands for sectors, unless
-/// `sectors` was asked for by name. Errors: kUsage, for an unknown name (`also`: what the command
-/// takes besides), and for an algorithm that cannot do what was asked.
+/// `auto` is sectors and receiver; where one of `needs` was given, the first method of point lights
+/// that can serve it stands for sectors, unless sectors was asked for by name. Errors: kUsage, for
+/// an unknown name (`also`: what the command takes besides), and for a method that cannot do what
+/// was asked.
 Expected<AlgorithmChoice> parse_algorithm_choice(std::string_view name,
                                                  std::initializer_list<NeedyOption> needs = {},
                                                  std::string_view also = {});
 
-/// What `both` stands for: sectors and receiver, then svbsp and merged.
-std::vector<AlgorithmChoice> both_algorithms();
+/// The methods that `both` (sectors and receiver, then svbsp and merged) or `all` (every method
+/// that takes lights of the scene) stands for; none if `name` is neither.
+std::vector<AlgorithmChoice> several_algorithms(std::string_view name);
 
 }  // namespace gnomon::cli
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where a command's result goes: standard output, or a file that appears whole or not at all
-// (scene/output_file.h), buffered. A pipe whose reader has gone is no error: nobody is left to
+// (scene/base/output_file.h), buffered. A pipe whose reader has gone is no error: nobody is left to
 // tell.
 #ifndef GNOMON_CLI_COMMON_OUTPUT_H
 #define GNOMON_CLI_COMMON_OUTPUT_H

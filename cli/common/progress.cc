@@ -9,13 +9,32 @@
 
 namespace gnomon::cli {
 
-ProgressBar::ProgressBar(std::string what)
-    : terminal_(::isatty(STDERR_FILENO) != 0),
-      what_(std::move(what)),
-      next_(Clock::now() + kDelay) {}
+ProgressLine::ProgressLine() : terminal_(::isatty(STDERR_FILENO) != 0) {}
+
+void ProgressLine::show(const std::string& text) {
+  if (!terminal_) return;
+  constexpr std::size_t kMostShown = 110;
+  std::fprintf(stderr, "\r%s\033[K", text.substr(0, kMostShown).c_str());
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void ProgressLine::say(const std::string& text) {
+  clear();
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+void ProgressLine::clear() {
+  if (!shown_) return;
+  std::fputs("\r\033[K", stderr);
+  std::fflush(stderr);
+  shown_ = false;
+}
+
+ProgressBar::ProgressBar(std::string what) : what_(std::move(what)), next_(Clock::now() + kDelay) {}
 
 void ProgressBar::show(double done) {
-  if (!terminal_) return;
+  if (!line_.on_terminal()) return;
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();
   if (now < next_) return;
@@ -24,14 +43,9 @@ void ProgressBar::show(double done) {
   const double share = std::isfinite(done) ? std::clamp(done, 0.0, 1.0) : 0;
   const int filled = static_cast<int>(share * kCells);
   const std::string number = std::to_string(static_cast<int>(share * 100));
-  std::string line = what_.substr(0, 36) + " [" + std::string(filled, '#') +
-                     std::string(kCells - filled, '.') + "] " +
-                     std::string(3 - number.size(), ' ') + number + " %";
-  const std::size_t width = line.size();
-  if (width < shown_width_) line.append(shown_width_ - width, ' ');
-  shown_width_ = std::max(width, shown_width_);
-  std::fprintf(stderr, "\r%s", line.c_str());
-  std::fflush(stderr);
+  line_.show(what_.substr(0, 36) + " [" + std::string(filled, '#') +
+             std::string(kCells - filled, '.') + "] " + std::string(3 - number.size(), ' ') +
+             number + " %");
 }
 
 void ProgressBar::set_label(std::string what) {
@@ -41,14 +55,11 @@ void ProgressBar::set_label(std::string what) {
 
 void ProgressBar::clear() {
   const std::lock_guard lock(mutex_);
-  if (shown_width_ == 0) return;
-  std::fprintf(stderr, "\r%s\r", std::string(shown_width_, ' ').c_str());
-  std::fflush(stderr);
-  shown_width_ = 0;
+  line_.clear();
 }
 
 std::function<void(double)> ProgressBar::callback() {
-  if (!terminal_) return {};
+  if (!line_.on_terminal()) return {};
   return [this](double done) { show(done); };
 }
 

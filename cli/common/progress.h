@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A progress bar on standard error: only on a terminal, and only for work that takes longer than a
-// second; in a pipe or a log there is nothing. May be told from several threads.
+// What moves on standard error while a command works: one line, rewritten in place, and only on a
+// terminal; in a pipe or a log there is nothing.
 #ifndef GNOMON_CLI_COMMON_PROGRESS_H
 #define GNOMON_CLI_COMMON_PROGRESS_H
 
@@ -11,12 +11,32 @@
 
 namespace gnomon::cli {
 
+class ProgressLine {
+ public:
+  ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ~ProgressLine() { clear(); }
+
+  bool on_terminal() const { return terminal_; }
+  /// Replaces the line.
+  void show(const std::string& text);
+  /// Prints a line that stays, above the one that moves; in pipes and logs too.
+  void say(const std::string& text);
+  /// Takes the line off the screen.
+  void clear();
+
+ private:
+  const bool terminal_;
+  bool shown_ = false;
+};
+
+/// How far some work is, once it has taken longer than a second. May be told from several threads.
 class ProgressBar {
  public:
   explicit ProgressBar(std::string what);
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
-  ~ProgressBar() { clear(); }
 
   /// The fraction of the work that is done, 0..1.
   void show(double done);
@@ -33,11 +53,10 @@ class ProgressBar {
   static constexpr std::chrono::milliseconds kDelay{1000};
   static constexpr std::chrono::milliseconds kInterval{100};
 
-  const bool terminal_;
   std::mutex mutex_;
+  ProgressLine line_;
   std::string what_;
   Clock::time_point next_;
-  std::size_t shown_width_ = 0;
 };
 
 }  // namespace gnomon::cli

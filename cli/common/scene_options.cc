@@ -41,8 +41,8 @@ void add_numbers_option(CLI::App& command, std::string& numbers) {
 }
 
 CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options) {
-  CLI::Option* scene = command.add_option("SCENE", options.scene,
-                                          "Scene file: .json, .obj, .off or .ply; - reads JSON");
+  CLI::Option* scene = command.add_option(
+      "SCENE", options.scene, "Scene file: " + shown_scene_extensions() + "; - reads JSON");
   scene->required()->type_name("FILE");
   add_numbers_option(command, options.numbers);
   repeatable(command.add_option("--point", options.points, "Add a point light x,y,z (repeatable)"))

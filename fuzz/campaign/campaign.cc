@@ -13,9 +13,9 @@
 
 #include "fuzz/campaign/campaign_database.h"
 #include "fuzz/generate/generator.h"
-#include "fuzz/text/text_hash.h"
 #include "fuzz/workers/worker_pool.h"
 #include "report/text/number_text.h"
+#include "scene/base/text_hash.h"
 
 namespace gnomon::fuzz {
 

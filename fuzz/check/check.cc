@@ -7,27 +7,24 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
-#include <new>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "fuzz/check/judged_scene.h"
+#include "fuzz/mistakes/compute.h"
 #include "fuzz/moves/metamorphic.h"
 #include "fuzz/process/command.h"
-#include "gnomon/algorithms/shadows.h"
-#include "gnomon/oracle/exact_answer.h"
 #include "gnomon/oracle/prepared_check.h"
-#include "gnomon/oracle/read_candidate.h"
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/oracle/witness_check.h"
+#include "gnomon/result/read_claims.h"
 #include "gnomon/scene/digest.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/write.h"
 #include "report/json/result_json.h"
-#include "report/sides/candidate_from_result.h"
 
 namespace gnomon::fuzz {
 
@@ -71,16 +68,15 @@ std::string scene_difference(const Scene& a, const Scene& b) {
   return {};
 }
 
-std::string fragment_difference(const oracle::CandidatePolygon& a,
-                                const oracle::CandidatePolygon& b) {
+std::string fragment_difference(const ClaimedPolygon& a, const ClaimedPolygon& b) {
   if (a.lit_fraction != b.lit_fraction || a.penumbra_fraction != b.penumbra_fraction ||
       a.umbra_fraction != b.umbra_fraction) {
     return "fractions";
   }
   if (a.fragments.size() != b.fragments.size()) return "the number of fragments";
   for (std::size_t i = 0; i < a.fragments.size(); ++i) {
-    const oracle::CandidateFragment &f = a.fragments[i], &g = b.fragments[i];
-    if (f.shade != g.shade || f.caster != g.caster || f.loop != g.loop) {
+    const ClaimedFragment &f = a.fragments[i], &g = b.fragments[i];
+    if (f.state != g.state || f.caster != g.caster || f.loop != g.loop) {
       return "fragment " + std::to_string(i);
     }
   }
@@ -125,7 +121,7 @@ class SceneCheck {
         scene_.lights, [](const Light& light) { return light.type == LightType::kArea; }));
     guarded("prepare", "preparation", [&] { check_preparation(); });
     if (!prepared_ || scene_.lights.empty()) return std::move(report_);
-    answer_.emplace(scene_, *prepared_);
+    judged_.emplace(scene_, *prepared_);
     for (const Subject& subject : options_.subjects) {
       const std::string name = name_of(subject);
       report_.subjects.push_back(name);
@@ -142,12 +138,12 @@ class SceneCheck {
   template <class Step>
   void guarded(const std::string& subject, const std::string& stage, const Step& step) {
     tell(stage);
-    try {
-      step();
-    } catch (const std::bad_alloc&) {
+    const std::optional<Thrown> thrown = thrown_by(step);
+    if (!thrown) return;
+    if (thrown->out_of_memory) {
       add({Property::kBudget, subject, "memory", {}, {}, stage + ": out of memory"});
-    } catch (const std::exception& error) {
-      add({Property::kCrash, subject, "exception", {}, {}, stage + ": " + error.what()});
+    } else {
+      add({Property::kCrash, subject, "exception", {}, {}, stage + ": " + thrown->what});
     }
   }
 
@@ -214,7 +210,7 @@ class SceneCheck {
     if (subject.foreign()) return check_foreign(subject, name);
     ShadowOptions options = shadow_options(subject);
     options.max_fragments = options_.max_fragments;
-    Expected<ShadowResult> result = compute_shadows(*prepared_, options);
+    Expected<ShadowResult> result = compute_shadows(*prepared_, options, subject.mistake);
     if (!result) return add_error(result.error(), name);
     if (report_.fragments == 0) {
       for (const LightResult& light : result->lights) report_.fragments += light.fragment_total;
@@ -227,11 +223,10 @@ class SceneCheck {
       compare_with_first(*result, name);
       if (options_.brief) return;
     }
-    const oracle::Candidate candidate =
-        report::candidate_from_result(scene_, *prepared_, *result, name, subject.kernel.exact());
-    judge(subject, candidate, name);
-    if (is_first && wanted(Property::kRoundTrip)) check_result_text(*result, candidate, name);
-    if (is_first) first_ = std::move(*result);
+    Classified classified = judged_->claim(std::move(*result), options, name);
+    judge(subject, classified.claims, name);
+    if (is_first && wanted(Property::kRoundTrip)) check_result_text(classified, name);
+    if (is_first) first_ = std::move(classified.result);
   }
 
   void check_foreign(const Subject& subject, const std::string& name) {
@@ -262,15 +257,14 @@ class SceneCheck {
     if (result->status != 0) {
       return ended(Property::kRefusal, fmt::format("status {}", result->status));
     }
-    const Expected<oracle::Candidate> candidate =
-        oracle::parse_candidate(result->out, "result", scene_);
+    const Expected<Claims> candidate = parse_claims(result->out, "result", scene_);
     if (!candidate) {
       return add({Property::kRoundTrip, name, "unreadable", {}, {}, to_string(candidate.error())});
     }
     judge(subject, *candidate, name);
   }
 
-  void judge(const Subject& subject, const oracle::Candidate& candidate, const std::string& name) {
+  void judge(const Subject& subject, const Claims& candidate, const std::string& name) {
     const bool must_be_exact = subject.exact() || options_.strict;
     // How grave a false claim of a rounded result is, only the oracle can tell.
     const bool claims = !subject.foreign() && wanted(Property::kClaims);
@@ -281,9 +275,8 @@ class SceneCheck {
       options.tolerance = options_.tolerance;
       options.width = options_.width;
       options.strict = must_be_exact;
-      options.threads = 1;
       options.most_regions = 4;
-      const Expected<oracle::Report> report = oracle::certify(*answer_, candidate, options);
+      const Expected<oracle::Report> report = judged_->judge(candidate, options);
       if (!report) return add_error(report.error(), name);
       if (report->oracle_fault) {
         add({Property::kSelf, name, "contradiction", {}, {}, report->reason});
@@ -382,23 +375,23 @@ class SceneCheck {
     }
   }
 
-  void check_result_text(const ShadowResult& result, const oracle::Candidate& candidate,
-                         const std::string& name) {
+  void check_result_text(const Classified& classified, const std::string& name) {
+    const Claims& candidate = classified.claims;
     report::StringSink sink;
     report::ResultJsonOptions options;
     options.geometry_digest = "sha256:0";
     options.fragments = false;
     options.exact_fractions = options.exact_loops = true;
-    report::write_result_json(sink, scene_, *prepared_, result, options);
-    const Expected<oracle::Candidate> read =
-        oracle::parse_candidate(sink.text(), "result.json", scene_);
+    options.sides = &classified.sides;
+    report::write_result_json(sink, scene_, *prepared_, classified.result, options);
+    const Expected<Claims> read = parse_claims(sink.text(), "result.json", scene_);
     const auto differ = [&](std::string text) {
       add({Property::kRoundTrip, name, "result", {}, {}, std::move(text)});
     };
     if (!read) return differ(to_string(read.error()));
     if (read->lights.size() != candidate.lights.size()) return differ("other lights read back");
     for (std::size_t l = 0; l < read->lights.size(); ++l) {
-      const oracle::CandidateLight &a = candidate.lights[l], &b = read->lights[l];
+      const ClaimedLight &a = candidate.lights[l], &b = read->lights[l];
       if (a.polygons.size() != b.polygons.size()) return differ("other sides read back");
       for (std::size_t i = 0; i < a.polygons.size(); ++i) {
         const std::string difference = fragment_difference(a.polygons[i], b.polygons[i]);
@@ -432,7 +425,7 @@ class SceneCheck {
   const CheckOptions& options_;
   CaseReport report_;
   std::optional<PreparedScene> prepared_;
-  std::optional<oracle::ExactAnswer> answer_;
+  std::optional<JudgedScene> judged_;
   const Subject* first_exact_ = nullptr;
   ShadowResult first_;
 };

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "fuzz/check/property.h"
-#include "fuzz/text/json_members.h"
 #include "report/json/json_writer.h"
+#include "scene/json/json_members.h"
 
 namespace gnomon::fuzz {
 

@@ -9,54 +9,29 @@ namespace gnomon::fuzz {
 namespace {
 
 constexpr std::string_view kCommandPrefix = "command:";
-constexpr std::array kPointAlgorithms = {
-    std::pair{std::string_view("sectors"), Algorithm::kSectors},
-    std::pair{std::string_view("svbsp"), Algorithm::kSvbsp},
-    std::pair{std::string_view("receiver"), Algorithm::kReceiver},
-};
-constexpr std::array kAreaAlgorithms = {
-    std::pair{std::string_view("receiver"), AreaAlgorithm::kReceiver},
-    std::pair{std::string_view("merged"), AreaAlgorithm::kMerged},
-};
-
-template <class Table, class Value>
-std::string_view name_in(const Table& table, Value value) {
-  for (const auto& [name, own] : table) {
-    if (own == value) return name;
-  }
-  return table.front().first;
-}
-
-template <class Value, class Table>
-std::optional<Value> value_in(const Table& table, std::string_view name) {
-  for (const auto& [own, value] : table) {
-    if (own == name) return value;
-  }
-  return std::nullopt;
-}
-
-template <class Table>
-std::string names_in(const Table& table) {
-  std::string names;
-  for (const auto& entry : table) names += (names.empty() ? "" : ", ") + std::string(entry.first);
-  return names;
+/// The method of that name if it takes lights of that kind.
+std::optional<MethodId> method_for(LightKinds lights, std::string_view name) {
+  const std::optional<MethodId> id = method_by_name(name);
+  if (!id) return std::nullopt;
+  const LightKinds takes = method_info(*id).lights;
+  return (lights.point && takes.point) || (lights.area && takes.area) ? id : std::nullopt;
 }
 
 /// A mistake that its kernel and its algorithms cannot make would be looked for in vain.
-Expected<void> check_mutation(const Subject& subject, const std::string& whole) {
-  const std::string mutation(name_of(subject.mutation));
-  if (subject.mutation == Mutation::kTVerticesLeftIn) {
-    return fail(ErrorCode::kUsage, "'" + whole + "': " + mutation + " is a mistake of meshes",
+Expected<void> check_mistake(const Subject& subject, const std::string& whole) {
+  const std::string mistake(name_of(subject.mistake));
+  if (subject.mistake == Mistake::kTVerticesLeftIn) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': " + mistake + " is a mistake of meshes",
                 "a mistake of shadows; --zoo looks for this one");
   }
-  if (subject.mutation == Mutation::kThicknessTooSmall && subject.kernel.thin) {
+  if (subject.mistake == Mistake::kThicknessTooSmall && subject.kernel.thin) {
     return fail(ErrorCode::kUsage, "'" + whole + "': its planes have no thickness anyway",
                 "a kernel without +thin");
   }
   const KernelId kernel = subject.kernel.kernel;
-  if (!applies_to(subject.mutation, kernel, subject.algorithm) &&
-      !applies_to(subject.mutation, kernel, subject.area_algorithm)) {
-    return fail(ErrorCode::kUsage, "'" + whole + "': " + mutation + " changes nothing there",
+  if (!applies_to(subject.mistake, kernel, subject.algorithm) &&
+      !applies_to_area(subject.mistake, kernel, subject.area_algorithm)) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': " + mistake + " changes nothing there",
                 "a kernel and an algorithm that it applies to (docs/bug-zoo.md)");
   }
   return {};
@@ -67,12 +42,12 @@ Expected<void> check_mutation(const Subject& subject, const std::string& whole) 
 std::string name_of(const Subject& subject) {
   if (subject.foreign()) return std::string(kCommandPrefix) + subject.command;
   std::string name = subject.kernel.name();
-  const bool usual_area = subject.area_algorithm == AreaAlgorithm::kReceiver;
-  if (subject.algorithm != Algorithm::kSectors || !usual_area) {
-    name += '/' + std::string(name_in(kPointAlgorithms, subject.algorithm));
+  const bool usual_area = subject.area_algorithm == MethodId::kReceiver;
+  if (subject.algorithm != MethodId::kSectors || !usual_area) {
+    name += '/' + std::string(method_info(subject.algorithm).name);
   }
-  if (!usual_area) name += '/' + std::string(name_in(kAreaAlgorithms, subject.area_algorithm));
-  if (subject.mutation != Mutation::kNone) name += '~' + std::string(name_of(subject.mutation));
+  if (!usual_area) name += '/' + std::string(method_info(subject.area_algorithm).name);
+  if (subject.mistake != Mistake::kNone) name += '~' + std::string(name_of(subject.mistake));
   return name;
 }
 
@@ -85,15 +60,15 @@ Expected<Subject> parse_subject(std::string_view text) {
     return subject;
   }
   if (const std::size_t at = text.find('~'); at != std::string_view::npos) {
-    const auto mutation = mutation_by_name(text.substr(at + 1));
-    if (!mutation) {
+    const auto mistake = mistake_by_name(text.substr(at + 1));
+    if (!mistake) {
       std::string names;
-      for (const MutationInfo& info : mutations()) {
+      for (const MistakeInfo& info : mistakes()) {
         names += (names.empty() ? "" : ", ") + std::string(info.name);
       }
       return fail(ErrorCode::kUsage, "'" + whole + "': no such mutation", "one of: " + names);
     }
-    subject.mutation = *mutation;
+    subject.mistake = *mistake;
     text = text.substr(0, at);
   }
   std::array<std::string_view, 2> algorithms;
@@ -113,22 +88,22 @@ Expected<Subject> parse_subject(std::string_view text) {
   if (!kernel) return tl::unexpected(kernel.error());
   subject.kernel = *kernel;
   if (!algorithms[0].empty()) {
-    const auto algorithm = value_in<Algorithm>(kPointAlgorithms, algorithms[0]);
+    const auto algorithm = method_for({.point = true}, algorithms[0]);
     if (!algorithm) {
       return fail(ErrorCode::kUsage, "'" + whole + "': no such algorithm for point lights",
-                  "one of: " + names_in(kPointAlgorithms));
+                  "one of: " + method_names({.point = true}));
     }
     subject.algorithm = *algorithm;
   }
   if (!algorithms[1].empty()) {
-    const auto algorithm = value_in<AreaAlgorithm>(kAreaAlgorithms, algorithms[1]);
+    const auto algorithm = method_for({.area = true}, algorithms[1]);
     if (!algorithm) {
       return fail(ErrorCode::kUsage, "'" + whole + "': no such algorithm for area lights",
-                  "one of: " + names_in(kAreaAlgorithms));
+                  "one of: " + method_names({.area = true}));
     }
     subject.area_algorithm = *algorithm;
   }
-  if (const auto checked = check_mutation(subject, whole); !checked) {
+  if (const auto checked = check_mistake(subject, whole); !checked) {
     return tl::unexpected(checked.error());
   }
   return subject;
@@ -141,7 +116,6 @@ ShadowOptions shadow_options(const Subject& subject) {
   if (subject.kernel.thin) options.thickness = 0;
   options.algorithm = subject.algorithm;
   options.area_algorithm = subject.area_algorithm;
-  options.mutation = subject.mutation;
   options.jobs = 1;
   options.keep_exact_points = true;
   options.exact_fractions = subject.kernel.exact();

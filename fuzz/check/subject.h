@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "fuzz/check/kernel_choice.h"
-#include "gnomon/algorithms/mutation.h"
+#include "fuzz/mistakes/mistake.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/error.h"
 
@@ -17,28 +17,29 @@ namespace gnomon::fuzz {
 
 struct Subject {
   KernelChoice kernel;
-  Algorithm algorithm = Algorithm::kSectors;                // of point and directional lights
-  AreaAlgorithm area_algorithm = AreaAlgorithm::kReceiver;  // of area lights
-  Mutation mutation = Mutation::kNone;
+  MethodId algorithm = MethodId::kSectors;        // of point and directional lights
+  MethodId area_algorithm = MethodId::kReceiver;  // of area lights
+  Mistake mistake = Mistake::kNone;
   // A foreign program: a command line, run by the shell with the scene's file as its last argument;
   // the result is its standard output. Not empty: nothing above counts.
   std::string command;
 
   bool foreign() const { return !command.empty(); }
   /// Anything but the exact answer is a bug of ours.
-  bool exact() const { return !foreign() && kernel.exact() && mutation == Mutation::kNone; }
+  bool exact() const { return !foreign() && kernel.exact() && mistake == Mistake::kNone; }
   friend bool operator==(const Subject&, const Subject&) = default;
 };
 
-/// KERNEL[+identity][+thin][/ALGORITHM[/AREA-ALGORITHM]][~MUTATION], such as "double+identity",
+/// KERNEL[+identity][+thin][/ALGORITHM[/AREA-ALGORITHM]][~MISTAKE], such as "double+identity",
 /// "plane/svbsp/merged" or "plane/svbsp~coplanar-in-sequence"; algorithms that are the default are
 /// left out. A foreign program's name is "command:" and its command line.
 std::string name_of(const Subject& subject);
-/// Errors: kUsage, with the names that there are; for a mutation that changes nothing of what that
+/// Errors: kUsage, with the names that there are; for a mistake that changes nothing of what that
 /// kernel and those algorithms do.
 Expected<Subject> parse_subject(std::string_view text);
 
-/// Options that run it: exact points kept, exact fractions if it has them, one thread.
+/// Options that run it, but for its mistake: exact points kept, exact fractions if it has them, one
+/// thread. compute_shadows(scene, options, subject.mistake) adds the mistake (mistakes/compute.h).
 ShadowOptions shadow_options(const Subject& subject);
 
 }  // namespace gnomon::fuzz

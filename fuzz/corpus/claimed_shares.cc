@@ -10,7 +10,8 @@
 #include <utility>
 
 #include "fuzz/text/rational_text.h"
-#include "report/sides/polygon_sides.h"
+#include "gnomon/result/classes.h"
+#include "report/sides/part_area.h"
 
 namespace gnomon::fuzz {
 
@@ -90,7 +91,7 @@ class Comparison {
         }
       }
       const std::string place = fmt::format("light '{}', polygon '{}' ({})", recorded.id,
-                                            side.polygon, report::side_name(side.side));
+                                            side.polygon, name_of(side.side));
       if (found == polygons->Size()) return place + " is missing";
       auto differs = compare_side((*polygons)[found], fmt::format("{}/polygons/{}", pointer, found),
                                   per_caster || !recorded.area, recorded.area, side);
@@ -104,7 +105,7 @@ class Comparison {
   /// A side that is not named is the only one that there is.
   static bool is_side(const Json& one, const RecordedSide& side, const RecordedLight& light) {
     const std::string_view name = text_of(one, "side");
-    if (!name.empty()) return name == report::side_name(side.side);
+    if (!name.empty()) return name == name_of(side.side);
     for (const RecordedSide& other : light.sides) {
       if (other.polygon == side.polygon && other.side != side.side)
         return side.side == Side::kFront;

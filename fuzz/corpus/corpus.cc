@@ -2,8 +2,6 @@
 #include "fuzz/corpus/corpus.h"
 
 #include <fmt/format.h>
-#include <rapidjson/document.h>
-#include <rapidjson/error/en.h>
 
 #include <algorithm>
 #include <array>
@@ -16,15 +14,14 @@
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/write.h"
 #include "report/json/json_writer.h"
-#include "report/sides/polygon_sides.h"
 #include "scene/base/text_file.h"
+#include "scene/json/json_value.h"
 
 namespace gnomon::fuzz {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = rapidjson::Value;
 
 constexpr std::string_view kNoteSuffix = ".expected.json";
 constexpr std::array<std::string_view, 10> kErrorNames = {
@@ -52,70 +49,68 @@ class NoteReader {
 
   Expected<void> parse(const std::string& text) {
     if (text.empty()) return wrong("", "\"extra\" is missing", "what the scene shows");
-    document_.Parse<rapidjson::kParseIterativeFlag>(text.data(), text.size());
-    if (document_.HasParseError()) {
-      return wrong("", rapidjson::GetParseError_En(document_.GetParseError()));
-    }
-    if (!document_.IsObject()) return wrong("", "not an object", "an object");
+    auto document = parse_json_object(text, file_);
+    if (!document) return wrong("", document.error().what, document.error().expected);
+    document_ = *std::move(document);
     return {};
   }
 
-  const Json& root() const { return document_; }
+  const JsonValue& root() const { return document_; }
 
   Expected<std::string> text(const char* key, bool required) const {
-    const auto place = document_.FindMember(key);
-    if (place == document_.MemberEnd()) {
+    const JsonValue* value = find_member(document_, key);
+    if (value == nullptr) {
       if (!required) return std::string();
       return wrong("", fmt::format("key \"{}\" is missing", key));
     }
-    if (!place->value.IsString() || place->value.GetStringLength() == 0) {
-      return wrong(fmt::format("/{}", key), "not a text", "a string that is not empty");
-    }
-    return std::string(place->value.GetString(), place->value.GetStringLength());
+    const auto text = text_of(value);
+    if (text && !text->empty()) return *text;
+    return wrong(fmt::format("/{}", key), "not a text", "a string that is not empty");
   }
 
   Expected<std::uint64_t> count(const char* key) const {
-    const auto place = document_.FindMember(key);
-    if (place == document_.MemberEnd()) return std::uint64_t{0};
-    if (!place->value.IsUint64()) return wrong(fmt::format("/{}", key), "not a count");
-    return place->value.GetUint64();
+    const JsonValue* value = find_member(document_, key);
+    if (value == nullptr) return std::uint64_t{0};
+    if (!value->IsUint64()) return wrong(fmt::format("/{}", key), "not a count");
+    return value->GetUint64();
   }
 
   Expected<std::vector<std::string>> texts(const char* key) const {
     std::vector<std::string> list;
-    const auto place = document_.FindMember(key);
-    if (place == document_.MemberEnd()) {
+    const JsonValue* value = find_member(document_, key);
+    if (value == nullptr) {
       return wrong("", fmt::format("key \"{}\" is missing", key), "a list, perhaps empty");
     }
     const auto not_a_list = [&] {
       return wrong(fmt::format("/{}", key), "not a list of texts", "names of subjects");
     };
-    if (!place->value.IsArray()) return not_a_list();
-    for (const Json& element : place->value.GetArray()) {
-      if (!element.IsString()) return not_a_list();
-      list.emplace_back(element.GetString(), element.GetStringLength());
+    if (!value->IsArray()) return not_a_list();
+    for (const JsonValue& element : value->GetArray()) {
+      auto text = text_of(&element);
+      if (!text) return not_a_list();
+      list.push_back(*std::move(text));
     }
     return list;
   }
 
   Expected<std::vector<RecordedLight>> fractions(const Scene& scene) const {
-    const auto place = document_.FindMember("fractions");
-    if (place == document_.MemberEnd() || !place->value.IsObject()) {
+    const JsonValue* all = find_member(document_, "fractions");
+    if (all == nullptr || !all->IsObject()) {
       return wrong("", "key \"fractions\" is missing or no object", "an object with every light");
     }
     std::vector<RecordedLight> lights;
     for (const Light& light : scene.lights) {
       const std::string pointer = "/fractions/" + light.id;
-      const auto own = place->value.FindMember(light.id.c_str());
-      if (own == place->value.MemberEnd() || !own->value.IsArray()) {
+      const JsonValue* own = find_member(*all, light.id);
+      if (own == nullptr || !own->IsArray()) {
         return wrong(pointer, fmt::format("light '{}' is missing or no list", light.id),
                      "a list of polygon sides");
       }
       RecordedLight& recorded = lights.emplace_back();
       recorded.id = light.id;
       recorded.area = light.type == LightType::kArea;
-      for (rapidjson::SizeType i = 0; i < own->value.Size(); ++i) {
-        auto one = side(own->value[i], recorded.area, fmt::format("{}/{}", pointer, i));
+      for (rapidjson::SizeType i = 0; i < own->Size(); ++i) {
+        auto one = side((*own)[i], recorded.area, fmt::format("{}/{}", pointer, i));
         if (!one) return tl::unexpected(one.error());
         const bool known = std::ranges::any_of(
             scene.polygons, [&](const Polygon& polygon) { return polygon.id == one->polygon; });
@@ -126,76 +121,81 @@ class NoteReader {
         recorded.sides.push_back(std::move(*one));
       }
     }
-    if (place->value.MemberCount() != scene.lights.size()) {
+    if (all->MemberCount() != scene.lights.size()) {
       return wrong("/fractions", "a light that is not in the scene");
     }
     return lights;
   }
 
  private:
-  Expected<RecordedSide> side(const Json& json, bool area, const std::string& pointer) const {
+  Expected<RecordedSide> side(const JsonValue& json, bool area, const std::string& pointer) const {
     if (!json.IsObject()) return wrong(pointer, "not an object", "one polygon side");
     RecordedSide result;
-    const auto id = json.FindMember("id");
-    if (id == json.MemberEnd() || !id->value.IsString()) {
-      return wrong(pointer, "key \"id\" is missing or no text");
-    }
-    result.polygon.assign(id->value.GetString(), id->value.GetStringLength());
-    const auto side = json.FindMember("side");
-    const std::string_view name =
-        side == json.MemberEnd() || !side->value.IsString()
-            ? std::string_view()
-            : std::string_view(side->value.GetString(), side->value.GetStringLength());
+    auto id = text_of(find_member(json, "id"));
+    if (!id) return wrong(pointer, "key \"id\" is missing or no text");
+    result.polygon = *std::move(id);
+    const auto name = text_of(find_member(json, "side"));
     if (name != "front" && name != "back") {
       return wrong(pointer + "/side", "no side", "\"front\" or \"back\"");
     }
     result.side = name == "back" ? Side::kBack : Side::kFront;
+    if (auto done = shares(json, area, pointer, result); !done) return tl::unexpected(done.error());
+    if (auto done = parts(json, area, pointer, result); !done) return tl::unexpected(done.error());
+    return result;
+  }
+
+  Expected<void> shares(const JsonValue& json, bool area, const std::string& pointer,
+                        RecordedSide& result) const {
     mpq_class sum = 0;
-    bool exact = true;
     for (const std::string_view shade : share_names(area)) {
       const std::string place = fmt::format("{}/{}", pointer, shade);
-      const auto value = json.FindMember(std::string(shade).c_str());
-      if (value == json.MemberEnd()) return wrong(place, "a class is missing");
+      const JsonValue* value = find_member(json, shade);
+      if (value == nullptr) return wrong(place, "a class is missing");
       RecordedShare& share = result.shares.emplace_back();
-      if (value->value.IsNumber()) {
-        share.nearest = value->value.GetDouble();
-        exact = false;
+      if (value->IsNumber()) {
+        share.nearest = value->GetDouble();
         continue;
       }
-      share.exact = rational(value->value);
+      share.exact = rational(value);
       if (!share.exact) return wrong(place, "no fraction", "a rational as text, or a number");
       share.nearest = share.exact->get_d();
       sum += *share.exact;
     }
-    if (exact && sum != 1) {
-      return wrong(pointer, "the fractions add up to " + sum.get_str(), "1");
-    }
-    const auto parts = json.FindMember("parts");
-    if (exact != (parts == json.MemberEnd())) {
+    if (!is_exact(result) || sum == 1) return {};
+    return wrong(pointer, "the fractions add up to " + sum.get_str(), "1");
+  }
+
+  /// A side whose fractions are not all exact has exact fractions for each of its parts.
+  Expected<void> parts(const JsonValue& json, bool area, const std::string& pointer,
+                       RecordedSide& result) const {
+    const JsonValue* parts = find_member(json, "parts");
+    if (is_exact(result) != (parts == nullptr)) {
       return wrong(pointer, "parts are given where they are not needed, or the other way round");
     }
-    if (exact) return result;
-    if (!parts->value.IsArray()) return wrong(pointer + "/parts", "not a list");
-    for (const Json& part : parts->value.GetArray()) {
+    if (parts == nullptr) return {};
+    if (!parts->IsArray()) return wrong(pointer + "/parts", "not a list");
+    for (const JsonValue& part : parts->GetArray()) {
       std::vector<mpq_class>& shares = result.parts.emplace_back();
-      sum = 0;
+      mpq_class sum = 0;
       for (const std::string_view shade : share_names(area)) {
-        std::optional<mpq_class> share;
-        if (part.IsObject() && part.HasMember(std::string(shade).c_str())) {
-          share = rational(part[std::string(shade).c_str()]);
-        }
+        auto share = part.IsObject() ? rational(find_member(part, shade)) : std::nullopt;
         if (!share) return wrong(pointer + "/parts", "a part without exact fractions");
         sum += *share;
-        shares.push_back(std::move(*share));
+        shares.push_back(*std::move(share));
       }
       if (sum != 1) return wrong(pointer + "/parts", "fractions that do not add up to 1");
     }
-    return result;
+    return {};
   }
 
-  static std::optional<mpq_class> rational(const Json& json) {
-    if (!json.IsString()) return std::nullopt;
-    return parse_fraction({json.GetString(), json.GetStringLength()});
+  static bool is_exact(const RecordedSide& side) {
+    return std::ranges::all_of(side.shares,
+                               [](const RecordedShare& share) { return share.exact.has_value(); });
+  }
+
+  static std::optional<mpq_class> rational(const JsonValue* json) {
+    const auto text = text_of(json);
+    return text ? parse_fraction(*text) : std::nullopt;
   }
 
   std::string file_, prefix_;
@@ -290,8 +290,8 @@ Expected<Fixture> read_fixture(const fs::path& file, const std::string& name) {
 bool is_fixture_file(const fs::path& file) {
   const std::string name = file.filename().string();
   if (name.starts_with(".") || name.ends_with(kNoteSuffix)) return false;
-  const std::string extension = file.extension().string();
-  return extension == ".json" || extension == ".obj" || extension == ".off" || extension == ".ply";
+  const std::optional<SceneFormat> format = format_by_extension(file);
+  return format && file.extension().string().substr(1) == format_name(*format);  // lower case only
 }
 
 /// Names and files, sorted by name.
@@ -326,7 +326,7 @@ void write_shares(report::JsonWriter& json, const RecordedLight& light, const Re
   const auto names = share_names(light.area);
   json.begin_object(report::JsonLayout::kInline);
   json.member("id", side.polygon);
-  json.member("side", report::side_name(side.side));
+  json.member("side", name_of(side.side));
   for (std::size_t k = 0; k < names.size(); ++k) {
     json.key(names[k]);
     if (side.shares[k].exact) {
@@ -409,10 +409,10 @@ Expected<std::vector<fs::path>> scene_files(const fs::path& path) {
   return scenes;
 }
 
-Expected<std::string> fixture_text(const Scene& scene, const FixtureNote& note) {
+Expected<std::string> fixture_text(const JudgedScene& scene, const FixtureNote& note) {
   const auto lights = exact_answer_of(scene);
   if (!lights) return tl::unexpected(lights.error());
-  Scene noted = scene;
+  Scene noted = scene.scene();
   noted.extra = extra_text(note, *lights);
   const auto written = scene_to_text(noted, SceneFormat::kJson);
   if (!written) return tl::unexpected(written.error());

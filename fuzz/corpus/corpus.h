@@ -66,7 +66,7 @@ struct FixtureNote {
 /// The text of a y_ or i_ fixture: the scene, with its exact fractions by the kernel `plane` and by
 /// the oracle in "extra" (what was there is replaced). Errors: those of exact_answer_of() and of
 /// scene_to_text().
-Expected<std::string> fixture_text(const Scene& scene, const FixtureNote& note);
+Expected<std::string> fixture_text(const JudgedScene& scene, const FixtureNote& note);
 
 /// The note of a scene that need not be a fixture yet: "shows" and "kind" of its "extra" must be
 /// there, "found" may be. Errors: kFormat.

@@ -7,22 +7,17 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <exception>
 #include <mutex>
-#include <new>
 #include <optional>
 #include <utility>
 
 #include "fuzz/corpus/claimed_shares.h"
 #include "fuzz/corpus/corpus_process.h"
 #include "fuzz/process/command.h"
-#include "gnomon/algorithms/shadows.h"
-#include "gnomon/oracle/exact_answer.h"
-#include "gnomon/oracle/read_candidate.h"
 #include "gnomon/oracle/verdict.h"
+#include "gnomon/result/read_claims.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/read.h"
-#include "report/sides/candidate_from_result.h"
 
 namespace gnomon::fuzz {
 
@@ -34,43 +29,18 @@ constexpr std::uint64_t kMostFragments = 200'000;
 constexpr std::array<std::string_view, 6> kOutcomeNames = {"pass",  "differ",  "rejected",
                                                            "crash", "timeout", "not asked"};
 
-/// One scene with its exact answer, judged by as many subjects as there are.
+/// Subjects judged on one scene, with the corpus's outcomes.
 class SceneJudge {
  public:
-  SceneJudge(const Scene& scene, const PreparedScene& prepared, double tolerance)
-      : scene_(scene),
-        prepared_(prepared),
-        answer_(scene, prepared),
-        diagonal_(oracle::scene_diagonal(prepared)),
-        tolerance_(tolerance) {}
-
-  const oracle::ExactAnswer& answer() const { return answer_; }
+  SceneJudge(const JudgedScene& scene, double tolerance) : scene_(scene), tolerance_(tolerance) {}
 
   /// `recorded` may be null.
   Judgement judge(const Subject& subject, const std::vector<RecordedLight>* recorded) const {
-    try {
-      ShadowOptions options = shadow_options(subject);
-      options.max_fragments = kMostFragments;
-      const Expected<ShadowResult> result = compute_shadows(prepared_, options);
-      if (!result) {
-        const bool limit = result.error().code == ErrorCode::kLimit;
-        return {limit ? Outcome::kTimeout : Outcome::kRejected, to_string(result.error())};
-      }
-      const oracle::Candidate candidate = report::candidate_from_result(
-          scene_, prepared_, *result, name_of(subject), subject.kernel.exact());
-      Judgement judgement = compare(candidate, subject);
-      if (judgement.outcome != Outcome::kPass || recorded == nullptr || !subject.exact()) {
-        return judgement;
-      }
-      const auto found = recorded_of(scene_, prepared_, *result);
-      const std::string differs = found ? difference(*recorded, *found) : to_string(found.error());
-      if (differs.empty()) return {};
-      return {Outcome::kDiffer, "not the recorded fractions: " + differs};
-    } catch (const std::bad_alloc&) {
-      return {Outcome::kTimeout, "out of memory"};
-    } catch (const std::exception& error) {
-      return {Outcome::kCrash, error.what()};
-    }
+    Judgement judgement;
+    const auto thrown = thrown_by([&] { judgement = run(subject, recorded); });
+    if (!thrown) return judgement;
+    if (thrown->out_of_memory) return {Outcome::kTimeout, "out of memory"};
+    return {Outcome::kCrash, thrown->what};
   }
 
   Judgement judge_text(const Subject& subject, const std::string& result,
@@ -81,36 +51,57 @@ class SceneJudge {
     const auto shares_alone = has_shares_alone(result);
     if (!shares_alone) return unreadable(shares_alone.error());
     if (*shares_alone) {
-      const auto differs =
-          compare_shares(result, scene_, prepared_, recorded, tolerance_of(subject, tolerance_));
+      const auto differs = compare_shares(result, scene_.scene(), scene_.prepared(), recorded,
+                                          tolerance_of(subject, tolerance_));
       if (!differs) return unreadable(differs.error());
       return differs->empty() ? Judgement{} : Judgement{Outcome::kDiffer, *differs};
     }
-    const auto candidate = oracle::parse_candidate(result, "its output", scene_);
+    const auto candidate = parse_claims(result, "its output", scene_.scene());
     if (!candidate) return unreadable(candidate.error());
-    return compare(*candidate, subject);
+    return judgement_of(subject, scene_.judge(*candidate, certify_options(subject)));
   }
 
  private:
-  Judgement compare(const oracle::Candidate& candidate, const Subject& subject) const {
+  Judgement run(const Subject& subject, const std::vector<RecordedLight>* recorded) const {
+    ShadowOptions options = shadow_options(subject);
+    options.max_fragments = kMostFragments;
+    const Judged judged = scene_.classify_and_judge(options, name_of(subject),
+                                                    certify_options(subject), subject.mistake);
+    if (judged.refused) {
+      const bool limit = judged.refused->code == ErrorCode::kLimit;
+      return {limit ? Outcome::kTimeout : Outcome::kRejected, to_string(*judged.refused)};
+    }
+    if (judged.unjudged) return {Outcome::kDiffer, to_string(*judged.unjudged)};
+    Judgement judgement = judgement_of(subject, *judged.report);
+    if (judgement.outcome != Outcome::kPass || recorded == nullptr || !subject.exact()) {
+      return judgement;
+    }
+    const auto found = recorded_of(scene_.scene(), scene_.prepared(), judged.classified->result,
+                                   judged.classified->sides);
+    const std::string differs = found ? difference(*recorded, *found) : to_string(found.error());
+    if (differs.empty()) return {};
+    return {Outcome::kDiffer, "not the recorded fractions: " + differs};
+  }
+
+  oracle::CertifyOptions certify_options(const Subject& subject) const {
     const double tolerance = tolerance_of(subject, tolerance_);
     oracle::CertifyOptions options;
     options.strict = subject.exact();
     options.tolerance = tolerance;
-    options.width = tolerance * diagonal_;
-    options.threads = 1;
+    options.width = tolerance * scene_.diagonal();
     options.most_regions = 4;
-    const auto report = oracle::certify(answer_, candidate, options);
+    return options;
+  }
+
+  static Judgement judgement_of(const Subject& subject, const Expected<oracle::Report>& report) {
     if (!report) return {Outcome::kDiffer, to_string(report.error())};
     const bool right =
         subject.exact() ? report->confirms_exact() : report->verdict != oracle::Verdict::kFailed;
     return right ? Judgement{} : Judgement{Outcome::kDiffer, report->reason};
   }
 
-  const Scene& scene_;
-  const PreparedScene& prepared_;
-  oracle::ExactAnswer answer_;
-  double diagonal_, tolerance_;
+  const JudgedScene& scene_;
+  double tolerance_;
 };
 
 /// A foreign program on a file, as far as that can be judged without its output.
@@ -233,9 +224,10 @@ class CorpusJudge {
       judgements.assign(judgements.size(), {Outcome::kRejected, to_string(prepared.error())});
       return;
     }
-    const SceneJudge judge(fixture.scene, *prepared, options_.tolerance);
+    const JudgedScene judged(fixture.scene, *prepared);
+    const SceneJudge judge(judged, options_.tolerance);
     if (!apart) {
-      report_.oracle_findings[i] = difference_from_oracle(judge.answer(), fixture.fractions);
+      report_.oracle_findings[i] = difference_from_oracle(judged.answer(), fixture.fractions);
     }
     for (std::size_t s = 0; s < judgements.size(); ++s) {
       if (stopped()) return;
@@ -324,11 +316,10 @@ std::vector<Subject> recorded_subjects() {
   return subjects_by_name(names);
 }
 
-std::vector<std::string> wrong_subjects(const Scene& scene, const std::vector<Subject>& subjects) {
+std::vector<std::string> wrong_subjects(const JudgedScene& scene,
+                                        const std::vector<Subject>& subjects) {
   std::vector<std::string> wrong;
-  const auto prepared = prepare(scene);
-  if (!prepared) return wrong;
-  const SceneJudge judge(scene, *prepared, CorpusOptions{}.tolerance);
+  const SceneJudge judge(scene, CorpusOptions{}.tolerance);
   for (const Subject& subject : subjects) {
     if (judge.judge(subject, nullptr).outcome != Outcome::kPass) wrong.push_back(name_of(subject));
   }
@@ -342,14 +333,17 @@ Expected<std::string> record_fixture(const std::filesystem::path& file) {
   auto note = read_note_of(read->scene);
   if (!note) return tl::unexpected(note.error());
   note->inform = file.filename().string().starts_with("i_");
-  note->wrong = wrong_subjects(read->scene, recorded_subjects());
+  const auto prepared = prepare(read->scene);
+  if (!prepared) return tl::unexpected(prepared.error());
+  const JudgedScene judged(read->scene, *prepared);
+  note->wrong = wrong_subjects(judged, recorded_subjects());
   if (!note->inform && !note->wrong.empty()) {
     std::string names;
     for (const std::string& name : note->wrong) names += ' ' + name;
     return fail(ErrorCode::kFormat, "a y_ scene that some get wrong:" + names, "an i_ scene",
                 ErrorPlace{file.string(), 0, 0, {}});
   }
-  return fixture_text(read->scene, *note);
+  return fixture_text(judged, *note);
 }
 
 std::uint64_t CorpusReport::failures(bool exact_subjects) const {

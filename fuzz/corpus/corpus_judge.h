@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fuzz/check/judged_scene.h"
 #include "fuzz/check/subject.h"
 #include "fuzz/corpus/corpus.h"
 #include "gnomon/kernel/error.h"
@@ -80,8 +81,8 @@ std::vector<Subject> default_corpus_subjects();
 std::vector<Subject> recorded_subjects();
 
 /// Names of the given subjects that fail on a fixture's scene; what `wrong` of an i_ scene records.
-/// Empty if the scene cannot be prepared.
-std::vector<std::string> wrong_subjects(const Scene& scene, const std::vector<Subject>& subjects);
+std::vector<std::string> wrong_subjects(const JudgedScene& scene,
+                                        const std::vector<Subject>& subjects);
 
 /// A y_ or i_ file as it should be: its scene and its words, with fractions and `wrong` (of
 /// recorded_subjects()) computed anew. How a fixture is made from a scene that has only "shows" and

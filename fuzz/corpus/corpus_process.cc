@@ -2,24 +2,16 @@
 #include "fuzz/corpus/corpus_process.h"
 
 #include <fmt/format.h>
-#include <rapidjson/document.h>
 
 #include <optional>
 
 #include "fuzz/process/address_space.h"
 #include "fuzz/process/command.h"
+#include "scene/json/json_members.h"
 
 namespace gnomon::fuzz {
 
 namespace {
-
-using Json = rapidjson::Value;
-
-std::string text_of(const Json& object, const char* key) {
-  const auto place = object.FindMember(key);
-  if (place == object.MemberEnd() || !place->value.IsString()) return {};
-  return {place->value.GetString(), place->value.GetStringLength()};
-}
 
 std::optional<Outcome> outcome_by_name(const std::string& name) {
   for (const Outcome outcome : {Outcome::kPass, Outcome::kDiffer, Outcome::kRejected,
@@ -32,25 +24,24 @@ std::optional<Outcome> outcome_by_name(const std::string& name) {
 /// Nothing if that is no report of one file.
 std::optional<ProcessVerdict> parse_report(const std::string& text,
                                            const std::vector<std::string>& names) {
-  rapidjson::Document document;
-  document.Parse<rapidjson::kParseIterativeFlag>(text.data(), text.size());
-  if (document.HasParseError() || !document.IsObject() || !document.HasMember("files")) {
-    return std::nullopt;
-  }
-  const Json& files = document["files"];
-  if (!files.IsArray() || files.Size() != 1 || !files[0].IsObject()) return std::nullopt;
-  const Json& file = files[0];
-  if (!file.HasMember("outcomes") || !file["outcomes"].IsObject()) return std::nullopt;
+  const auto document = parse_json_object(text, {});
+  if (!document) return std::nullopt;
+  JsonMembers report(*document, {}, {}, "a report of `gnomon certify --corpus`");
+  std::vector<JsonMembers> files = report.objects("files");
+  if (files.size() != 1) return std::nullopt;
+  JsonMembers& file = files.front();
+  JsonMembers outcomes = file.object("outcomes");
+  JsonMembers reasons = file.object_if_there("reasons");
   ProcessVerdict verdict;
-  verdict.oracle = text_of(file, "oracle");
+  file.read_if_there("oracle", verdict.oracle);
   for (const std::string& name : names) {
-    const auto outcome = outcome_by_name(text_of(file["outcomes"], name.c_str()));
+    std::string word;
+    outcomes.read(name.c_str(), word);
+    const auto outcome = outcome_by_name(word);
     if (!outcome) return std::nullopt;
     Judgement& judgement = verdict.judgements.emplace_back();
     judgement.outcome = *outcome;
-    if (file.HasMember("reasons") && file["reasons"].IsObject()) {
-      judgement.why = text_of(file["reasons"], name.c_str());
-    }
+    reasons.read_if_there(name.c_str(), judgement.why);
   }
   return verdict;
 }

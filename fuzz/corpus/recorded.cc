@@ -7,11 +7,8 @@
 #include <cmath>
 
 #include "fuzz/check/subject.h"
-#include "gnomon/algorithms/shadows.h"
-#include "gnomon/oracle/verdict.h"
 #include "kernel/signs/nearest_double.h"
-#include "report/sides/candidate_from_result.h"
-#include "report/sides/polygon_sides.h"
+#include "report/sides/part_area.h"
 
 namespace gnomon::fuzz {
 
@@ -22,8 +19,7 @@ std::string text_of(const RecordedShare& share) {
 }
 
 std::string place_of(const RecordedLight& light, const RecordedSide& side) {
-  return fmt::format("light '{}', polygon '{}' ({})", light.id, side.polygon,
-                     report::side_name(side.side));
+  return fmt::format("light '{}', polygon '{}' ({})", light.id, side.polygon, name_of(side.side));
 }
 
 // A record of several parts is rounded; the enclosure of double arithmetic is far closer.
@@ -76,40 +72,39 @@ std::span<const std::string_view> share_names(bool area_light) {
 }
 
 Expected<std::vector<RecordedLight>> recorded_of(const Scene& scene, const PreparedScene& prepared,
-                                                 const ShadowResult& result) {
+                                                 const ShadowResult& result,
+                                                 const report::SidesByLight& sides) {
   std::vector<RecordedLight> lights;
-  for (const LightResult& light : result.lights) {
+  for (std::size_t l = 0; l < result.lights.size(); ++l) {
+    const LightResult& light = result.lights[l];
     RecordedLight& own = lights.emplace_back();
     own.id = scene.lights[prepared.lights[light.light].light].id;
     own.area = prepared.lights[light.light].type == LightType::kArea;
     const auto states = report::light_states(own.area);
-    for (std::uint32_t polygon = 0; polygon + 1 < prepared.first_part.size(); ++polygon) {
-      for (const report::ClassifiedSide& side :
-           report::polygon_sides(prepared, light, polygon, true)) {
-        RecordedSide& one = own.sides.emplace_back();
-        one.polygon = scene.polygons[polygon].id;
-        one.side = side.side;
-        bool exact = true;
-        for (const LightState state : states) {
-          RecordedShare& share = one.shares.emplace_back();
-          share.exact = report::exact_share_of(side, state);
-          if (share.exact) {
-            share.nearest = nearest_double(*share.exact);
-            continue;
-          }
-          exact = false;
-          const Interval& bounds = report::share_of(side, state);
-          share.nearest = bounds.middle();
-          if (!(bounds.upper - bounds.lower <= kRounding)) {
-            return fail(ErrorCode::kLimit,
-                        place_of(own, one) + ": its fractions are known too roughly");
-          }
+    for (const report::ClassifiedSide& side : sides[l]) {
+      RecordedSide& one = own.sides.emplace_back();
+      one.polygon = scene.polygons[side.polygon].id;
+      one.side = side.side;
+      bool exact = true;
+      for (const LightState state : states) {
+        RecordedShare& share = one.shares.emplace_back();
+        share.exact = report::exact_share_of(side, state);
+        if (share.exact) {
+          share.nearest = nearest_double(*share.exact);
+          continue;
         }
-        if (exact) continue;
-        for (const report::PartSide& part : side.parts) {
-          std::vector<mpq_class>& shares = one.parts.emplace_back();
-          for (const LightState state : states) shares.push_back(report::exact_share(part, state));
+        exact = false;
+        const Interval& bounds = report::share_of(side, state);
+        share.nearest = bounds.middle();
+        if (!(bounds.upper - bounds.lower <= kRounding)) {
+          return fail(ErrorCode::kLimit,
+                      place_of(own, one) + ": its fractions are known too roughly");
         }
+      }
+      if (exact) continue;
+      for (const report::PartSide& part : side.parts) {
+        std::vector<mpq_class>& shares = one.parts.emplace_back();
+        for (const LightState state : states) shares.push_back(report::exact_share(part, state));
       }
     }
   }
@@ -162,8 +157,7 @@ std::string difference_from_oracle(const oracle::ExactAnswer& answer,
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const oracle::AnswerEntry& entry = entries[i];
       const RecordedSide& side = light.sides[i];
-      const Side entry_side = entry.side == oracle::PolygonSide::kBack ? Side::kBack : Side::kFront;
-      if (scene.polygons[entry.polygon].id != side.polygon || entry_side != side.side) {
+      if (scene.polygons[entry.polygon].id != side.polygon || entry.side != side.side) {
         return place_of(light, side) + " stands where the oracle lists another side";
       }
       const std::uint32_t first = prepared.first_part[entry.polygon];
@@ -191,21 +185,17 @@ std::string difference_from_oracle(const oracle::ExactAnswer& answer,
   return {};
 }
 
-Expected<std::vector<RecordedLight>> exact_answer_of(const Scene& scene) {
-  const Expected<PreparedScene> prepared = prepare(scene);
-  if (!prepared) return tl::unexpected(prepared.error());
-  const Expected<ShadowResult> result = compute_shadows(*prepared, shadow_options(Subject{}));
-  if (!result) return tl::unexpected(result.error());
-  auto recorded = recorded_of(scene, *prepared, *result);
+Expected<std::vector<RecordedLight>> exact_answer_of(const JudgedScene& scene) {
+  const Expected<Classified> classified = scene.classify(shadow_options(Subject{}), "plane");
+  if (!classified) return tl::unexpected(classified.error());
+  auto recorded =
+      recorded_of(scene.scene(), scene.prepared(), classified->result, classified->sides);
   if (!recorded) return recorded;
-  const oracle::ExactAnswer answer(scene, *prepared);
-  std::string differs = difference_from_oracle(answer, *recorded);
+  std::string differs = difference_from_oracle(scene.answer(), *recorded);
   if (differs.empty()) {
     oracle::CertifyOptions options;
     options.strict = true;
-    options.threads = 1;
-    const auto report = oracle::certify(
-        answer, report::candidate_from_result(scene, *prepared, *result, "plane", true), options);
+    const auto report = scene.judge(classified->claims, options);
     if (!report) return tl::unexpected(report.error());
     if (!report->confirms_exact()) differs = report->reason;
   }

@@ -13,12 +13,14 @@
 #include <string_view>
 #include <vector>
 
+#include "fuzz/check/judged_scene.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/kernel/error.h"
 #include "gnomon/kernel/sign.h"
 #include "gnomon/oracle/exact_answer.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
+#include "report/sides/polygon_sides.h"
 
 namespace gnomon::fuzz {
 
@@ -46,9 +48,11 @@ struct RecordedLight {
 /// {"lit", "shadow"}, or {"lit", "penumbra", "umbra"} of an area light.
 std::span<const std::string_view> share_names(bool area_light);
 
-/// Of a result with exact fractions. Errors: kLimit (an enclosure too wide to round).
+/// Of a result with exact fractions, and its sides. Errors: kLimit (an enclosure too wide to
+/// round).
 Expected<std::vector<RecordedLight>> recorded_of(const Scene& scene, const PreparedScene& prepared,
-                                                 const ShadowResult& result);
+                                                 const ShadowResult& result,
+                                                 const report::SidesByLight& sides);
 
 /// The first thing in which two answers differ, in words; empty if they are the same.
 std::string difference(const std::vector<RecordedLight>& recorded,
@@ -59,8 +63,8 @@ std::string difference_from_oracle(const oracle::ExactAnswer& answer,
                                    const std::vector<RecordedLight>& recorded);
 
 /// The exact fractions of a scene by the kernel `plane` and by the oracle. Errors: those of
-/// prepare() and compute_shadows(); kGeometry if the two do not agree, which is a bug of ours.
-Expected<std::vector<RecordedLight>> exact_answer_of(const Scene& scene);
+/// compute_shadows(); kGeometry if the two do not agree, which is a bug of ours.
+Expected<std::vector<RecordedLight>> exact_answer_of(const JudgedScene& scene);
 
 }  // namespace gnomon::fuzz
 

@@ -13,11 +13,11 @@
 #include "fuzz/findings/finding_text.h"
 #include "fuzz/shrink/shrink.h"
 #include "fuzz/shrink/still_fails.h"
-#include "fuzz/text/text_hash.h"
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/write.h"
 #include "scene/base/output_file.h"
 #include "scene/base/text_file.h"
+#include "scene/base/text_hash.h"
 
 namespace gnomon::fuzz {
 

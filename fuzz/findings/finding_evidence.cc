@@ -4,27 +4,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <utility>
 #include <vector>
 
+#include "fuzz/check/judged_scene.h"
 #include "fuzz/corpus/corpus.h"
 #include "fuzz/findings/finding_picture.h"
 #include "fuzz/process/command.h"
 #include "fuzz/shrink/still_fails.h"
 #include "gnomon/algorithms/explain.h"
-#include "gnomon/algorithms/shadows.h"
-#include "gnomon/oracle/exact_answer.h"
-#include "gnomon/oracle/read_candidate.h"
-#include "gnomon/oracle/verdict.h"
-#include "report/sides/candidate_from_result.h"
+#include "gnomon/result/read_claims.h"
 
 namespace gnomon::fuzz {
 
 namespace {
 
-const oracle::CandidateLight* light_of(const oracle::Candidate& candidate, const std::string& id) {
-  const auto found = std::ranges::find(candidate.lights, id, &oracle::CandidateLight::id);
+const ClaimedLight* light_of(const Claims& candidate, const std::string& id) {
+  const auto found = std::ranges::find(candidate.lights, id, &ClaimedLight::id);
   return found == candidate.lights.end() ? nullptr : &*found;
 }
 
@@ -52,6 +48,7 @@ class EvidenceSearch {
       return std::move(evidence_);
     }
     prepared_ = std::move(*prepared);
+    judged_.emplace(scene_, prepared_);
     write_fixture();
     compute_exact();
     if (may_run_) {
@@ -88,9 +85,9 @@ class EvidenceSearch {
             ? std::string("a scene that was brought")
             : fmt::format("generator {}, seed {}", finding_.generator, finding_.case_seed));
     note.inform = subject_ != nullptr && !subject_->foreign() && !subject_->exact() &&
-                  subject_->mutation == Mutation::kNone;
+                  subject_->mistake == Mistake::kNone;
     if (note.inform) note.wrong = {finding_.failure.subject};
-    const auto text = fixture_text(scene_, note);
+    const auto text = fixture_text(*judged_, note);
     if (text) {
       evidence_.fixture = *text;
     } else {
@@ -98,19 +95,20 @@ class EvidenceSearch {
     }
   }
 
-  std::optional<oracle::Candidate> run(const ShadowOptions& options, const std::string& name) {
-    try {
-      const auto result = compute_shadows(prepared_, options);
-      if (!result) {
+  std::optional<Claims> run(const ShadowOptions& options, const std::string& name,
+                            Mistake mistake = Mistake::kNone) {
+    std::optional<Claims> claims;
+    const auto thrown = thrown_by([&] {
+      auto classified = judged_->classify(options, name, mistake);
+      if (classified) {
+        claims = std::move(classified->claims);
+      } else {
         evidence_.no_candidate =
-            fmt::format("{} gave no answer: {}", name, to_string(result.error()));
-        return std::nullopt;
+            fmt::format("{} gave no answer: {}", name, to_string(classified.error()));
       }
-      return report::candidate_from_result(scene_, prepared_, *result, name, false);
-    } catch (const std::exception& error) {
-      evidence_.no_candidate = fmt::format("{} gave no answer: {}", name, error.what());
-      return std::nullopt;
-    }
+    });
+    if (thrown) evidence_.no_candidate = fmt::format("{} gave no answer: {}", name, thrown->what);
+    return claims;
   }
 
   void compute_exact() {
@@ -131,7 +129,7 @@ class EvidenceSearch {
       ShadowOptions options = shadow_options(*subject_);
       options.exact_fractions = false;
       options.max_fragments = finding_.check.max_fragments;
-      candidate_ = run(options, finding_.failure.subject);
+      candidate_ = run(options, finding_.failure.subject, subject_->mistake);
       return;
     }
     CommandOptions options;
@@ -146,7 +144,7 @@ class EvidenceSearch {
       return;
     }
     evidence_.foreign_result = result->out;
-    auto read = oracle::parse_candidate(result->out, "result.json", scene_);
+    auto read = parse_claims(result->out, "result.json", scene_);
     if (read) {
       candidate_ = std::move(*read);
     } else {
@@ -155,14 +153,12 @@ class EvidenceSearch {
   }
 
   void find_worst_place() {
-    const oracle::ExactAnswer answer(scene_, prepared_);
     oracle::CertifyOptions options;
     options.tolerance = finding_.check.tolerance;
     options.width = finding_.check.width;
     options.strict = finding_.check.strict || subject_->exact();
-    options.threads = 1;
     options.most_regions = 1;
-    const auto report = oracle::certify(answer, *candidate_, options);
+    const auto report = judged_->judge(*candidate_, options);
     if (report && report->worst && report->worst->kind != oracle::ErrorKind::kNone) {
       evidence_.witness = report->worst;
     }
@@ -191,11 +187,11 @@ class EvidenceSearch {
           "wrong.";
       return;
     }
-    if (subject_->mutation != Mutation::kNone) {
-      for (const MutationInfo& info : mutations()) {
-        if (info.mutation != subject_->mutation) continue;
+    if (subject_->mistake != Mistake::kNone) {
+      for (const MistakeInfo& info : mistakes()) {
+        if (info.mistake != subject_->mistake) continue;
         note = fmt::format("This variant is wrong on purpose ({}): {}. {} warns of it.", info.name,
-                           info.mistake, info.source);
+                           info.sentence, info.source);
       }
       if (subject_->kernel.exact()) return;
     }
@@ -217,9 +213,8 @@ class EvidenceSearch {
       return;
     }
     ShadowOptions options = shadow_options(*subject_);
-    options.mutation = Mutation::kNone;
     options.exact_fractions = false;
-    options.algorithm = Algorithm::kSvbsp;
+    options.algorithm = MethodId::kSvbsp;
     options.lights = {light_};
     const auto difference = explain(prepared_, options);
     if (!difference) {
@@ -236,12 +231,11 @@ class EvidenceSearch {
       for (const Light& light : scene_.lights) lights.push_back(light.id);
       evidence_.decision = to_sentence(**difference, prepared_, subject_->kernel.name(), lights);
     }
-    if (subject_->algorithm != Algorithm::kSvbsp) {
+    if (subject_->algorithm != MethodId::kSvbsp) {
       note += fmt::format(
           "{}The answer that failed is that of `{}`; decisions are those of `svbsp` on the "
           "same kernel, whose order can be followed.",
-          note.empty() ? "" : " ",
-          subject_->algorithm == Algorithm::kReceiver ? "receiver" : "sectors");
+          note.empty() ? "" : " ", method_info(subject_->algorithm).name);
     }
   }
 
@@ -250,9 +244,8 @@ class EvidenceSearch {
     std::optional<oracle::Witness> place = evidence_.witness;
     if (place && place->light != evidence_.light) place.reset();
     const FindingPicture picture(scene_, light_, place);
-    const oracle::CandidateLight* exact = exact_ ? light_of(*exact_, evidence_.light) : nullptr;
-    const oracle::CandidateLight* own =
-        candidate_ ? light_of(*candidate_, evidence_.light) : nullptr;
+    const ClaimedLight* exact = exact_ ? light_of(*exact_, evidence_.light) : nullptr;
+    const ClaimedLight* own = candidate_ ? light_of(*candidate_, evidence_.light) : nullptr;
     if (exact != nullptr) evidence_.exact_svg = picture.paint("exact", *exact, nullptr);
     if (own != nullptr) {
       evidence_.candidate_svg = picture.paint(finding_.failure.subject, *own, exact);
@@ -267,8 +260,9 @@ class EvidenceSearch {
   const Subject* subject_ = nullptr;
   bool may_run_ = false;
   PreparedScene prepared_;
+  std::optional<JudgedScene> judged_;
   std::uint32_t light_ = 0;
-  std::optional<oracle::Candidate> exact_, candidate_;
+  std::optional<Claims> exact_, candidate_;
   Evidence evidence_;
 };
 

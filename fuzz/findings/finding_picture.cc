@@ -10,6 +10,7 @@
 
 #include "fuzz/scene/scene_coordinates.h"
 #include "report/text/text_sink.h"
+#include "scene/base/vectors.h"
 
 namespace gnomon::fuzz {
 
@@ -20,11 +21,6 @@ using report::Point;
 
 constexpr std::size_t kAxes = 3;
 
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
 /// Powers of two that bring all axes to about the same extent, where one is far shorter or longer
@@ -208,7 +204,7 @@ FindingPicture::FindingPicture(const Scene& scene, std::uint32_t light,
     mark_ = report::Mark{*at, place->polygon};
   }
   options_.camera = Views(scene_, *prepared_, at, place ? place->polygon : std::string(),
-                          place && place->side == oracle::PolygonSide::kBack)
+                          place && place->side == Side::kBack)
                         .best();
   options_.height = 600;
   options_.backs = true;
@@ -216,11 +212,11 @@ FindingPicture::FindingPicture(const Scene& scene, std::uint32_t light,
   pieces_ = back_to_front(*prepared_, options_.camera.eye);
 }
 
-oracle::CandidateLight FindingPicture::stretched(const oracle::CandidateLight& light) const {
-  oracle::CandidateLight result = light;
-  for (oracle::CandidatePolygon& polygon : result.polygons) {
-    for (oracle::CandidateFragment& fragment : polygon.fragments) {
-      for (oracle::ExactPoint& point : fragment.loop) {
+ClaimedLight FindingPicture::stretched(const ClaimedLight& light) const {
+  ClaimedLight result = light;
+  for (ClaimedPolygon& polygon : result.polygons) {
+    for (ClaimedFragment& fragment : polygon.fragments) {
+      for (RationalPoint& point : fragment.loop) {
         for (std::size_t k = 0; k < kAxes; ++k) {
           point[k] = times_power_of_two(point[k], exponents_[k]);
         }
@@ -230,11 +226,11 @@ oracle::CandidateLight FindingPicture::stretched(const oracle::CandidateLight& l
   return result;
 }
 
-std::string FindingPicture::paint(const std::string& caption, const oracle::CandidateLight& shown,
-                                  const oracle::CandidateLight* truth) const {
+std::string FindingPicture::paint(const std::string& caption, const ClaimedLight& shown,
+                                  const ClaimedLight* truth) const {
   if (!prepared_) return {};
-  const oracle::CandidateLight own = stretched(shown);
-  std::optional<oracle::CandidateLight> right;
+  const ClaimedLight own = stretched(shown);
+  std::optional<ClaimedLight> right;
   if (truth != nullptr) right = stretched(*truth);
   report::Panel panel;
   panel.light = light_;

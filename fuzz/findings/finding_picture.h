@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "gnomon/algorithms/painters_order.h"
-#include "gnomon/oracle/candidate.h"
 #include "gnomon/oracle/compare.h"
+#include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
 #include "report/pictures/picture.h"
@@ -25,11 +25,11 @@ class FindingPicture {
 
   /// SVG of one answer; what it has otherwise than `truth`, if given, in a signal colour. Empty if
   /// the scene cannot be painted.
-  std::string paint(const std::string& caption, const oracle::CandidateLight& shown,
-                    const oracle::CandidateLight* truth) const;
+  std::string paint(const std::string& caption, const ClaimedLight& shown,
+                    const ClaimedLight* truth) const;
 
  private:
-  oracle::CandidateLight stretched(const oracle::CandidateLight& light) const;
+  ClaimedLight stretched(const ClaimedLight& light) const;
 
   std::array<int, 3> exponents_{};  // axes are multiplied by 2^exponent
   Scene scene_;

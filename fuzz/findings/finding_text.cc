@@ -210,10 +210,10 @@ std::string readme_text(const Finding& finding, const Evidence& evidence, const 
   if (failure.property == Property::kOracle && subject != nullptr) {
     if (subject->foreign()) {
       text += fmt::format("gnomon certify {}/scene.json --candidate {}/result.json\n", name, name);
-    } else if (subject->mutation == Mutation::kNone) {
+    } else if (subject->mistake == Mistake::kNone) {
       text +=
           fmt::format("gnomon certify {}/scene.json --kernel {}{}\n", name, subject->kernel.name(),
-                      subject->algorithm == Algorithm::kSvbsp ? " --algorithm svbsp" : "");
+                      subject->algorithm == MethodId::kSvbsp ? " --algorithm svbsp" : "");
     }
   }
   text += "```\n";

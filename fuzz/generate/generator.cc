@@ -9,15 +9,15 @@
 
 #include "fuzz/generate/area_families.h"
 #include "fuzz/generate/families.h"
-#include "fuzz/generate/kind_predicates.h"
 #include "fuzz/generate/soups.h"
+#include "fuzz/kinds/kind_predicates.h"
 #include "fuzz/moves/move_tools.h"
 #include "fuzz/moves/moves.h"
 #include "fuzz/scene/scene_coordinates.h"
-#include "fuzz/text/text_hash.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/read.h"
+#include "scene/base/text_hash.h"
 
 namespace gnomon::fuzz {
 namespace {

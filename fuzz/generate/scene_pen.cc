@@ -14,10 +14,6 @@ Triple operator-(const Triple& a, const Triple& b) {
 Triple operator*(std::int64_t factor, const Triple& a) {
   return {factor * a[0], factor * a[1], factor * a[2]};
 }
-Triple cross(const Triple& a, const Triple& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-bool is_zero(const Triple& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
 
 ScenePen ScenePen::decimal(int exponent) {
   ScenePen pen(exponent);

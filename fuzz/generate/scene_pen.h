@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "gnomon/scene/scene.h"
+#include "scene/base/vectors.h"
 
 namespace gnomon::fuzz {
 
@@ -19,8 +20,6 @@ using Triple = std::array<std::int64_t, 3>;
 Triple operator+(const Triple& a, const Triple& b);
 Triple operator-(const Triple& a, const Triple& b);
 Triple operator*(std::int64_t factor, const Triple& a);
-Triple cross(const Triple& a, const Triple& b);
-bool is_zero(const Triple& a);
 
 class ScenePen {
  public:

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "report/sides/part_area.h"
 #include "report/sides/polygon_sides.h"
 #include "scene/base/random.h"
 
@@ -41,7 +42,7 @@ using Failed = std::optional<BrokenRelation>;
 
 std::string side_text(const Place& place) {
   return fmt::format("light {}, polygon {} ({})", std::get<0>(place), std::get<1>(place),
-                     report::side_name(std::get<2>(place)));
+                     name_of(std::get<2>(place)));
 }
 
 BrokenRelation broken(const Place& place, std::string text) {

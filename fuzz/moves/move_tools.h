@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What moves are made of: places on polygons of the scene, free points about it, and new polygons
-// and lights. Private to fuzz/src.
+// and lights.
 //
 // Random numbers are drawn in separate statements or within braces: the order of arguments and of
 // operands is the compiler's, and a seed must mean the same scene with all of them.

@@ -18,11 +18,6 @@ Vector operator-(const Vector& a, const Vector& b) {
 Vector operator*(const mpq_class& factor, const Vector& a) {
   return {factor * a[0], factor * a[1], factor * a[2]};
 }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-mpq_class dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-bool is_zero(const Vector& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
 
 mpq_class power_of_two(int exponent) {
   mpz_class power;

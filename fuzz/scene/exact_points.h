@@ -12,6 +12,7 @@
 
 #include "gnomon/scene/scene.h"
 #include "scene/base/random.h"
+#include "scene/base/vectors.h"
 
 namespace gnomon::fuzz {
 
@@ -21,9 +22,6 @@ Vector exact(const Position& position);
 Vector operator+(const Vector& a, const Vector& b);
 Vector operator-(const Vector& a, const Vector& b);
 Vector operator*(const mpq_class& factor, const Vector& a);
-Vector cross(const Vector& a, const Vector& b);
-mpq_class dot(const Vector& a, const Vector& b);
-bool is_zero(const Vector& a);
 
 /// 2^exponent
 mpq_class power_of_two(int exponent);

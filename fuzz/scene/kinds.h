@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kinds of scenes that campaigns count: what the generators start from, and the degeneracies
 // that moves put into them (docs: generators). A kind is a statement about a scene that exact
-// arithmetic can decide; kind_check.h decides it.
+// arithmetic can decide; kind_predicates.h decides it.
 #ifndef GNOMON_FUZZ_SCENE_KINDS_H
 #define GNOMON_FUZZ_SCENE_KINDS_H
 

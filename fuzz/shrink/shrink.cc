@@ -14,9 +14,9 @@
 
 #include "fuzz/scene/scene_coordinates.h"
 #include "fuzz/scene/scene_steps.h"
-#include "fuzz/text/text_hash.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/write.h"
+#include "scene/base/text_hash.h"
 
 namespace gnomon::fuzz {
 

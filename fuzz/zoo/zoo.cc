@@ -20,28 +20,27 @@ constexpr std::string_view kPointScenes = "mix", kAreaScenes = "area-mix";
 constexpr std::string_view kTVertex = "t-vertex";
 
 constexpr std::array kZoo = {
-    ZooEntry{"planes-from-fragments", Mutation::kPlanesFromFragments, "double+identity+thin/svbsp",
+    ZooEntry{"planes-from-fragments", Mistake::kPlanesFromFragments, "double+identity+thin/svbsp",
              "soup-lattice", "misclassified"},
-    ZooEntry{"vertices-per-side", Mutation::kVerticesPerSide, "double+thin/svbsp", "soup-lattice",
+    ZooEntry{"vertices-per-side", Mistake::kVerticesPerSide, "double+thin/svbsp", "soup-lattice",
              "misclassified"},
-    ZooEntry{"coplanar-in-sequence", Mutation::kCoplanarInSequence, "plane/svbsp", kPointScenes,
+    ZooEntry{"coplanar-in-sequence", Mistake::kCoplanarInSequence, "plane/svbsp", kPointScenes,
              "misclassified"},
-    ZooEntry{"light-in-plane-faces", Mutation::kLightInPlaneFaces, "rational/svbsp", kPointScenes,
+    ZooEntry{"light-in-plane-faces", Mistake::kLightInPlaneFaces, "rational/svbsp", kPointScenes,
              "misclassified"},
-    ZooEntry{"union-without-continued-planes", Mutation::kUnionWithoutContinuedPlanes,
+    ZooEntry{"union-without-continued-planes", Mistake::kUnionWithoutContinuedPlanes,
              "plane/sectors/merged", kAreaScenes, "misclassified"},
-    ZooEntry{"thickness-too-large", Mutation::kThicknessTooLarge, "double", kPointScenes,
+    ZooEntry{"thickness-too-large", Mistake::kThicknessTooLarge, "double", kPointScenes,
              "misclassified"},
-    ZooEntry{"thickness-too-small", Mutation::kThicknessTooSmall, "double/svbsp", kPointScenes,
+    ZooEntry{"thickness-too-small", Mistake::kThicknessTooSmall, "double/svbsp", kPointScenes,
              "misclassified"},
-    ZooEntry{"t-vertices-left-in", Mutation::kTVerticesLeftIn, "plane/svbsp", kPointScenes,
+    ZooEntry{"t-vertices-left-in", Mistake::kTVerticesLeftIn, "plane/svbsp", kPointScenes,
              kTVertex},
-    ZooEntry{"straddling-light-faces", Mutation::kStraddlingLightFaces, "plane", kAreaScenes,
+    ZooEntry{"straddling-light-faces", Mistake::kStraddlingLightFaces, "plane", kAreaScenes,
              "misclassified"},
-    ZooEntry{"slivers-dropped", Mutation::kSliversDropped, "plane/svbsp", kPointScenes,
-             "uncovered"},
-    ZooEntry{"on-swapped", Mutation::kOnSwapped, "plane", kPointScenes, "misclassified"},
-    ZooEntry{"area-on-swapped", Mutation::kOnSwapped, "plane", kAreaScenes, "misclassified"},
+    ZooEntry{"slivers-dropped", Mistake::kSliversDropped, "plane/svbsp", kPointScenes, "uncovered"},
+    ZooEntry{"on-swapped", Mistake::kOnSwapped, "plane", kPointScenes, "misclassified"},
+    ZooEntry{"area-on-swapped", Mistake::kOnSwapped, "plane", kAreaScenes, "misclassified"},
 };
 
 /// Are all fragments the same, corner by corner?
@@ -63,13 +62,13 @@ bool same(const ShadowResult& a, const ShadowResult& b) {
 
 Expected<ZooVerdict> judge_shadows(const ZooEntry& entry, const ZooCase& zoo_case) {
   ZooVerdict verdict;
-  const auto wrong = zoo_case.shadows(entry.mutation);
+  const auto wrong = zoo_case.shadows(entry.mistake);
   if (!wrong) return tl::unexpected(wrong.error());
-  const auto right = zoo_case.shadows(Mutation::kNone);
+  const auto right = zoo_case.shadows(Mistake::kNone);
   if (!right) return tl::unexpected(right.error());
   // The oracle takes far longer than the subjects, and on most scenes no mistake is made at all.
   if (same(*wrong, *right)) return verdict;
-  const oracle::Candidate candidate = zoo_case.candidate_of(*wrong, entry.mutant());
+  const Claims candidate = zoo_case.candidate_of(*wrong, entry.mutant());
   const oracle::Report report = zoo_case.certified(candidate);
   verdict.mutant.regions = report.verdict == oracle::Verdict::kFailed;
   if (!verdict.mutant.regions) return verdict;
@@ -77,7 +76,7 @@ Expected<ZooVerdict> judge_shadows(const ZooEntry& entry, const ZooCase& zoo_cas
     verdict.disagreement = oracle::name_of(report.worst->kind);
     verdict.text = report.worst->text;
   }
-  const oracle::Candidate sound = zoo_case.candidate_of(*right, std::string(entry.sound));
+  const Claims sound = zoo_case.candidate_of(*right, std::string(entry.sound));
   verdict.sound_fails =
       zoo_case.certified(sound).verdict == oracle::Verdict::kFailed || !zoo_case.claims_hold(sound);
   if (verdict.sound_fails) return verdict;
@@ -90,9 +89,9 @@ Expected<ZooVerdict> judge_shadows(const ZooEntry& entry, const ZooCase& zoo_cas
 Expected<ZooVerdict> judge_meshes(const ZooEntry& entry, const ZooCase& zoo_case) {
   ZooVerdict verdict;
   for (std::uint32_t light = 0; light < zoo_case.prepared().lights.size(); ++light) {
-    const auto wrong = zoo_case.mesh(light, entry.mutation);
+    const auto wrong = zoo_case.mesh(light, entry.mistake);
     if (!wrong) return tl::unexpected(wrong.error());
-    const auto right = zoo_case.mesh(light, Mutation::kNone);
+    const auto right = zoo_case.mesh(light, Mistake::kNone);
     if (!right) return tl::unexpected(right.error());
     verdict.sound_fails = verdict.sound_fails || zoo_case.check(*right).t_vertices > 0;
     const oracle::MeshReport report = zoo_case.check(*wrong);
@@ -109,7 +108,7 @@ Expected<ZooVerdict> judge_meshes(const ZooEntry& entry, const ZooCase& zoo_case
 }  // namespace
 
 std::string ZooEntry::mutant() const {
-  return std::string(sound) + '~' + std::string(name_of(mutation));
+  return std::string(sound) + '~' + std::string(name_of(mistake));
 }
 
 std::span<const ZooEntry> zoo() { return kZoo; }
@@ -123,8 +122,8 @@ Expected<ZooVerdict> judge_mutant(const ZooEntry& entry, const Scene& scene) {
   Expected<PreparedScene> prepared = prepare(scene);
   if (!prepared) return tl::unexpected(prepared.error());
   const ZooCase zoo_case(entry, scene, std::move(*prepared));
-  return entry.mutation == Mutation::kTVerticesLeftIn ? judge_meshes(entry, zoo_case)
-                                                      : judge_shadows(entry, zoo_case);
+  return entry.mistake == Mistake::kTVerticesLeftIn ? judge_meshes(entry, zoo_case)
+                                                    : judge_shadows(entry, zoo_case);
 }
 
 Expected<ZooRow> hunt(const ZooEntry& entry, std::uint64_t seed, std::uint64_t most_scenes) {
@@ -132,8 +131,8 @@ Expected<ZooRow> hunt(const ZooEntry& entry, std::uint64_t seed, std::uint64_t m
   if (!generator) return tl::unexpected(generator.error());
   ZooRow row;
   row.name = entry.name;
-  for (const MutationInfo& info : mutations()) {
-    if (info.mutation == entry.mutation) row.mistake = info.mistake;
+  for (const MistakeInfo& info : mistakes()) {
+    if (info.mistake == entry.mistake) row.mistake = info.sentence;
   }
   row.mutant = entry.mutant();
   row.seed = seed;

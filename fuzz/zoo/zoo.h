@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gnomon/algorithms/mutation.h"
+#include "fuzz/mistakes/mistake.h"
 #include "gnomon/kernel/error.h"
 #include "gnomon/scene/scene.h"
 
@@ -22,8 +22,8 @@ namespace gnomon::fuzz {
 
 struct ZooEntry {
   std::string_view name;  // of the fixture tests/regressions/zoo/?_NAME.json and the picture
-  Mutation mutation = Mutation::kNone;
-  std::string_view sound;      // subject; the mutant is this and "~MUTATION"
+  Mistake mistake = Mistake::kNone;
+  std::string_view sound;      // subject; the mutant is this and "~MISTAKE"
   std::string_view generator;  // of the scenes
   // The class of failure that the fixture shows: of the oracle's regions, or "t-vertex".
   std::string_view disagreement;
@@ -31,7 +31,7 @@ struct ZooEntry {
   std::string mutant() const;
 };
 
-/// In order of the mutations; a mistake that area lights and others have in different ways, or that
+/// In order of the mistakes; a mistake that area lights and others have in different ways, or that
 /// several algorithms make, has several.
 std::span<const ZooEntry> zoo();
 const ZooEntry* zoo_entry(std::string_view name);

@@ -4,9 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "fuzz/mistakes/compute.h"
 #include "gnomon/algorithms/illumination.h"
 #include "gnomon/oracle/witness_check.h"
-#include "report/sides/candidate_from_result.h"
+#include "report/sides/claims_of.h"
 
 namespace gnomon::fuzz {
 
@@ -16,7 +17,6 @@ constexpr std::uint64_t kMostFragments = 20'000;
 
 oracle::CertifyOptions certify_options() {
   oracle::CertifyOptions options;
-  options.threads = 1;
   options.most_regions = 1;
   return options;
 }
@@ -26,46 +26,42 @@ oracle::CertifyOptions certify_options() {
 ZooCase::ZooCase(const ZooEntry& entry, const Scene& scene, PreparedScene prepared)
     : scene_(scene),
       prepared_(std::move(prepared)),
-      answer_(scene_, prepared_),
+      judged_(scene_, prepared_),
       sound_(*parse_subject(entry.sound)) {}
 
-Expected<ShadowResult> ZooCase::shadows(Mutation mutation) const {
+Expected<ShadowResult> ZooCase::shadows(Mistake mistake) const {
   ShadowOptions options = shadow_options(sound_);
   options.max_fragments = kMostFragments;
-  options.mutation = mutation;
-  return compute_shadows(prepared_, options);
+  return compute_shadows(prepared_, options, mistake);
 }
 
-oracle::Candidate ZooCase::candidate_of(const ShadowResult& result, std::string name) const {
-  return report::candidate_from_result(scene_, prepared_, result, std::move(name),
-                                       sound_.kernel.exact());
+Claims ZooCase::candidate_of(const ShadowResult& result, std::string name) const {
+  return report::claims_of(scene_, prepared_, result, std::move(name), sound_.kernel.exact());
 }
 
-oracle::Report ZooCase::certified(const oracle::Candidate& candidate) const {
-  return *oracle::certify(answer_, candidate, certify_options());
+oracle::Report ZooCase::certified(const Claims& candidate) const {
+  return *judged_.judge(candidate, certify_options());
 }
 
-oracle::Report ZooCase::certified_by_points(const oracle::Candidate& candidate) const {
+oracle::Report ZooCase::certified_by_points(const Claims& candidate) const {
   oracle::CertifyOptions options = certify_options();
   options.most_pairs = 0;
-  return *oracle::certify(answer_, candidate, options);
+  return *judged_.judge(candidate, options);
 }
 
-bool ZooCase::claims_hold(const oracle::Candidate& candidate) const {
+bool ZooCase::claims_hold(const Claims& candidate) const {
   oracle::WitnessOptions options;
   options.most = 1;
   return oracle::check_witnesses(scene_, prepared_, candidate, options).violations == 0;
 }
 
-Expected<ShadingMesh> ZooCase::mesh(std::uint32_t light, Mutation mutation) const {
+Expected<ShadingMesh> ZooCase::mesh(std::uint32_t light, Mistake mistake) const {
   ShadowOptions options = shadow_options(sound_);
   options.max_fragments = kMostFragments;
   options.lights = {light};
   const auto result = compute_shadows(prepared_, options);
   if (!result) return tl::unexpected(result.error());
   const Illuminator illuminator(prepared_, light, 1);
-  ShadingOptions shading;
-  shading.mutation = mutation;
   return make_shading_mesh(
       prepared_, *result,
       [&](const ShadeRequest& asked) {
@@ -73,7 +69,7 @@ Expected<ShadingMesh> ZooCase::mesh(std::uint32_t light, Mutation mutation) cons
             illuminator.at(asked.part, asked.side, asked.point, asked.unobstructed, asked.inwards);
         return PointShade{found.value, found.error_bound};
       },
-      shading);
+      ShadingOptions{}, mistake);
 }
 
 oracle::MeshReport ZooCase::check(const ShadingMesh& mesh) const {
@@ -81,8 +77,7 @@ oracle::MeshReport ZooCase::check(const ShadingMesh& mesh) const {
   for (const MeshFace& face : mesh.faces) {
     oracle::MeshFaceClaim claim;
     claim.polygon = scene_.polygons[prepared_.parts[face.part].polygon].id;
-    claim.side =
-        face.side == Side::kFront ? oracle::PolygonSide::kFront : oracle::PolygonSide::kBack;
+    claim.side = face.side;
     claim.dark = face.lit_by == 0 && face.penumbra_of == 0;
     for (const MeshCorner& corner : mesh.loop(face)) {
       claim.loop.push_back(mesh.exact_points[corner.vertex].rational());

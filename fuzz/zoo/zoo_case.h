@@ -6,14 +6,14 @@
 #include <cstdint>
 #include <string>
 
+#include "fuzz/check/judged_scene.h"
 #include "fuzz/check/subject.h"
 #include "fuzz/zoo/zoo.h"
 #include "gnomon/algorithms/shading_mesh.h"
 #include "gnomon/algorithms/shadows.h"
-#include "gnomon/oracle/candidate.h"
-#include "gnomon/oracle/exact_answer.h"
 #include "gnomon/oracle/mesh_check.h"
 #include "gnomon/oracle/verdict.h"
+#include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
 
@@ -29,21 +29,21 @@ class ZooCase {
   const PreparedScene& prepared() const { return prepared_; }
 
   /// What the subject comes to with that mistake. Errors: those of compute_shadows().
-  Expected<ShadowResult> shadows(Mutation mutation) const;
-  oracle::Candidate candidate_of(const ShadowResult& result, std::string name) const;
-  oracle::Report certified(const oracle::Candidate& candidate) const;
+  Expected<ShadowResult> shadows(Mistake mistake) const;
+  Claims candidate_of(const ShadowResult& result, std::string name) const;
+  oracle::Report certified(const Claims& candidate) const;
   /// The same by the visibility of points alone.
-  oracle::Report certified_by_points(const oracle::Candidate& candidate) const;
-  bool claims_hold(const oracle::Candidate& candidate) const;
+  oracle::Report certified_by_points(const Claims& candidate) const;
+  bool claims_hold(const Claims& candidate) const;
 
   /// The illuminated mesh of the sound fragments of one light, made with that mistake.
-  Expected<ShadingMesh> mesh(std::uint32_t light, Mutation mutation) const;
+  Expected<ShadingMesh> mesh(std::uint32_t light, Mistake mistake) const;
   oracle::MeshReport check(const ShadingMesh& mesh) const;
 
  private:
   const Scene& scene_;
   PreparedScene prepared_;
-  oracle::ExactAnswer answer_;
+  JudgedScene judged_;
   Subject sound_;
 };
 

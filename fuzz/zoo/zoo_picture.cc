@@ -43,14 +43,14 @@ std::string side_by_side(const std::string& left, const std::string& right) {
 
 Expected<std::string> shadow_picture(const ZooEntry& entry, const Scene& scene,
                                      const ZooCase& zoo_case) {
-  const auto wrong = zoo_case.shadows(entry.mutation);
+  const auto wrong = zoo_case.shadows(entry.mistake);
   if (!wrong) return tl::unexpected(wrong.error());
   ShadowOptions exact;
   exact.keep_exact_points = true;
   const auto right = compute_shadows(zoo_case.prepared(), exact);
   if (!right) return tl::unexpected(right.error());
-  const oracle::Candidate shown = zoo_case.candidate_of(*wrong, entry.mutant());
-  const oracle::Candidate truth = zoo_case.candidate_of(*right, "exact");
+  const Claims shown = zoo_case.candidate_of(*wrong, entry.mutant());
+  const Claims truth = zoo_case.candidate_of(*right, "exact");
   const oracle::Report report = zoo_case.certified(shown);
   if (report.verdict != oracle::Verdict::kFailed || !report.worst) return shows_nothing(entry);
   for (std::uint32_t light = 0; light < shown.lights.size(); ++light) {
@@ -66,9 +66,9 @@ Expected<std::string> mesh_picture(const ZooEntry& entry, const Scene& scene,
                                    const ZooCase& zoo_case) {
   const PreparedScene& prepared = zoo_case.prepared();
   for (std::uint32_t light = 0; light < prepared.lights.size(); ++light) {
-    const auto wrong = zoo_case.mesh(light, entry.mutation);
+    const auto wrong = zoo_case.mesh(light, entry.mistake);
     if (!wrong) return tl::unexpected(wrong.error());
-    const auto right = zoo_case.mesh(light, Mutation::kNone);
+    const auto right = zoo_case.mesh(light, Mistake::kNone);
     if (!right) return tl::unexpected(right.error());
     if (zoo_case.check(*wrong).t_vertices == 0) continue;
     report::ShadedPictureOptions options;
@@ -95,8 +95,8 @@ Expected<std::string> zoo_picture(const ZooEntry& entry, const Scene& scene) {
   Expected<PreparedScene> prepared = prepare(scene);
   if (!prepared) return tl::unexpected(prepared.error());
   const ZooCase zoo_case(entry, scene, std::move(*prepared));
-  return entry.mutation == Mutation::kTVerticesLeftIn ? mesh_picture(entry, scene, zoo_case)
-                                                      : shadow_picture(entry, scene, zoo_case);
+  return entry.mistake == Mistake::kTVerticesLeftIn ? mesh_picture(entry, scene, zoo_case)
+                                                    : shadow_picture(entry, scene, zoo_case);
 }
 
 }  // namespace gnomon::fuzz

@@ -8,6 +8,7 @@
 //
 // Guarantee: the errors are proven bounds, infinite where overflow, underflow or an unknown sign of
 // q_w leave nothing to say.
+// Tests: tests/kernel/sector_space_test.h holds charts against rational ones, by these bounds.
 #ifndef GNOMON_KERNEL_CONCEPT_CHART_FORMULAS_H
 #define GNOMON_KERNEL_CONCEPT_CHART_FORMULAS_H
 

@@ -38,11 +38,14 @@ bool is_known_on_support(const Geometry& geometry, PlaneId plane, const Corner<V
   return source == triple.a || source == triple.b || source == triple.c;
 }
 
-/// Derived has, for its friend:
-///   Plane shadow_plane_of(const Vertex& from, const Vertex& to) const;
-///   Side side(const Plane&, const Vertex&) const;           // of an oriented plane
-///   Vertex meet(const Plane&, const Vertex&, const Vertex&) const;  // the edge's point on a plane
-/// and its scene space side_of_support(PlaneId, const Vertex&) const, both without identity.
+/// The derived kernel has, for its friend, all without identity:
+///  - Plane shadow_plane_of(const Vertex& from, const Vertex& to) const;
+///  - Side side(const Plane&, const Vertex&) const;
+///    the side of an oriented plane;
+///  - Vertex meet(const Plane&, const Vertex&, const Vertex&) const;
+///    where an edge meets a plane.
+/// Its scene space has
+///  - Side side_of_support(PlaneId, const Vertex&) const.
 template <class Derived, class Scene, class Plane>
 class ConstructedLightSpace {
  public:

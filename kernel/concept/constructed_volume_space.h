@@ -28,13 +28,18 @@
 
 namespace gnomon {
 
-/// Derived has, for its friend:
-///   std::optional<Plane> plane_of(const Vertex&, const Vertex&, const Vertex&) const;
-///   std::optional<Plane> plane_of(const Vertex&, const Vertex&, const LightPoint& direction)
-///   const; Plane axis_plane(int axis, double value) const; Side side(const Plane&, const Vertex&)
-///   const;           // of an oriented plane Vertex meet(const Plane&, const Vertex&, const
-///   Vertex&) const;  // the edge's point on a plane
-/// and its scene space side_of_support(PlaneId, const Vertex&) const, all without identity.
+/// The derived kernel has, for its friend, all without identity:
+///  - std::optional<Plane> plane_of(const Vertex&, const Vertex&, const Vertex&) const;
+///    the plane through three points;
+///  - std::optional<Plane> plane_of(const Vertex&, const Vertex&, const LightPoint&) const;
+///    the plane through two points and along a direction;
+///  - Plane axis_plane(int axis, double value) const;
+///  - Side side(const Plane&, const Vertex&) const;
+///    the side of an oriented plane;
+///  - Vertex meet(const Plane&, const Vertex&, const Vertex&) const;
+///    where an edge meets a plane.
+/// Its scene space has
+///  - Side side_of_support(PlaneId, const Vertex&) const.
 template <class Derived, class Scene, class Plane>
 class ConstructedVolumeSpace {
  public:

@@ -19,6 +19,19 @@
 namespace gnomon {
 
 /// A space in which convex loops are split by planes: the scene's, or that of one light.
+///
+/// side_of_plane(plane, corner) is the side of `plane`, in the orientation of the reference, on
+/// which the corner's vertex lies: kFront, kOn or kBack (orientation.h). Of every kernel holds
+///  (1) side_of_plane(-plane, corner) is the opposite side;
+///  (2) the same question has the same answer, whatever was asked before.
+/// Of exact kernels, and of rounded ones with identity, holds
+///  (3) a corner is on the planes of its two edges and on the support plane of its loop.
+/// Exactness: exact kernels answer for the exact point. Degree and bits: those of the space, see
+/// precision_plan.h; kernel `plane` states them with each predicate.
+///
+/// crossing(plane, edge, leaving, from, to) is the vertex where the edge from `from` to `to` meets
+/// `plane`. Requires: the two ends are strictly on different sides of `plane`; `leaving` tells
+/// whether `from` is in front. It is a construction: exact on exact kernels, rounded on all others.
 template <class S>
 concept DecisionSpace = requires(S& space, const S& constant, PlaneRef plane, bool leaving,
                                  const Corner<typename S::Vertex>& corner) {

@@ -8,6 +8,8 @@
 // A floating-point technique for extending the available precision, Numer. Math. 18 (1971); M.
 // Joldes, J.-M. Muller, V. Popescu, Tight and rigorous error bounds for basic building blocks of
 // double-word arithmetic, ACM TOMS 44 (2017).
+//
+// Tests: tests/kernel/double_double_test.cc holds every error bound against rationals.
 #ifndef GNOMON_KERNEL_NUMBERS_DOUBLE_DOUBLE_H
 #define GNOMON_KERNEL_NUMBERS_DOUBLE_DOUBLE_H
 

@@ -183,16 +183,6 @@ template <class Int>
 Sign sign_of_determinant(const Vector3<Int>& a, const Vector3<Int>& b, const Vector3<Int>& c) {
   return sign_of_determinant<Int, Int, Int, Int>(a, b, c);
 }
-/// Sign of plane t at the point where three planes meet, from their normals and the values P(o) of
-/// all four at any point o: the point is o - (P(o) q x r + Q(o) r x p + R(o) p x q) / w with
-/// w = p . q x r, and T there is (T(o) w - P(o) t . q x r - Q(o) t . r x p - R(o) t . p x q) / w.
-/// Where o lies in all but one of the planes, only signs of products are left.
-/// Requires: volume_meet_bits() of the magnitudes fit into Int, components leave two bits of Factor
-/// free, and values fit into the product of two Factors.
-template <class Int, class Factor, class Value>
-Sign sign_at_meet(const std::array<Vector3<Factor>, 3>& n, const std::array<Value, 3>& values,
-                  const Vector3<Factor>& t, const Value& t_value);
-
 template <>
 inline constexpr Sign sign_of(const Int128& value) {
   return value > 0 ? Sign::kPositive : value < 0 ? Sign::kNegative : Sign::kZero;
@@ -200,38 +190,6 @@ inline constexpr Sign sign_of(const Int128& value) {
 template <>
 inline Sign sign_of(const mpz_class& value) {
   return static_cast<Sign>(sgn(value));
-}
-
-template <class Int, class Factor, class Value>
-Sign sign_at_meet(const std::array<Vector3<Factor>, 3>& n, const std::array<Value, 3>& values,
-                  const Vector3<Factor>& t, const Value& t_value) {
-  using Cross = Product<Int, Factor, Factor>;
-  using Minor = Product<Int, Factor, Cross>;
-  Value sole{};
-  Minor sole_minor{};
-  Int sum{};
-  int terms = 0;
-  const auto add = [&](const Value& value, const Minor& minor) {
-    if (terms == 0) {
-      sole = value;
-      sole_minor = minor;
-    } else {
-      if (terms == 1) sum = multiply<Int>(sole, sole_minor);
-      sum = Int(sum + multiply<Int>(value, minor));
-    }
-    ++terms;
-  };
-  const Minor w = dot<Minor>(n[0], cross<Cross>(n[1], n[2]));
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (sign_of(values[i]) == Sign::kZero) continue;
-    // t . n_(i+1) x n_(i+2) with its sign turned.
-    add(values[i], dot<Minor>(t, cross<Cross>(n[(i + 2) % 3], n[(i + 1) % 3])));
-  }
-  if (sign_of(t_value) != Sign::kZero) add(t_value, w);
-  const Sign sign = terms == 0   ? Sign::kZero
-                    : terms == 1 ? sign_of(sole) * sign_of(sole_minor)
-                                 : sign_of(sum);
-  return sign * sign_of(w);
 }
 
 /// The double nearest to value * 2^-shift, rounded once: relative error at most u, where nothing

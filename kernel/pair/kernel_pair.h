@@ -17,21 +17,10 @@
 #include <utility>
 #include <vector>
 
+#include "gnomon/kernel/differing_decision.h"
 #include "kernel/concept/kernel_concept.h"
 
 namespace gnomon {
-
-/// The first decision on which the two kernels differ.
-struct DifferingDecision {
-  std::string plane;                        // in words
-  std::string vertex;                       // in words
-  std::array<double, 3> position{};         // nearest doubles of the exact vertex, scene units
-  std::array<double, 3> tested_position{};  // as the kernel under test has it
-  PlaneId support = 0;                      // of the fragment
-  Side tested = Side::kOn;
-  Side exact = Side::kOn;
-  std::uint64_t decisions = 0;  // asked before this one
-};
 
 /// What both spaces of a pair share: the record, and the wish to stop.
 struct LockStep {

@@ -101,8 +101,7 @@ void DeepUmbra::certify_whole() {
 void DeepUmbra::certify_in_part(const std::vector<ChartPoint>& loop, std::uint32_t part) {
   const PreparedScene& prepared = answer_.prepared();
   const AreaShade& shade = answer_.area_shade(light_, part, group_.side);
-  const Side side = group_.side == PolygonSide::kFront ? Side::kFront : Side::kBack;
-  if (!answer_.area_regions(light_).sees(part, side)) return;
+  if (!answer_.area_regions(light_).sees(part, group_.side)) return;
   const ChartLine horizon = chart_.trace(plane_of(prepared.lights[light_].area_loop));
   ConvexLoop whole = with_lines(loop), workspace;
   for (const ChartLine& line : loop_in_chart(chart_, grid_loop(prepared, part)).lines) {
@@ -120,11 +119,11 @@ void DeepUmbra::certify_in_part(const std::vector<ChartPoint>& loop, std::uint32
         [&, &piece = piece](const ShadowPiece& own) { return holds(own.loop, piece.vertices); });
     if (umbra) continue;
     ++tests_;
-    std::vector<ExactPoint> corners;
+    std::vector<RationalPoint> corners;
     for (const ChartPoint& vertex : piece.vertices) {
       corners.push_back(chart_.lift_to_scene(prepared.geometry, vertex));
     }
-    if (visibility.hides_all_from(part, side, corners)) {
+    if (visibility.hides_all_from(part, group_.side, corners)) {
       certified_.push_back(std::move(piece.vertices));
       continue;
     }
@@ -132,9 +131,10 @@ void DeepUmbra::certify_in_part(const std::vector<ChartPoint>& loop, std::uint32
     // After a few halvings a piece that sees light from its middle and corners is given up.
     if (depth >= kDepth / 3) {
       corners.push_back(chart_.lift_to_scene(prepared.geometry, centre_of(piece.vertices)));
-      const bool sees = std::all_of(corners.rbegin(), corners.rend(), [&](const ExactPoint& point) {
-        return !visibility.at(part, side, point).deep();
-      });
+      const bool sees =
+          std::all_of(corners.rbegin(), corners.rend(), [&](const RationalPoint& point) {
+            return !visibility.at(part, group_.side, point).deep();
+          });
       if (sees) continue;
     }
     const ChartLine across = middle_line(piece.vertices);

@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 
+#include "oracle/answer/truth_overlay.h"
 #include "oracle/geometry/convex_loop.h"
 #include "oracle/geometry/group_overlay.h"
 
@@ -18,7 +19,7 @@ struct ExactAnswer::Data {
     std::vector<AnswerEntry> entries;
     std::mutex mutex;
     std::map<std::uint32_t, std::vector<ShadowPiece>> shadows;
-    std::map<std::pair<std::uint32_t, PolygonSide>, AreaShade> shades;
+    std::map<std::pair<std::uint32_t, Side>, AreaShade> shades;
   };
 
   const Scene& scene;
@@ -137,7 +138,7 @@ const std::vector<AnswerEntry>& ExactAnswer::entries(std::uint32_t light) const 
         if (!listed[side]) continue;
         AnswerEntry entry;
         entry.polygon = polygon;
-        entry.side = side == 1 ? PolygonSide::kBack : PolygonSide::kFront;
+        entry.side = side == 1 ? Side::kBack : Side::kFront;
         for (const PlaneGroup& plane : groups) {
           const bool dark = !plane.sees[0] && !plane.sees[1];
           entry.groups.push_back(plane.group);
@@ -168,8 +169,7 @@ const std::vector<ShadowPiece>& ExactAnswer::shadows(std::uint32_t light,
   return own.shadows.try_emplace(part, std::move(pieces)).first->second;
 }
 
-const AreaShade& ExactAnswer::area_shade(std::uint32_t light, std::uint32_t part,
-                                         PolygonSide side) const {
+const AreaShade& ExactAnswer::area_shade(std::uint32_t light, std::uint32_t part, Side side) const {
   Data::PerLight& own = data_->lights[light];
   const AreaRegions& found = area_regions(light);
   const std::pair key{part, side};
@@ -179,9 +179,8 @@ const AreaShade& ExactAnswer::area_shade(std::uint32_t light, std::uint32_t part
     if (place != own.shades.end()) return place->second;
   }
   AreaShade shade;
-  const Side asked = side == PolygonSide::kFront ? Side::kFront : Side::kBack;
-  if (found.sees(part, asked)) {
-    shade = found.shade_on(part, asked);
+  if (found.sees(part, side)) {
+    shade = found.shade_on(part, side);
   } else {
     const Chart chart(support_of(data_->prepared, part));
     shade.behind = loop_in_chart(chart, grid_loop(data_->prepared, part)).vertices;
@@ -199,7 +198,7 @@ void ExactAnswer::forget(std::uint32_t light) const {
 
 TrueFractions ExactAnswer::group_fractions(std::uint32_t light, const ReceiverGroup& group,
                                            bool exact) const {
-  GroupOverlay overlay(*this, light, group);
+  GroupOverlay overlay(prepared(), group.parts, truth_of(*this, light, group));
   overlay.build();
   const std::size_t limit = exact ? static_cast<std::size_t>(-1) : 0;
   const auto share = [&](const GroupOverlay::Choice& choice) {
@@ -224,7 +223,7 @@ TrueFractions ExactAnswer::fractions(std::uint32_t light, const AnswerEntry& ent
   for (const ReceiverGroup& group : entry.groups) {
     if (group.optional) continue;
     const TrueFractions own = group_fractions(light, group, exact);
-    const Enclosure whole = group_area(prepared(), group);
+    const Enclosure whole = group_area(prepared(), group.parts);
     lit.add(own.lit, whole);
     shadow.add(own.shadow, whole);
     penumbra.add(own.penumbra, whole);

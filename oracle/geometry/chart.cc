@@ -65,7 +65,7 @@ ExactPlane plane_of(std::span<const Integers3> loop) {
   return plane;
 }
 
-HomogeneousPoint to_grid(const Geometry& geometry, const ExactPoint& point) {
+HomogeneousPoint to_grid(const Geometry& geometry, const RationalPoint& point) {
   std::array<mpq_class, 3> coordinates;
   HomogeneousPoint result;
   for (int k = 0; k < 3; ++k) {
@@ -198,9 +198,9 @@ HomogeneousPoint Chart::lift(const ChartPoint& point) const {
   return result;
 }
 
-ExactPoint Chart::lift_to_scene(const Geometry& geometry, const ChartPoint& point) const {
+RationalPoint Chart::lift_to_scene(const Geometry& geometry, const ChartPoint& point) const {
   const HomogeneousPoint lifted = lift(point);
-  ExactPoint result;
+  RationalPoint result;
   for (int k = 0; k < 3; ++k) {
     mpq_class coordinate(lifted.xyz[k], lifted.w);
     coordinate.canonicalize();

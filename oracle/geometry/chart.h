@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "gnomon/kernel/geometry.h"
-#include "gnomon/oracle/candidate.h"
+#include "gnomon/result/claims.h"
 
 namespace gnomon::oracle {
 
@@ -65,7 +65,7 @@ Integers3 area_vector(std::span<const Integers3> loop);
 ExactPlane plane_of(std::span<const Integers3> loop);
 
 /// Position of a scene point on the grid's axes.
-HomogeneousPoint to_grid(const Geometry& geometry, const ExactPoint& point);
+HomogeneousPoint to_grid(const Geometry& geometry, const RationalPoint& point);
 
 int sign_at(const ChartLine& line, const ChartPoint& point);
 /// Positive to the left of a -> b; zero line if a = b.
@@ -94,7 +94,7 @@ class Chart {
   /// The point of the support plane, on the grid's axes.
   HomogeneousPoint lift(const ChartPoint& point) const;
   /// The same in scene units.
-  ExactPoint lift_to_scene(const Geometry& geometry, const ChartPoint& point) const;
+  RationalPoint lift_to_scene(const Geometry& geometry, const ChartPoint& point) const;
 
  private:
   ExactPlane support_;

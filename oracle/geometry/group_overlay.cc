@@ -19,10 +19,10 @@ ExactPlane support_of(const PreparedScene& scene, std::uint32_t part) {
   return plane_of(grid_loop(scene, part));
 }
 
-Enclosure group_area(const PreparedScene& scene, const ReceiverGroup& group) {
+Enclosure group_area(const PreparedScene& scene, std::span<const std::uint32_t> parts) {
   // Area vectors of coplanar parts are parallel: their sum is the area vector of all.
   Integers3 sum;
-  for (std::uint32_t part : group.parts) {
+  for (std::uint32_t part : parts) {
     const Integers3 own = area_vector(grid_loop(scene, part));
     for (int k = 0; k < 3; ++k) sum[k] += own[k];
   }
@@ -44,37 +44,17 @@ Enclosure enclose_ratio(const mpz_class& a, const mpz_class& b) {
           round_up(std::ldexp(ratio * (1 + 0x1p-50), static_cast<int>(power)))};
 }
 
-GroupOverlay::GroupOverlay(const ExactAnswer& answer, std::uint32_t light,
-                           const ReceiverGroup& group)
-    : chart_(support_of(answer.prepared(), group.parts.front())),
-      whole_area_(group_area(answer.prepared(), group)) {
-  for (std::uint32_t part : group.parts) {
+GroupOverlay::GroupOverlay(const PreparedScene& scene, std::span<const std::uint32_t> parts,
+                           const Truth& add_truth)
+    : chart_(support_of(scene, parts.front())), whole_area_(group_area(scene, parts)) {
+  for (std::uint32_t part : parts) {
     std::vector<ChartPoint> loop;
-    for (const Integers3& point : grid_loop(answer.prepared(), part)) {
-      loop.push_back(chart_.at(point));
-    }
+    for (const Integers3& point : grid_loop(scene, part)) loop.push_back(chart_.at(point));
     if (loop.size() >= 3 && orientation(loop[0], loop[1], loop[2]) < 0) {
       std::reverse(loop.begin(), loop.end());
     }
     overlay_.add_loop(loop, kReceiver);
-    if (answer.is_area(light)) {
-      if (!group.faces) {
-        overlay_.add_loop(loop, kTrueUmbra);
-        continue;
-      }
-      const AreaShade& shade = answer.area_shade(light, part, group.side);
-      overlay_.add_loop(shade.behind, kTrueUmbra);
-      for (const ShadowPiece& piece : shade.penumbra) overlay_.add_loop(piece.loop, kTruth);
-      for (const ShadowPiece& piece : shade.umbra) overlay_.add_loop(piece.loop, kTrueUmbra);
-      continue;
-    }
-    if (!group.faces) {
-      overlay_.add_loop(loop, kTruth);
-      continue;
-    }
-    for (const ShadowPiece& piece : answer.shadows(light, part)) {
-      overlay_.add_loop(piece.loop, kTruth);
-    }
+    add_truth(overlay_, part, loop);
   }
 }
 

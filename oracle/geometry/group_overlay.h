@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One planar receiver (the coplanar parts of one polygon), its true shadows and a candidate's
-// fragments in one overlay, and areas of sets of its cells.
+// One planar receiver (the coplanar parts of one polygon), what is true of it and what is claimed
+// of it in one overlay, and areas of sets of its cells.
 #ifndef GNOMON_ORACLE_GEOMETRY_GROUP_OVERLAY_H
 #define GNOMON_ORACLE_GEOMETRY_GROUP_OVERLAY_H
 
+#include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
-#include "gnomon/oracle/exact_answer.h"
+#include "gnomon/oracle/area_share.h"
+#include "gnomon/scene/prepare.h"
 #include "oracle/geometry/chart.h"
 #include "oracle/geometry/overlay.h"
 
@@ -15,14 +19,20 @@ namespace gnomon::oracle {
 std::vector<Integers3> grid_loop(const PreparedScene& scene, std::uint32_t part);
 /// Of the part's own loop, reduced: equal planes with equal fronts are equal as data.
 ExactPlane support_of(const PreparedScene& scene, std::uint32_t part);
-/// In scene units squared.
-Enclosure group_area(const PreparedScene& scene, const ReceiverGroup& group);
+/// Of coplanar parts, in scene units squared.
+Enclosure group_area(const PreparedScene& scene, std::span<const std::uint32_t> parts);
 /// |a| / |b| without overflow on the way.
 Enclosure enclose_ratio(const mpz_class& a, const mpz_class& b);
 
 class GroupOverlay {
  public:
-  GroupOverlay(const ExactAnswer& answer, std::uint32_t light, const ReceiverGroup& group);
+  /// Adds to the overlay what is true of one part, whose own loop is given counter-clockwise in the
+  /// chart and has been added.
+  using Truth =
+      std::function<void(Overlay&, std::uint32_t part, const std::vector<ChartPoint>& loop)>;
+  /// `parts`: coplanar ones, at least one.
+  GroupOverlay(const PreparedScene& scene, std::span<const std::uint32_t> parts,
+               const Truth& add_truth);
 
   const Chart& chart() const { return chart_; }
   Overlay& overlay() { return overlay_; }

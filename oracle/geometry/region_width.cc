@@ -154,139 +154,192 @@ SlabDirection best_direction(const std::vector<Planar>& edges) {
   return best;
 }
 
-}  // namespace
+class RegionMeasure {
+ public:
+  RegionMeasure(const Overlay& overlay, const ChartMetric& metric,
+                const std::vector<std::uint32_t>& boundary)
+      : overlay_(overlay), metric_(metric), unit_(overlay.box_unit()) {
+    read(boundary);
+    cut();
+  }
 
-RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
-                           const std::vector<std::uint32_t>& boundary, double resolution) {
-  RegionShape result;
-  const ChartPoint& base = overlay.point(overlay.halfedges()[boundary.front()].origin);
-  const mpz_class base_x = overlay.fixed_value(base.x, base.w, kBits);
-  const mpz_class base_y = overlay.fixed_value(base.y, base.w, kBits);
-  const double unit = overlay.box_unit();
-  // Coordinates relative to the base, subtracted exactly, in units of the overlay's box.
-  const auto planar = [&](const mpz_class& x, const mpz_class& x_w, const mpz_class& y,
-                          const mpz_class& y_w) {
-    const mpz_class dx = overlay.fixed_value(x, x_w, kBits) - base_x;
-    const mpz_class dy = overlay.fixed_value(y, y_w, kBits) - base_y;
+  RegionShape shape(double resolution) {
+    const double rounding = 0x1p-47 * size_;
+    const double fine = std::max(4 * rounding, unit_ > 0 ? resolution / 2 / unit_ : 0.0);
+    const double lower = lower_bound(fine);
+    double upper = queue_.empty() ? lower : std::max(lower, queue_.top().upper);
+    if (!complete_) upper = 2 * size_;  // said as it is: no better bound was computed
+    const Enclosure width{std::max(0.0, 2 * (lower - rounding)) * unit_,
+                          2 * (upper + rounding) * unit_};
+    return {width, std::move(interior_)};
+  }
+
+ private:
+  /// Coordinates relative to the base, subtracted exactly, in units of the overlay's box.
+  Planar planar(const mpz_class& x, const mpz_class& x_w, const mpz_class& y,
+                const mpz_class& y_w) const {
+    const mpz_class dx = overlay_.fixed_value(x, x_w, kBits) - base_x_;
+    const mpz_class dy = overlay_.fixed_value(y, y_w, kBits) - base_y_;
     const double u = scaled(dx), v = scaled(dy);
-    return Planar{metric.a * u + metric.b * v, metric.c * v};
-  };
+    return Planar{metric_.a * u + metric_.b * v, metric_.c * v};
+  }
+
+  /// The boundary's edges, turned so that slabs are upright, from left to right.
+  void read(const std::vector<std::uint32_t>& boundary);
+  /// The region as trapezoids between its edges, slab by slab.
+  void cut();
+  /// Those of one slab, between each two edges that cross it.
+  void cut_slab(const std::vector<std::size_t>& crossing, const ChartPoint& from,
+                const ChartPoint& to);
+  void add_trapezoid(const BoundaryEdge& below, const BoundaryEdge& above, const mpq_class& low_x,
+                     const mpq_class& high_x, mpq_class middle_x, mpq_class middle_y);
+  /// Halves the pieces, widest first, until no disc can be much larger than the one found.
+  double lower_bound(double fine);
+
+  const Overlay& overlay_;
+  const ChartMetric& metric_;
+  double unit_;
+  mpz_class base_x_, base_y_;
+  std::vector<BoundaryEdge> edges_;
+  std::vector<ChartPoint> stops_;  // where slabs begin and end
+  SlabDirection direction_;
+  double size_ = 0;
+  std::priority_queue<Piece> queue_;
+  std::size_t made_ = 0;
+  double widest_ = -1;
+  bool complete_ = true;
+  ChartPoint interior_;
+};
+
+void RegionMeasure::read(const std::vector<std::uint32_t>& boundary) {
+  const ChartPoint& base = overlay_.point(overlay_.halfedges()[boundary.front()].origin);
+  base_x_ = overlay_.fixed_value(base.x, base.w, kBits);
+  base_y_ = overlay_.fixed_value(base.y, base.w, kBits);
   const auto planar_point = [&](const ChartPoint& point) {
     return planar(point.x, point.w, point.y, point.w);
   };
-  std::vector<BoundaryEdge> edges;
   std::vector<Planar> directions;
-  double size = 0;
   for (std::uint32_t halfedge : boundary) {
-    const ChartPoint& p = overlay.point(overlay.halfedges()[halfedge].origin);
-    const ChartPoint& q = overlay.point(overlay.target(halfedge));
-    edges.push_back({p, q, {}, planar_point(p), planar_point(q)});
-    const Planar &a = edges.back().a, &b = edges.back().b;
-    const double v = (b.y - a.y) / metric.c;
-    directions.push_back({(b.x - a.x - metric.b * v) / metric.a, v});
-    size = std::max({size, std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y)});
+    const ChartPoint& p = overlay_.point(overlay_.halfedges()[halfedge].origin);
+    const ChartPoint& q = overlay_.point(overlay_.target(halfedge));
+    edges_.push_back({p, q, {}, planar_point(p), planar_point(q)});
+    const Planar &a = edges_.back().a, &b = edges_.back().b;
+    const double v = (b.y - a.y) / metric_.c;
+    directions.push_back({(b.x - a.x - metric_.b * v) / metric_.a, v});
+    size_ = std::max({size_, std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y)});
   }
-  const SlabDirection direction = best_direction(directions);
-  std::vector<ChartPoint> stops;
-  for (BoundaryEdge& edge : edges) {
-    edge.left = direction.turn(edge.left);
-    edge.right = direction.turn(edge.right);
+  direction_ = best_direction(directions);
+  for (BoundaryEdge& edge : edges_) {
+    edge.left = direction_.turn(edge.left);
+    edge.right = direction_.turn(edge.right);
     if (compare(edge.left, edge.right) > 0) std::swap(edge.left, edge.right);
     edge.line = line_through(edge.left, edge.right);
-    stops.push_back(edge.left);
-    stops.push_back(edge.right);
+    stops_.push_back(edge.left);
+    stops_.push_back(edge.right);
   }
   const auto before_x = [](const ChartPoint& p, const ChartPoint& q) {
     return compare_x(p, q) < 0;
   };
-  std::sort(stops.begin(), stops.end(), before_x);
-  stops.erase(
-      std::unique(stops.begin(), stops.end(),
+  std::sort(stops_.begin(), stops_.end(), before_x);
+  stops_.erase(
+      std::unique(stops_.begin(), stops_.end(),
                   [](const ChartPoint& p, const ChartPoint& q) { return compare_x(p, q) == 0; }),
-      stops.end());
-  std::sort(edges.begin(), edges.end(),
+      stops_.end());
+  std::sort(edges_.begin(), edges_.end(),
             [&](const BoundaryEdge& p, const BoundaryEdge& q) { return before_x(p.left, q.left); });
+}
 
-  std::priority_queue<Piece> queue;
+void RegionMeasure::cut() {
   std::vector<std::size_t> active;
-  std::size_t next = 0, made = 0;
-  double widest = -1;
-  bool complete = true;
-  for (std::size_t s = 0; s + 1 < stops.size() && complete; ++s) {
-    const ChartPoint &from = stops[s], &to = stops[s + 1];
-    std::erase_if(active, [&](std::size_t e) { return compare_x(edges[e].right, from) <= 0; });
-    while (next < edges.size() && compare_x(edges[next].left, from) <= 0) {
-      if (compare_x(edges[next].right, from) > 0) active.push_back(next);
+  std::size_t next = 0;
+  for (std::size_t s = 0; s + 1 < stops_.size() && complete_; ++s) {
+    const ChartPoint& from = stops_[s];
+    std::erase_if(active, [&](std::size_t e) { return compare_x(edges_[e].right, from) <= 0; });
+    while (next < edges_.size() && compare_x(edges_[next].left, from) <= 0) {
+      if (compare_x(edges_[next].right, from) > 0) active.push_back(next);
       ++next;
     }
-    mpq_class low_x(from.x, from.w), high_x(to.x, to.w);
-    low_x.canonicalize();
-    high_x.canonicalize();
-    const mpq_class middle_x = (low_x + high_x) / 2;
-    std::vector<std::pair<mpq_class, std::size_t>> across;
-    for (std::size_t e : active) across.emplace_back(height_at(edges[e].line, middle_x), e);
-    std::sort(across.begin(), across.end());
-    for (std::size_t i = 0; i + 1 < across.size(); i += 2) {
-      const BoundaryEdge &below = edges[across[i].second], &above = edges[across[i + 1].second];
-      Piece piece;
-      const auto corner = [&](const BoundaryEdge& edge, mpq_class x) {
-        mpq_class y = height_at(edge.line, x);
-        direction.turn_back(x, y);
-        return planar(x.get_num(), x.get_den(), y.get_num(), y.get_den());
-      };
-      piece.corners = {corner(below, low_x), corner(below, high_x), corner(above, high_x),
-                       corner(above, low_x)};
-      // Along the slab's direction every point of the piece is near one of the two edges.
-      const auto apart = [&](int i, int j) {
-        return std::hypot(piece.corners[i].x - piece.corners[j].x,
-                          piece.corners[i].y - piece.corners[j].y);
-      };
-      piece.upper = std::min(
-          {farthest(piece, below), farthest(piece, above), std::max(apart(0, 3), apart(1, 2)) / 2});
-      const double area_like =
-          std::min(piece.upper, std::hypot(piece.corners[1].x - piece.corners[0].x,
-                                           piece.corners[1].y - piece.corners[0].y));
-      if (area_like > widest) {
-        widest = area_like;
-        mpq_class x = middle_x, y = (across[i].first + across[i + 1].first) / 2;
-        direction.turn_back(x, y);
-        const mpz_class w = lcm(x.get_den(), y.get_den());
-        result.interior = {x.get_num() * (w / x.get_den()), y.get_num() * (w / y.get_den()), w};
-        reduce(result.interior);
-      }
-      queue.push(piece);
-      if (++made > kMostTrapezoids) complete = false;
-    }
+    cut_slab(active, from, stops_[s + 1]);
   }
+}
 
-  const double rounding = 0x1p-47 * size;
-  const double fine = std::max(4 * rounding, unit > 0 ? resolution / 2 / unit : 0.0);
-  const std::size_t most_steps = std::min(kMostSteps, 600 + kStepsAnEdge * edges.size());
+void RegionMeasure::cut_slab(const std::vector<std::size_t>& crossing, const ChartPoint& from,
+                             const ChartPoint& to) {
+  mpq_class low_x(from.x, from.w), high_x(to.x, to.w);
+  low_x.canonicalize();
+  high_x.canonicalize();
+  const mpq_class middle_x = (low_x + high_x) / 2;
+  std::vector<std::pair<mpq_class, std::size_t>> across;
+  for (std::size_t e : crossing) across.emplace_back(height_at(edges_[e].line, middle_x), e);
+  std::sort(across.begin(), across.end());
+  for (std::size_t i = 0; i + 1 < across.size(); i += 2) {
+    add_trapezoid(edges_[across[i].second], edges_[across[i + 1].second], low_x, high_x, middle_x,
+                  (across[i].first + across[i + 1].first) / 2);
+  }
+}
+
+void RegionMeasure::add_trapezoid(const BoundaryEdge& below, const BoundaryEdge& above,
+                                  const mpq_class& low_x, const mpq_class& high_x,
+                                  mpq_class middle_x, mpq_class middle_y) {
+  Piece piece;
+  const auto corner = [&](const BoundaryEdge& edge, mpq_class x) {
+    mpq_class y = height_at(edge.line, x);
+    direction_.turn_back(x, y);
+    return planar(x.get_num(), x.get_den(), y.get_num(), y.get_den());
+  };
+  piece.corners = {corner(below, low_x), corner(below, high_x), corner(above, high_x),
+                   corner(above, low_x)};
+  // Along the slab's direction every point of the piece is near one of the two edges.
+  const auto apart = [&](int i, int j) {
+    return std::hypot(piece.corners[i].x - piece.corners[j].x,
+                      piece.corners[i].y - piece.corners[j].y);
+  };
+  piece.upper = std::min(
+      {farthest(piece, below), farthest(piece, above), std::max(apart(0, 3), apart(1, 2)) / 2});
+  const double area_like = std::min(piece.upper, apart(1, 0));
+  if (area_like > widest_) {
+    widest_ = area_like;
+    direction_.turn_back(middle_x, middle_y);
+    const mpz_class w = lcm(middle_x.get_den(), middle_y.get_den());
+    interior_ = {middle_x.get_num() * (w / middle_x.get_den()),
+                 middle_y.get_num() * (w / middle_y.get_den()), w};
+    reduce(interior_);
+  }
+  queue_.push(piece);
+  if (++made_ > kMostTrapezoids) complete_ = false;
+}
+
+double RegionMeasure::lower_bound(double fine) {
+  const std::size_t most_steps = std::min(kMostSteps, 600 + kStepsAnEdge * edges_.size());
   double lower = 0;
-  for (std::size_t step = 0; step < most_steps && !queue.empty(); ++step) {
-    Piece piece = queue.top();
+  for (std::size_t step = 0; step < most_steps && !queue_.empty(); ++step) {
+    Piece piece = queue_.top();
     if (piece.upper <= std::max(lower * kCloseEnough, fine)) break;
-    queue.pop();
+    queue_.pop();
     if (!piece.refined) {
-      for (const BoundaryEdge& edge : edges) {
+      for (const BoundaryEdge& edge : edges_) {
         piece.upper = std::min(piece.upper, farthest(piece, edge));
       }
       const Planar centre = centre_of(piece);
       double radius = std::numeric_limits<double>::infinity();
-      for (const BoundaryEdge& edge : edges) {
+      for (const BoundaryEdge& edge : edges_) {
         radius = std::min(radius, distance(centre, edge.a, edge.b));
       }
       lower = std::max(lower, radius);
       piece.refined = true;
-      queue.push(piece);
+      queue_.push(piece);
       continue;
     }
-    for (Piece& half : halve(piece)) queue.push(half);
+    for (Piece& half : halve(piece)) queue_.push(half);
   }
-  double upper = queue.empty() ? lower : std::max(lower, queue.top().upper);
-  if (!complete) upper = 2 * size;  // said as it is: no better bound was computed
-  result.width = {std::max(0.0, 2 * (lower - rounding)) * unit, 2 * (upper + rounding) * unit};
-  return result;
+  return lower;
+}
+
+}  // namespace
+
+RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
+                           const std::vector<std::uint32_t>& boundary, double resolution) {
+  return RegionMeasure(overlay, metric, boundary).shape(resolution);
 }
 
 }  // namespace gnomon::oracle

@@ -5,22 +5,22 @@
 
 namespace gnomon::oracle::space {
 
-ExactPoint minus(const ExactPoint& a, const ExactPoint& b) {
+RationalPoint minus(const RationalPoint& a, const RationalPoint& b) {
   return {mpq_class(a[0] - b[0]), mpq_class(a[1] - b[1]), mpq_class(a[2] - b[2])};
 }
-mpq_class dot(const ExactPoint& a, const ExactPoint& b) {
+mpq_class dot(const RationalPoint& a, const RationalPoint& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
-ExactPoint cross(const ExactPoint& a, const ExactPoint& b) {
+RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
   return {mpq_class(a[1] * b[2] - a[2] * b[1]), mpq_class(a[2] * b[0] - a[0] * b[2]),
           mpq_class(a[0] * b[1] - a[1] * b[0])};
 }
 
-ExactPoint negated(const ExactPoint& a) {
+RationalPoint negated(const RationalPoint& a) {
   return {mpq_class(-a[0]), mpq_class(-a[1]), mpq_class(-a[2])};
 }
 
-HalfSpace::HalfSpace(ExactPoint n, const ExactPoint& b) : normal(std::move(n)), base(b) {
+HalfSpace::HalfSpace(RationalPoint n, const RationalPoint& b) : normal(std::move(n)), base(b) {
   // Scaled first: a normal is a product of lengths, and may leave the range of doubles.
   mpq_class most = 0;
   for (const mpq_class& c : normal) {
@@ -40,7 +40,7 @@ Loop cut(const Loop& loop, const HalfSpace& half) {
   Loop result;
   std::vector<mpq_class> values;
   bool inside = false, outside = false;
-  for (const ExactPoint& point : loop) {
+  for (const RationalPoint& point : loop) {
     values.push_back(half.value(point));
     inside = inside || values.back() > 0;
     outside = outside || values.back() < 0;
@@ -52,7 +52,7 @@ Loop cut(const Loop& loop, const HalfSpace& half) {
     if (values[i] >= 0) result.push_back(loop[i]);
     if (sgn(values[i]) * sgn(values[j]) < 0) {
       const mpq_class t = values[i] / (values[i] - values[j]);
-      ExactPoint crossing;
+      RationalPoint crossing;
       for (int k = 0; k < 3; ++k) crossing[k] = loop[i][k] + t * (loop[j][k] - loop[i][k]);
       result.push_back(std::move(crossing));
     }
@@ -60,10 +60,10 @@ Loop cut(const Loop& loop, const HalfSpace& half) {
   return result;
 }
 
-mpq_class area_along(const ExactPoint& normal, const Loop& loop) {
-  ExactPoint sum;
+mpq_class area_along(const RationalPoint& normal, const Loop& loop) {
+  RationalPoint sum;
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const ExactPoint term = cross(minus(loop[i], loop[0]), minus(loop[i + 1], loop[0]));
+    const RationalPoint term = cross(minus(loop[i], loop[0]), minus(loop[i + 1], loop[0]));
     for (int k = 0; k < 3; ++k) sum[k] += term[k];
   }
   return dot(normal, sum) / 2;

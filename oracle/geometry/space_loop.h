@@ -11,24 +11,24 @@
 #include <array>
 #include <vector>
 
-#include "gnomon/oracle/candidate.h"
+#include "gnomon/result/claims.h"
 
 namespace gnomon::oracle::space {
 
-using Loop = std::vector<ExactPoint>;
+using Loop = std::vector<RationalPoint>;
 
-ExactPoint minus(const ExactPoint& a, const ExactPoint& b);
-mpq_class dot(const ExactPoint& a, const ExactPoint& b);
-ExactPoint cross(const ExactPoint& a, const ExactPoint& b);
-ExactPoint negated(const ExactPoint& a);
+RationalPoint minus(const RationalPoint& a, const RationalPoint& b);
+mpq_class dot(const RationalPoint& a, const RationalPoint& b);
+RationalPoint cross(const RationalPoint& a, const RationalPoint& b);
+RationalPoint negated(const RationalPoint& a);
 
 /// normal . (x - base) >= 0.
 struct HalfSpace {
-  ExactPoint normal, base;
+  RationalPoint normal, base;
   std::array<double, 3> near_normal{}, near_base{};  // normal of length about 1
 
-  HalfSpace(ExactPoint n, const ExactPoint& b);
-  mpq_class value(const ExactPoint& point) const { return dot(normal, minus(point, base)); }
+  HalfSpace(RationalPoint n, const RationalPoint& b);
+  mpq_class value(const RationalPoint& point) const { return dot(normal, minus(point, base)); }
   double near_value(const std::array<double, 3>& p) const;
 };
 
@@ -36,7 +36,7 @@ struct HalfSpace {
 Loop cut(const Loop& loop, const HalfSpace& half);
 
 /// Area along a normal: half of normal . area vector. Signed by the loop's orientation.
-mpq_class area_along(const ExactPoint& normal, const Loop& loop);
+mpq_class area_along(const RationalPoint& normal, const Loop& loop);
 
 }  // namespace gnomon::oracle::space
 

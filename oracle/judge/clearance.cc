@@ -82,7 +82,7 @@ Standing stand(const std::vector<Vector<Number>>& loop, bool directional,
 class Decider {
  public:
   Decider(const PreparedScene& scene, const PreparedLight& light, std::uint32_t receiver,
-          const ExactPoint& point)
+          const RationalPoint& point)
       : scene_(scene), receiver_(receiver), point_(point), directional_(light.point.directional) {
     for (int k = 0; k < 3; ++k) {
       light_[k] =
@@ -106,11 +106,11 @@ class Decider {
   Decision decide();
 
  private:
-  std::vector<ExactPoint> exact_loop(std::uint32_t part) const {
+  std::vector<RationalPoint> exact_loop(std::uint32_t part) const {
     const Geometry& geometry = scene_.geometry;
-    std::vector<ExactPoint> loop;
+    std::vector<RationalPoint> loop;
     for (VertexId vertex : scene_.loop(scene_.parts[part])) {
-      ExactPoint position;
+      RationalPoint position;
       for (int k = 0; k < 3; ++k) {
         position[k] = geometry.origin[k] + geometry.step * geometry.grid.at(vertex, k);
       }
@@ -118,42 +118,43 @@ class Decider {
     }
     return loop;
   }
-  bool casts(std::uint32_t part, const std::vector<ExactPoint>& loop) const {
+  bool casts(std::uint32_t part, const std::vector<RationalPoint>& loop) const {
     if (part == receiver_ || !scene_.parts[part].casts) return false;
-    const ExactPoint normal = loop_normal(loop);
+    const RationalPoint normal = loop_normal(loop);
     const mpq_class height =
         directional_ ? dot(normal, light_) : dot(normal, minus(light_, loop[0]));
     if (!(height > 0 || (height < 0 && scene_.parts[part].two_sided))) return false;
-    return std::any_of(own_loop_.begin(), own_loop_.end(), [&](const ExactPoint& vertex) {
+    return std::any_of(own_loop_.begin(), own_loop_.end(), [&](const RationalPoint& vertex) {
       return dot(normal, minus(vertex, loop[0])) != 0;
     });
   }
-  bool covers(std::uint32_t part, const ExactPoint& point) const {
-    const std::vector<ExactPoint> loop = exact_loop(part);
+  bool covers(std::uint32_t part, const RationalPoint& point) const {
+    const std::vector<RationalPoint> loop = exact_loop(part);
     return casts(part, loop) && stand(loop, directional_, light_, point).inside;
   }
   /// (b) for one caster: 3 s, if moving R's point across the caster's plane changes whether it
   /// covers.
-  double move_receiver(std::uint32_t part, const std::vector<ExactPoint>& loop, bool covered) const;
+  double move_receiver(std::uint32_t part, const std::vector<RationalPoint>& loop,
+                       bool covered) const;
 
   const PreparedScene& scene_;
   std::uint32_t receiver_;
-  ExactPoint point_, light_;
-  std::vector<ExactPoint> own_loop_;
+  RationalPoint point_, light_;
+  std::vector<RationalPoint> own_loop_;
   Vector<double> near_point_{}, near_light_{};
   bool directional_;
   std::vector<std::uint32_t> near_casters_;
 };
 
-double Decider::move_receiver(std::uint32_t part, const std::vector<ExactPoint>& loop,
+double Decider::move_receiver(std::uint32_t part, const std::vector<RationalPoint>& loop,
                               bool covered) const {
-  const ExactPoint normal = loop_normal(loop), own = loop_normal(own_loop_);
+  const RationalPoint normal = loop_normal(loop), own = loop_normal(own_loop_);
   const mpq_class along = dot(normal, own);
   if (along == 0) return kInfinity;
   mpq_class s = -dot(normal, minus(point_, loop[0])) / along;
   s *= mpq_class(1048577, 1048576);  // a little beyond the plane
   if (s == 0) s = mpq_class(1, 1) / (mpz_class(1) << 200);
-  ExactPoint moved;
+  RationalPoint moved;
   for (int k = 0; k < 3; ++k) moved[k] = point_[k] + s * own[k];
   if (covers(part, moved) == covered) return kInfinity;
   if (covered) {
@@ -209,7 +210,7 @@ Decision Decider::decide() {
   Decision decision;
   double best = kInfinity;
   for (std::uint32_t part : looked_at) {
-    const std::vector<ExactPoint> loop = exact_loop(part);
+    const std::vector<RationalPoint> loop = exact_loop(part);
     if (!casts(part, loop)) continue;
     double own = move_receiver(part, loop, !covering.empty());
     if (covering.size() <= 1) {
@@ -226,7 +227,7 @@ Decision Decider::decide() {
 }  // namespace
 
 Decision decide(const PreparedScene& scene, const PreparedLight& light, std::uint32_t receiver,
-                const ExactPoint& point) {
+                const RationalPoint& point) {
   return Decider(scene, light, receiver, point).decide();
 }
 

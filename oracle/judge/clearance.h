@@ -16,7 +16,7 @@
 
 #include <optional>
 
-#include "gnomon/oracle/candidate.h"
+#include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
 
 namespace gnomon::oracle {
@@ -29,7 +29,7 @@ struct Decision {
 /// `receiver`: a part in whose plane `point` lies. Requires: a point or directional light that the
 /// part faces. Cost: all casters in doubles, a few exactly.
 Decision decide(const PreparedScene& scene, const PreparedLight& light, std::uint32_t receiver,
-                const ExactPoint& point);
+                const RationalPoint& point);
 
 }  // namespace gnomon::oracle
 

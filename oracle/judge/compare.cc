@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "oracle/answer/deep_umbra.h"
+#include "oracle/answer/truth_overlay.h"
 #include "oracle/geometry/group_overlay.h"
 #include "oracle/geometry/region_width.h"
 #include "oracle/judge/clearance.h"
@@ -27,26 +28,26 @@ struct Rules {
 /// What one cell of the overlay says.
 struct Cell {
   bool inside = false;  // of the receiver
-  ShadeClass truth = ShadeClass::kLit;
+  LightState truth = LightState::kLit;
   bool deep = false;              // certified: no light arrives
-  std::array<bool, 4> claimed{};  // by ShadeClass
+  std::array<bool, 4> claimed{};  // by LightState
   bool misclassified = false, uncovered = false, overlapping = false, outside = false;
   bool missing_umbra = false;
 
   bool errs() const { return misclassified || overlapping || outside; }
-  bool claims(ShadeClass shade) const { return claimed[static_cast<std::size_t>(shade)]; }
-  bool accepts(ShadeClass shade, const Rules& rules) const {
+  bool claims(LightState shade) const { return claimed[static_cast<std::size_t>(shade)]; }
+  bool accepts(LightState shade, const Rules& rules) const {
     if (shade == truth) return true;
     if (!rules.area || rules.per_caster) return false;
-    return (truth == ShadeClass::kUmbra && shade == ShadeClass::kPenumbra) ||
-           (truth == ShadeClass::kPenumbra && shade == ShadeClass::kUmbra && deep);
+    return (truth == LightState::kUmbra && shade == LightState::kPenumbra) ||
+           (truth == LightState::kPenumbra && shade == LightState::kUmbra && deep);
   }
 };
 
-constexpr ShadeClass kClasses[] = {ShadeClass::kLit, ShadeClass::kShadow, ShadeClass::kPenumbra,
-                                   ShadeClass::kUmbra};
+constexpr LightState kClasses[] = {LightState::kLit, LightState::kShadow, LightState::kPenumbra,
+                                   LightState::kUmbra};
 
-Cell read_cell(const Winding& winding, std::optional<ShadeClass> background, bool optional,
+Cell read_cell(const Winding& winding, std::optional<LightState> background, bool optional,
                const Rules& rules) {
   constexpr Layer kLayerOf[] = {kLit, kShadow, kPenumbra, kUmbra};
   Cell cell;
@@ -56,10 +57,10 @@ Cell read_cell(const Winding& winding, std::optional<ShadeClass> background, boo
     cell.claimed[c] = winding[kLayerOf[c]] > 0;
   }
   cell.inside = winding[kReceiver] != 0;
-  cell.truth = winding[kTrueUmbra] != 0 ? ShadeClass::kUmbra
-               : winding[kTruth] == 0   ? ShadeClass::kLit
-               : rules.area             ? ShadeClass::kPenumbra
-                                        : ShadeClass::kShadow;
+  cell.truth = winding[kTrueUmbra] != 0 ? LightState::kUmbra
+               : winding[kTruth] == 0   ? LightState::kLit
+               : rules.area             ? LightState::kPenumbra
+                                        : LightState::kShadow;
   cell.deep = winding[kDeep] != 0;
   cell.overlapping = claims > 1;
   if (!cell.inside) {
@@ -73,12 +74,12 @@ Cell read_cell(const Winding& winding, std::optional<ShadeClass> background, boo
   }
   const auto classes = std::count(cell.claimed.begin(), cell.claimed.end(), true);
   const bool right =
-      classes == 1 && std::any_of(std::begin(kClasses), std::end(kClasses), [&](ShadeClass shade) {
+      classes == 1 && std::any_of(std::begin(kClasses), std::end(kClasses), [&](LightState shade) {
         return cell.claims(shade) && cell.accepts(shade, rules);
       });
   cell.misclassified = !right;
-  cell.missing_umbra = !rules.per_caster && cell.truth == ShadeClass::kUmbra && classes == 1 &&
-                       cell.claims(ShadeClass::kPenumbra);
+  cell.missing_umbra = !rules.per_caster && cell.truth == LightState::kUmbra && classes == 1 &&
+                       cell.claims(LightState::kPenumbra);
   return cell;
 }
 
@@ -109,7 +110,7 @@ std::vector<std::uint32_t> connect(const Overlay& overlay, const Joined& joined)
 
 /// Regions that claim class c where it is false and touch no region where it is true; and true
 /// regions of class c in which it was found nowhere.
-void count_leaks(const Overlay& overlay, const std::vector<Cell>& cells, ShadeClass shade,
+void count_leaks(const Overlay& overlay, const std::vector<Cell>& cells, LightState shade,
                  const Rules& rules, PolygonComparison& result) {
   const auto claims = [&](std::uint32_t f) { return cells[f].claims(shade); };
   const auto is_true = [&](std::uint32_t f) { return cells[f].inside && cells[f].truth == shade; };
@@ -145,7 +146,7 @@ bool contains(const std::vector<ChartPoint>& convex, const ChartPoint& point) {
 }
 
 struct ProjectedFragment {
-  const CandidateFragment* fragment = nullptr;
+  const ClaimedFragment* fragment = nullptr;
   NormalisedLoop loop;
 };
 
@@ -162,9 +163,9 @@ class GroupComparison {
         rules_{answer.is_area(light), terms.per_caster_umbra},
         options_(options),
         result_(result),
-        overlay_(answer, light, group) {}
+        overlay_(answer.prepared(), group.parts, truth_of(answer, light, group)) {}
 
-  void add(const CandidateFragment& fragment);
+  void add(const ClaimedFragment& fragment);
   void compare();
 
   struct Shares {
@@ -176,7 +177,7 @@ class GroupComparison {
   Enclosure whole_area() const { return overlay_.whole_area(); }
 
  private:
-  Layer layer_of(ShadeClass shade) const;
+  Layer layer_of(LightState shade) const;
   void add_deep_umbra();
   void examine_regions(const std::vector<Cell>& cells, std::vector<bool>& ill_conditioned);
   ErrorRegion examine(const std::vector<std::uint32_t>& faces,
@@ -194,7 +195,7 @@ class GroupComparison {
   std::uint32_t light_;
   const AnswerEntry& entry_;
   const ReceiverGroup& group_;
-  std::optional<ShadeClass> background_;
+  std::optional<LightState> background_;
   Rules rules_;
   const ComparisonOptions& options_;
   PolygonComparison& result_;
@@ -204,18 +205,18 @@ class GroupComparison {
 };
 
 // A class that the light does not have fails the candidate elsewhere; here it is some darkness.
-Layer GroupComparison::layer_of(ShadeClass shade) const {
-  if (shade == ShadeClass::kLit) return kLit;
+Layer GroupComparison::layer_of(LightState shade) const {
+  if (shade == LightState::kLit) return kLit;
   if (!rules_.area) return kShadow;
-  return shade == ShadeClass::kUmbra ? kUmbra : kPenumbra;
+  return shade == LightState::kUmbra ? kUmbra : kPenumbra;
 }
 
-void GroupComparison::add(const CandidateFragment& fragment) {
+void GroupComparison::add(const ClaimedFragment& fragment) {
   const Geometry& geometry = answer_.prepared().geometry;
   const Chart& chart = overlay_.chart();
   std::vector<ChartPoint> loop;
   Enclosure most;
-  for (const ExactPoint& point : fragment.loop) {
+  for (const RationalPoint& point : fragment.loop) {
     const HomogeneousPoint place = to_grid(geometry, point);
     const mpz_class value = value_at(chart.support(), place);
     if (value != 0) most = greater_of(most, enclose_ratio(value, place.w));
@@ -228,7 +229,7 @@ void GroupComparison::add(const CandidateFragment& fragment) {
   }
   ProjectedFragment projected{&fragment, normalise(std::move(loop))};
   if (projected.loop.crosses_itself) ++result_.self_crossing;
-  const Layer layer = layer_of(fragment.shade);
+  const Layer layer = layer_of(fragment.state);
   overlay_.overlay().add_loop(projected.loop.loop, layer);
   for (const auto& [a, b] : projected.loop.edges) overlay_.overlay().add_edge(a, b, layer);
   fragments_.push_back(std::move(projected));
@@ -243,8 +244,8 @@ void GroupComparison::compare() {
     return;
   }
   std::vector<Cell> cells;
-  std::optional<ShadeClass> background = background_;
-  if (background && layer_of(*background) == kShadow) background = ShadeClass::kShadow;
+  std::optional<LightState> background = background_;
+  if (background && layer_of(*background) == kShadow) background = LightState::kShadow;
   for (const Overlay::Face& face : overlay.faces()) {
     cells.push_back(read_cell(face.winding, background, group_.optional, rules_));
   }
@@ -255,20 +256,20 @@ void GroupComparison::compare() {
     examine_regions(cells, ill_conditioned);
   }
   if (!group_.optional) {
-    for (const ShadeClass shade : kClasses) count_leaks(overlay, cells, shade, rules_, result_);
+    for (const LightState shade : kClasses) count_leaks(overlay, cells, shade, rules_, result_);
   }
   const auto share = [&](const auto& choice) {
     std::vector<bool> chosen(cells.size());
     for (std::size_t f = 1; f < cells.size(); ++f) chosen[f] = choice(cells[f], f);
     return overlay_.share(chosen, options_.exact_limit);
   };
-  const auto truth = [&](ShadeClass shade) {
+  const auto truth = [&](LightState shade) {
     return share([=](const Cell& cell, std::size_t) { return cell.inside && cell.truth == shade; });
   };
-  shares_.lit = truth(ShadeClass::kLit);
-  shares_.shadow = truth(ShadeClass::kShadow);
-  shares_.penumbra = truth(ShadeClass::kPenumbra);
-  shares_.umbra = truth(ShadeClass::kUmbra);
+  shares_.lit = truth(LightState::kLit);
+  shares_.shadow = truth(LightState::kShadow);
+  shares_.penumbra = truth(LightState::kPenumbra);
+  shares_.umbra = truth(LightState::kUmbra);
   shares_.missing_umbra = share([](const Cell& cell, std::size_t) { return cell.missing_umbra; });
   const bool some_ill =
       std::find(ill_conditioned.begin(), ill_conditioned.end(), true) != ill_conditioned.end();
@@ -290,7 +291,7 @@ void GroupComparison::compare() {
 void GroupComparison::add_deep_umbra() {
   DeepUmbra deep(answer_, light_, group_, overlay_.chart());
   for (const ProjectedFragment& fragment : fragments_) {
-    if (fragment.fragment->shade != ShadeClass::kUmbra) continue;
+    if (fragment.fragment->state != LightState::kUmbra) continue;
     if (fragment.loop.convex) {
       deep.certify(fragment.loop.loop);
       continue;
@@ -299,7 +300,7 @@ void GroupComparison::add_deep_umbra() {
     for (const auto& [a, b] : fragment.loop.edges) corners.push_back(a);
     deep.certify_box_of(corners);
   }
-  if (background_ == ShadeClass::kUmbra) deep.certify_whole();
+  if (background_ == LightState::kUmbra) deep.certify_whole();
   for (const std::vector<ChartPoint>& loop : deep.certified()) {
     overlay_.overlay().add_loop(loop, kDeep);
   }
@@ -349,7 +350,7 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells,
         overlay_.chart().project(to_grid(answer_.prepared().geometry, region.witness.point));
     Cell cell;
     cell.inside = region.witness.truth.has_value();
-    cell.truth = region.witness.truth.value_or(ShadeClass::kLit);
+    cell.truth = region.witness.truth.value_or(LightState::kLit);
     describe(region.witness, cell, point);
   }
 }
@@ -389,7 +390,7 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
   if (cell.inside) witness.truth = cell.truth;
   // Of several classes one that is wrong.
   bool wrong = false;
-  for (const ShadeClass shade : kClasses) {
+  for (const LightState shade : kClasses) {
     if (!cell.claims(shade) || wrong) continue;
     witness.found = shade;
     wrong = !cell.accepts(shade, rules_);
@@ -432,7 +433,7 @@ std::string GroupComparison::describe_shadow(Witness& witness, const std::string
                      : decision.caster ? id_of(*decision.caster)
                                        : std::string();
   }
-  return witness.truth == ShadeClass::kShadow ? " behind '" + witness.caster + "'" : std::string();
+  return witness.truth == LightState::kShadow ? " behind '" + witness.caster + "'" : std::string();
 }
 
 std::string GroupComparison::describe_area(Witness& witness, const std::string& claimed,
@@ -458,10 +459,9 @@ std::string GroupComparison::describe_area(Witness& witness, const std::string& 
     return {};
   }
   std::string text = " of '" + witness.caster + "'";
-  if (witness.found == ShadeClass::kUmbra && !rules_.per_caster) {
-    const Side side = group_.side == PolygonSide::kFront ? Side::kFront : Side::kBack;
+  if (witness.found == LightState::kUmbra && !rules_.per_caster) {
     const AreaPointVisibility seen =
-        answer_.area_visibility(light_).at(group_.parts.front(), side, witness.point);
+        answer_.area_visibility(light_).at(group_.parts.front(), group_.side, witness.point);
     text += seen.deep() ? "; that no light arrives nearby could not be certified"
                         : fmt::format("; {:.3g} of the light is seen", seen.visible.get_d());
   }
@@ -487,7 +487,7 @@ void GroupComparison::describe(Witness& witness, const Cell& cell, const ChartPo
     found = "covered more than once";
   } else if (witness.found) {
     found = std::string("found ") + name_of(*witness.found);
-    if (!claimed.empty() && *witness.found != ShadeClass::kLit) {
+    if (!claimed.empty() && *witness.found != LightState::kLit) {
       found += " (caster '" + claimed + "')";
     }
   }
@@ -495,22 +495,6 @@ void GroupComparison::describe(Witness& witness, const Cell& cell, const ChartPo
 }
 
 }  // namespace
-
-const char* name_of(ShadeClass shade) {
-  switch (shade) {
-    case ShadeClass::kLit:
-      return "lit";
-    case ShadeClass::kShadow:
-      return "shadow";
-    case ShadeClass::kPenumbra:
-      return "penumbra";
-    case ShadeClass::kUmbra:
-      return "umbra";
-  }
-  return "";
-}
-
-const char* name_of(PolygonSide side) { return side == PolygonSide::kFront ? "front" : "back"; }
 
 const char* name_of(ErrorKind kind) {
   switch (kind) {
@@ -532,12 +516,12 @@ namespace {
 
 /// The group whose plane a fragment is nearest to; of several nearly as near, one that it lies in.
 std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
-                      const std::vector<Chart>& charts, const CandidateFragment& fragment) {
+                      const std::vector<Chart>& charts, const ClaimedFragment& fragment) {
   if (entry.groups.size() == 1) return 0;
   const PreparedScene& prepared = answer.prepared();
   std::vector<HomogeneousPoint> points;
-  ExactPoint centre;
-  for (const ExactPoint& point : fragment.loop) {
+  RationalPoint centre;
+  for (const RationalPoint& point : fragment.loop) {
     points.push_back(to_grid(prepared.geometry, point));
     for (int k = 0; k < 3; ++k) centre[k] += point[k];
   }
@@ -580,19 +564,19 @@ std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
 }  // namespace
 
 PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
-                                const AnswerEntry& entry, const CandidatePolygon* candidate,
+                                const AnswerEntry& entry, const ClaimedPolygon* candidate,
                                 const ClaimedTerms& terms, const ComparisonOptions& options) {
   PolygonComparison result;
   result.polygon = answer.scene().polygons[entry.polygon].id;
   result.side = entry.side;
-  std::vector<std::vector<const CandidateFragment*>> fragments(entry.groups.size());
+  std::vector<std::vector<const ClaimedFragment*>> fragments(entry.groups.size());
   std::vector<Chart> charts;
   for (const ReceiverGroup& group : entry.groups) {
     charts.emplace_back(support_of(answer.prepared(), group.parts.front()));
   }
   if (candidate) {
     result.fragments = candidate->fragments.size();
-    for (const CandidateFragment& fragment : candidate->fragments) {
+    for (const ClaimedFragment& fragment : candidate->fragments) {
       fragments[group_for(answer, entry, charts, fragment)].push_back(&fragment);
     }
   }
@@ -617,7 +601,7 @@ PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
     const ReceiverGroup& group = entry.groups[g];
     if (group.optional && fragments[g].empty()) continue;
     GroupComparison comparison(answer, light, entry, group, terms, options, result);
-    for (const CandidateFragment* fragment : fragments[g]) comparison.add(*fragment);
+    for (const ClaimedFragment* fragment : fragments[g]) comparison.add(*fragment);
     comparison.compare();
     for (std::size_t i = 0; i < sums.size(); ++i) {
       sums[i].add(comparison.shares().*kShares[i].first, comparison.whole_area());

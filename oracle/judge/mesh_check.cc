@@ -36,7 +36,7 @@ struct Placed {
   std::size_t axis = 0;
 };
 
-Placed line_through(const ExactPoint& a, const ExactPoint& b) {
+Placed line_through(const RationalPoint& a, const RationalPoint& b) {
   Placed placed;
   std::array<mpq_class, 3> step;
   for (std::size_t k = 0; k < 3; ++k) step[k] = b[k] - a[k];
@@ -73,7 +73,7 @@ MeshReport check_mesh(std::span<const MeshFaceClaim> faces, std::size_t most) {
   report.faces = faces.size();
   std::map<Line, OnLine> lines;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    const std::vector<ExactPoint>& loop = faces[f].loop;
+    const std::vector<RationalPoint>& loop = faces[f].loop;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::size_t next = i + 1 == loop.size() ? 0 : i + 1;
       if (loop[i] == loop[next]) continue;

@@ -52,157 +52,222 @@ ChartPoint inside_of(const std::vector<ChartPoint>& loop, std::uint64_t& state) 
   return point;
 }
 
-}  // namespace
-
-namespace {
-
 /// What is true at one point, and why.
 struct PointTruth {
-  ShadeClass shade = ShadeClass::kShadow;
+  LightState state = LightState::kShadow;
   bool on_boundary = false, deep = false;
   std::optional<std::uint32_t> caster;
 };
 
 PointTruth truth_at(const ExactAnswer& answer, std::uint32_t light, const ReceiverGroup& group,
-                    std::uint32_t part, const ExactPoint& place, bool ask_deep,
+                    std::uint32_t part, const RationalPoint& place, bool ask_deep,
                     const VisibilityTest* visibility) {
   PointTruth truth;
   if (visibility) {
     if (!group.faces) return truth;
     const PointVisibility seen = visibility->at(part, place);
-    truth.shade = seen.visibility == Visibility::kLit ? ShadeClass::kLit : ShadeClass::kShadow;
+    truth.state = seen.visibility == Visibility::kLit ? LightState::kLit : LightState::kShadow;
     truth.on_boundary = seen.visibility == Visibility::kBoundary;
     truth.caster = seen.caster;
     return truth;
   }
-  truth.shade = ShadeClass::kUmbra;
+  truth.state = LightState::kUmbra;
   truth.deep = true;
   if (!group.faces) return truth;
-  const Side side = group.side == PolygonSide::kFront ? Side::kFront : Side::kBack;
-  const AreaPointVisibility seen = answer.area_visibility(light).at(part, side, place, ask_deep);
-  truth.shade = seen.shade;
+  const AreaPointVisibility seen =
+      answer.area_visibility(light).at(part, group.side, place, ask_deep);
+  truth.state = seen.state;
   truth.on_boundary = seen.on_boundary;
   truth.deep = ask_deep && seen.deep();
   truth.caster = seen.caster;
   return truth;
 }
 
-}  // namespace
+/// A candidate's fragments in the chart of one receiver.
+struct ChartFragments {
+  std::vector<std::vector<ChartPoint>> loops;
+  std::vector<LightState> states;
+};
 
-PointCheck check_points(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
-                        const CandidatePolygon* candidate, const ClaimedTerms& terms,
-                        const VisibilityTest* visibility, std::uint32_t count, std::uint64_t seed) {
-  const bool area = answer.is_area(light);
-  const auto class_of = [&](ShadeClass shade) {
-    return area || shade == ShadeClass::kLit ? shade : ShadeClass::kShadow;
-  };
-  PointCheck result;
-  const PreparedScene& prepared = answer.prepared();
-  std::uint64_t state = seed ^ (std::uint64_t{entry.polygon} << 32) ^ light;
-  for (const ReceiverGroup& group : entry.groups) {
-    if (group.optional) continue;
-    const Chart chart(support_of(prepared, group.parts.front()));
-    std::vector<std::vector<ChartPoint>> fragments;
-    std::vector<ShadeClass> shades;
-    if (candidate) {
-      for (const CandidateFragment& fragment : candidate->fragments) {
-        std::vector<ChartPoint> loop;
-        for (const ExactPoint& point : fragment.loop) {
-          loop.push_back(chart.project(to_grid(prepared.geometry, point)));
-        }
-        fragments.push_back(std::move(loop));
-        shades.push_back(fragment.shade);
+ChartFragments in_chart(const Chart& chart, const Geometry& geometry,
+                        const ClaimedPolygon* candidate) {
+  ChartFragments fragments;
+  if (candidate == nullptr) return fragments;
+  for (const ClaimedFragment& fragment : candidate->fragments) {
+    std::vector<ChartPoint>& loop = fragments.loops.emplace_back();
+    for (const RationalPoint& point : fragment.loop) {
+      loop.push_back(chart.project(to_grid(geometry, point)));
+    }
+    fragments.states.push_back(fragment.state);
+  }
+  return fragments;
+}
+
+/// The classes that are claimed at one point.
+struct ClaimedStates {
+  std::array<bool, 4> claimed{};  // by LightState
+  bool on_border = false;         // of a fragment
+
+  bool claims(LightState state) const { return claimed[static_cast<std::size_t>(state)]; }
+  std::ptrdiff_t count() const { return std::count(claimed.begin(), claimed.end(), true); }
+};
+
+class PointChecker {
+ public:
+  PointChecker(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
+               const ClaimedTerms& terms, const VisibilityTest* visibility)
+      : answer_(answer),
+        prepared_(answer.prepared()),
+        light_(light),
+        entry_(entry),
+        terms_(terms),
+        visibility_(visibility),
+        area_(answer.is_area(light)) {}
+
+  /// `count` points in fragments of the candidate, and as many in parts of each group.
+  PointCheck run(const ClaimedPolygon* candidate, std::uint32_t count, std::uint64_t seed) {
+    std::uint64_t state = seed ^ (std::uint64_t{entry_.polygon} << 32) ^ light_;
+    for (const ReceiverGroup& group : entry_.groups) {
+      if (group.optional) continue;
+      const Chart chart(support_of(prepared_, group.parts.front()));
+      const ChartFragments fragments = in_chart(chart, prepared_.geometry, candidate);
+      for (const ChartPoint& point : points_in(group, chart, fragments, count, state)) {
+        check(group, chart, fragments, point);
       }
     }
+    return std::move(result_);
+  }
+
+ private:
+  LightState class_of(LightState state) const {
+    return area_ || state == LightState::kLit ? state : LightState::kShadow;
+  }
+
+  std::vector<ChartPoint> loop_of(const Chart& chart, std::uint32_t part) const {
+    std::vector<ChartPoint> loop;
+    for (const Integers3& vertex : grid_loop(prepared_, part)) loop.push_back(chart.at(vertex));
+    return loop;
+  }
+
+  std::vector<ChartPoint> points_in(const ReceiverGroup& group, const Chart& chart,
+                                    const ChartFragments& fragments, std::uint32_t count,
+                                    std::uint64_t& state) const {
     std::vector<ChartPoint> points;
-    for (std::uint32_t i = 0; i < count && !fragments.empty(); ++i) {
-      const auto& loop = fragments[next_random(state) % fragments.size()];
+    for (std::uint32_t i = 0; i < count && !fragments.loops.empty(); ++i) {
+      const auto& loop = fragments.loops[next_random(state) % fragments.loops.size()];
       if (loop.size() >= 3) points.push_back(inside_of(loop, state));
     }
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint32_t part = group.parts[next_random(state) % group.parts.size()];
-      std::vector<ChartPoint> loop;
-      for (const Integers3& vertex : grid_loop(prepared, part)) loop.push_back(chart.at(vertex));
-      points.push_back(inside_of(loop, state));
+      points.push_back(inside_of(loop_of(chart, part), state));
     }
-    for (const ChartPoint& point : points) {
-      bool inside = false;
-      std::uint32_t around = group.parts.front();
-      for (std::uint32_t part : group.parts) {
-        std::vector<ChartPoint> loop;
-        for (const Integers3& vertex : grid_loop(prepared, part)) loop.push_back(chart.at(vertex));
-        if (winds_around(loop, point).value_or(false)) {
-          inside = true;
-          around = part;
-        }
-      }
-      if (!inside) continue;  // a fragment beyond the polygon; its share inside is asked elsewhere
-      std::array<bool, 4> claimed{};
-      bool on_border = false;
-      for (std::size_t f = 0; f < fragments.size(); ++f) {
-        const std::optional<bool> within = winds_around(fragments[f], point);
-        on_border = on_border || !within;
-        if (within.value_or(false)) claimed[static_cast<std::size_t>(class_of(shades[f]))] = true;
-      }
-      if (on_border) {
-        ++result.on_boundary;
-        continue;
-      }
-      auto classes = std::count(claimed.begin(), claimed.end(), true);
-      if (classes == 0 && terms.background) {
-        claimed[static_cast<std::size_t>(class_of(*terms.background))] = true;
-        classes = 1;
-      }
-      const ExactPoint place = chart.lift_to_scene(prepared.geometry, point);
-      const auto claims = [&](ShadeClass shade) {
-        return claimed[static_cast<std::size_t>(shade)];
-      };
-      const bool ask_deep = !terms.per_caster_umbra && claims(ShadeClass::kUmbra);
-      const PointTruth truth = truth_at(answer, light, group, around, place, ask_deep, visibility);
-      if (truth.on_boundary) {
-        ++result.on_boundary;
-        continue;
-      }
-      ++result.checked;
-      const auto accepts = [&](ShadeClass shade) {
-        if (shade == truth.shade) return true;
-        if (!area || terms.per_caster_umbra) return false;
-        return (truth.shade == ShadeClass::kUmbra && shade == ShadeClass::kPenumbra) ||
-               (truth.shade == ShadeClass::kPenumbra && shade == ShadeClass::kUmbra && truth.deep);
-      };
-      // Of several classes one that is wrong.
-      std::optional<ShadeClass> found;
-      bool wrong = classes != 1, named = false;
-      for (const ShadeClass shade :
-           {ShadeClass::kLit, ShadeClass::kShadow, ShadeClass::kPenumbra, ShadeClass::kUmbra}) {
-        if (!claims(shade) || named) continue;
-        found = shade;
-        named = !accepts(shade);
-        wrong = wrong || named;
-      }
-      if (!wrong) continue;
-      ++result.wrong;
-      if (result.worst) continue;
-      Witness witness;
-      witness.light = answer.scene().lights[prepared.lights[light].light].id;
-      witness.polygon = answer.scene().polygons[entry.polygon].id;
-      witness.side = entry.side;
-      witness.kind = classes > 0 ? ErrorKind::kMisclassified : ErrorKind::kUncovered;
-      witness.point = place;
-      for (int k = 0; k < 3; ++k) witness.nearest[k] = enclose(place[k]).middle();
-      witness.truth = truth.shade;
-      witness.found = found;
-      if (truth.caster) {
-        witness.caster = answer.scene().polygons[prepared.parts[*truth.caster].polygon].id;
-      }
-      witness.text = std::string(witness.found ? "found " : "nothing found") +
-                     (witness.found ? name_of(*witness.found) : "") + ", truly " +
-                     name_of(*witness.truth) +
-                     (witness.caster.empty() ? "" : " behind '" + witness.caster + "'");
-      result.worst = std::move(witness);
-    }
+    return points;
   }
-  return result;
+
+  /// The last part of the group around the point; none if it is beyond the polygon.
+  std::optional<std::uint32_t> part_around(const ReceiverGroup& group, const Chart& chart,
+                                           const ChartPoint& point) const {
+    std::optional<std::uint32_t> around;
+    for (std::uint32_t part : group.parts) {
+      if (winds_around(loop_of(chart, part), point).value_or(false)) around = part;
+    }
+    return around;
+  }
+
+  ClaimedStates claimed_at(const ChartFragments& fragments, const ChartPoint& point) const {
+    ClaimedStates states;
+    for (std::size_t f = 0; f < fragments.loops.size(); ++f) {
+      const std::optional<bool> within = winds_around(fragments.loops[f], point);
+      states.on_border = states.on_border || !within;
+      if (within.value_or(false)) {
+        states.claimed[static_cast<std::size_t>(class_of(fragments.states[f]))] = true;
+      }
+    }
+    return states;
+  }
+
+  bool accepts(const PointTruth& truth, LightState state) const {
+    if (state == truth.state) return true;
+    if (!area_ || terms_.per_caster_umbra) return false;
+    return (truth.state == LightState::kUmbra && state == LightState::kPenumbra) ||
+           (truth.state == LightState::kPenumbra && state == LightState::kUmbra && truth.deep);
+  }
+
+  void check(const ReceiverGroup& group, const Chart& chart, const ChartFragments& fragments,
+             const ChartPoint& point) {
+    const std::optional<std::uint32_t> part = part_around(group, chart, point);
+    if (!part) return;  // a fragment beyond the polygon; its share inside is asked elsewhere
+    ClaimedStates states = claimed_at(fragments, point);
+    if (states.on_border) {
+      ++result_.on_boundary;
+      return;
+    }
+    if (states.count() == 0 && terms_.background) {
+      states.claimed[static_cast<std::size_t>(class_of(*terms_.background))] = true;
+    }
+    const RationalPoint place = chart.lift_to_scene(prepared_.geometry, point);
+    const bool ask_deep = !terms_.per_caster_umbra && states.claims(LightState::kUmbra);
+    const PointTruth truth = truth_at(answer_, light_, group, *part, place, ask_deep, visibility_);
+    if (truth.on_boundary) {
+      ++result_.on_boundary;
+      return;
+    }
+    ++result_.checked;
+    compare(states, truth, place);
+  }
+
+  void compare(const ClaimedStates& states, const PointTruth& truth, const RationalPoint& place) {
+    // Of several classes one that is wrong.
+    std::optional<LightState> found;
+    bool wrong = states.count() != 1, named = false;
+    for (const LightState state :
+         {LightState::kLit, LightState::kShadow, LightState::kPenumbra, LightState::kUmbra}) {
+      if (!states.claims(state) || named) continue;
+      found = state;
+      named = !accepts(truth, state);
+      wrong = wrong || named;
+    }
+    if (!wrong) return;
+    ++result_.wrong;
+    if (!result_.worst) result_.worst = witness(found, truth, place);
+  }
+
+  Witness witness(const std::optional<LightState>& found, const PointTruth& truth,
+                  const RationalPoint& place) const {
+    Witness witness;
+    witness.light = answer_.scene().lights[prepared_.lights[light_].light].id;
+    witness.polygon = answer_.scene().polygons[entry_.polygon].id;
+    witness.side = entry_.side;
+    witness.kind = found ? ErrorKind::kMisclassified : ErrorKind::kUncovered;
+    witness.point = place;
+    for (int k = 0; k < 3; ++k) witness.nearest[k] = enclose(place[k]).middle();
+    witness.truth = truth.state;
+    witness.found = found;
+    if (truth.caster) {
+      witness.caster = answer_.scene().polygons[prepared_.parts[*truth.caster].polygon].id;
+    }
+    witness.text = std::string(found ? "found " : "nothing found") +
+                   (found ? name_of(*found) : "") + ", truly " + name_of(truth.state) +
+                   (witness.caster.empty() ? "" : " behind '" + witness.caster + "'");
+    return witness;
+  }
+
+  const ExactAnswer& answer_;
+  const PreparedScene& prepared_;
+  std::uint32_t light_;
+  const AnswerEntry& entry_;
+  const ClaimedTerms& terms_;
+  const VisibilityTest* visibility_;
+  bool area_;
+  PointCheck result_;
+};
+
+}  // namespace
+
+PointCheck check_points(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
+                        const ClaimedPolygon* candidate, const ClaimedTerms& terms,
+                        const VisibilityTest* visibility, std::uint32_t count, std::uint64_t seed) {
+  return PointChecker(answer, light, entry, terms, visibility).run(candidate, count, seed);
 }
 
 }  // namespace gnomon::oracle

@@ -21,7 +21,7 @@ struct PointCheck {
 
 /// `visibility`: of a point or directional light; null for an area light, whose own is used.
 PointCheck check_points(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
-                        const CandidatePolygon* candidate, const ClaimedTerms& terms,
+                        const ClaimedPolygon* candidate, const ClaimedTerms& terms,
                         const VisibilityTest* visibility, std::uint32_t count, std::uint64_t seed);
 
 }  // namespace gnomon::oracle

@@ -22,23 +22,23 @@ namespace {
 struct Task {
   std::uint32_t light = 0;
   AnswerEntry entry;
-  const CandidatePolygon* candidate = nullptr;
+  const ClaimedPolygon* candidate = nullptr;
   ClaimedTerms terms;
 };
 
-bool is_class_of(ShadeClass shade, bool area) {
-  return shade == ShadeClass::kLit || (shade != ShadeClass::kShadow) == area;
+bool is_class_of(LightState shade, bool area) {
+  return shade == LightState::kLit || (shade != LightState::kShadow) == area;
 }
 
 class Certifier {
  public:
-  Certifier(const ExactAnswer& answer, const Candidate& candidate, const CertifyOptions& options)
+  Certifier(const ExactAnswer& answer, const Claims& candidate, const CertifyOptions& options)
       : answer_(answer), candidate_(candidate), options_(options) {}
 
   Report run();
 
  private:
-  void match_light(std::uint32_t light, const CandidateLight* found);
+  void match_light(std::uint32_t light, const ClaimedLight* found);
   void match_lights();
   void compare_all();
   void sum_up();
@@ -47,7 +47,7 @@ class Certifier {
   void problem(std::string text) { report_.problems.push_back(std::move(text)); }
 
   const ExactAnswer& answer_;
-  const Candidate& candidate_;
+  const Claims& candidate_;
   const CertifyOptions& options_;
   Report report_;
   std::vector<Task> tasks_;
@@ -56,12 +56,12 @@ class Certifier {
   std::vector<bool> done_;
 };
 
-void Certifier::match_light(std::uint32_t light, const CandidateLight* found) {
+void Certifier::match_light(std::uint32_t light, const ClaimedLight* found) {
   const Scene& scene = answer_.scene();
   const std::string& light_id = scene.lights[answer_.prepared().lights[light].light].id;
   const std::vector<AnswerEntry>& entries = answer_.entries(light);
-  std::map<std::string, std::vector<const CandidatePolygon*>> by_id;
-  for (const CandidatePolygon& polygon : found->polygons) by_id[polygon.id].push_back(&polygon);
+  std::map<std::string, std::vector<const ClaimedPolygon*>> by_id;
+  for (const ClaimedPolygon& polygon : found->polygons) by_id[polygon.id].push_back(&polygon);
   std::unordered_map<std::string, std::uint32_t> known;
   for (std::uint32_t i = 0; i < scene.polygons.size(); ++i) known.emplace(scene.polygons[i].id, i);
   const bool area = answer_.is_area(light);
@@ -72,13 +72,13 @@ void Certifier::match_light(std::uint32_t light, const CandidateLight* found) {
   std::unordered_map<std::string, std::size_t> sides;
   for (const AnswerEntry& entry : entries) ++sides[scene.polygons[entry.polygon].id];
 
-  std::map<const CandidatePolygon*, bool> used;
+  std::map<const ClaimedPolygon*, bool> used;
   for (const AnswerEntry& entry : entries) {
     const std::string& id = scene.polygons[entry.polygon].id;
-    const CandidatePolygon* match = nullptr;
+    const ClaimedPolygon* match = nullptr;
     const auto place = by_id.find(id);
     if (place != by_id.end()) {
-      for (const CandidatePolygon* polygon : place->second) {
+      for (const ClaimedPolygon* polygon : place->second) {
         const bool same_side = polygon->side_given ? polygon->side == entry.side
                                                    : sides[id] == 1 || polygon->side == entry.side;
         if (!same_side) continue;
@@ -101,13 +101,13 @@ void Certifier::match_light(std::uint32_t light, const CandidateLight* found) {
     }
     tasks_.push_back({light, entry, match, {found->background, found->per_caster_umbra}});
   }
-  for (const CandidatePolygon& polygon : found->polygons) {
+  for (const ClaimedPolygon& polygon : found->polygons) {
     bool known_classes = true;
-    for (const CandidateFragment& fragment : polygon.fragments) {
-      if (is_class_of(fragment.shade, area) || !known_classes) continue;
+    for (const ClaimedFragment& fragment : polygon.fragments) {
+      if (is_class_of(fragment.state, area) || !known_classes) continue;
       known_classes = false;
       problem(fmt::format("light '{}': polygon '{}' has a fragment of class '{}'; {} was expected",
-                          light_id, polygon.id, name_of(fragment.shade),
+                          light_id, polygon.id, name_of(fragment.state),
                           area ? "lit, penumbra or umbra" : "lit or shadow"));
     }
     if (used[&polygon]) continue;
@@ -141,8 +141,8 @@ void Certifier::match_lights() {
   if (wanted.empty()) {
     for (std::uint32_t i = 0; i < prepared.lights.size(); ++i) wanted.push_back(i);
   }
-  std::map<std::string, const CandidateLight*> by_id;
-  for (const CandidateLight& light : candidate_.lights) {
+  std::map<std::string, const ClaimedLight*> by_id;
+  for (const ClaimedLight& light : candidate_.lights) {
     if (!by_id.emplace(light.id, &light).second) {
       problem(fmt::format("light '{}' is listed twice", light.id));
     }
@@ -385,7 +385,7 @@ double scene_diagonal(const PreparedScene& prepared) {
   return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
-Expected<Report> certify(const ExactAnswer& answer, const Candidate& candidate,
+Expected<Report> certify(const ExactAnswer& answer, const Claims& candidate,
                          const CertifyOptions& options) {
   if (!(options.tolerance >= 0)) {
     return fail(ErrorCode::kUsage, "tolerance is negative", "a fraction of at least 0");
@@ -399,8 +399,8 @@ Expected<Report> certify(const ExactAnswer& answer, const Candidate& candidate,
   return Certifier(answer, candidate, options).run();
 }
 
-Expected<Report> certify(const Scene& scene, const PreparedScene& prepared,
-                         const Candidate& candidate, const CertifyOptions& options) {
+Expected<Report> certify(const Scene& scene, const PreparedScene& prepared, const Claims& candidate,
+                         const CertifyOptions& options) {
   const ExactAnswer answer(scene, prepared);
   return certify(answer, candidate, options);
 }

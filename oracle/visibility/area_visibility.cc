@@ -10,7 +10,7 @@ namespace gnomon::oracle {
 
 namespace {
 
-using Vector = ExactPoint;
+using Vector = RationalPoint;
 using Loop = std::vector<Vector>;
 
 Vector minus(const Vector& a, const Vector& b) {
@@ -185,14 +185,14 @@ std::vector<Loop> AreaVisibility::Data::without(const std::vector<Loop>& loops,
   return left;
 }
 
-AreaPointVisibility AreaVisibility::at(std::uint32_t receiver, Side side, const ExactPoint& point,
-                                       bool fractions) const {
+AreaPointVisibility AreaVisibility::at(std::uint32_t receiver, Side side,
+                                       const RationalPoint& point, bool fractions) const {
   const Data& data = *data_;
   AreaPointVisibility result;
   const Loop seen = data.seen_by(receiver, side);
   const mpq_class above = data.height(point);
   if (seen.empty() || above <= 0) {
-    result.shade = ShadeClass::kUmbra;
+    result.state = LightState::kUmbra;
     result.behind_light = true;
     result.on_boundary = !seen.empty() && above == 0;
     return result;
@@ -256,9 +256,9 @@ AreaPointVisibility AreaVisibility::at(std::uint32_t receiver, Side side, const 
       visible = data.without(visible, hidden);
     }
   }
-  result.shade = some_umbra ? ShadeClass::kUmbra
-                 : most > 0 ? ShadeClass::kPenumbra
-                            : ShadeClass::kLit;
+  result.state = some_umbra ? LightState::kUmbra
+                 : most > 0 ? LightState::kPenumbra
+                            : LightState::kLit;
   if (some_umbra) {
     result.on_boundary = !certain_umbra;
   } else {
@@ -411,7 +411,7 @@ std::vector<Loop> AreaVisibility::Data::without_sheet(const std::vector<Loop>& l
 }
 
 bool AreaVisibility::hides_all_from(std::uint32_t receiver, Side side,
-                                    const std::vector<ExactPoint>& polygon) const {
+                                    const std::vector<RationalPoint>& polygon) const {
   const Data& data = *data_;
   const Loop seen = data.seen_by(receiver, side);
   if (seen.empty()) return false;

@@ -88,7 +88,7 @@ VisibilityTest::VisibilityTest(const PreparedScene& scene, const PreparedLight& 
 VisibilityTest::~VisibilityTest() = default;
 VisibilityTest::VisibilityTest(VisibilityTest&&) noexcept = default;
 
-PointVisibility VisibilityTest::at(std::uint32_t receiver, const ExactPoint& point) const {
+PointVisibility VisibilityTest::at(std::uint32_t receiver, const RationalPoint& point) const {
   PointVisibility result;
   const Data::Caster& own = data_->parts[receiver];
   if (!own.receives) {

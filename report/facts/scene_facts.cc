@@ -7,6 +7,7 @@
 #include <set>
 
 #include "gnomon/scene/digest.h"
+#include "report/facts/facing.h"
 
 namespace gnomon::report {
 

@@ -4,28 +4,13 @@
 #include <cmath>
 
 #include "report/text/number_text.h"
+#include "scene/base/text_file.h"
 
 namespace gnomon::report {
 
 namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 16;
-
-/// The length of the valid UTF-8 sequence at the start of the text, 0 if there is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  if (lead < 0x80) return 1;
-  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0) != 0x80) return 0;
-  }
-  const bool overlong = (lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xf0 && byte(1) < 0x90);
-  const bool surrogate = lead == 0xed && byte(1) > 0x9f;
-  const bool beyond = lead == 0xf4 && byte(1) > 0x8f;
-  return overlong || surrogate || beyond ? 0 : length;
-}
 
 }  // namespace
 
@@ -121,7 +106,7 @@ void JsonWriter::append_string(std::string_view text) {
       buffer_ += "\\u00";
       buffer_ += kHex[static_cast<unsigned char>(c) >> 4];
       buffer_ += kHex[static_cast<unsigned char>(c) & 15];
-    } else if ((length = utf8_length(text)) != 0) {
+    } else if ((length = utf8_length(text, 0)) != 0) {
       buffer_ += text.substr(0, length);
     } else {
       buffer_ += "\xef\xbf\xbd";

@@ -7,6 +7,7 @@
 
 #include "kernel/signs/nearest_double.h"
 #include "report/json/json_writer.h"
+#include "report/sides/part_area.h"
 #include "report/sides/polygon_sides.h"
 #include "report/text/number_text.h"
 
@@ -81,7 +82,7 @@ class ResultWriter {
       const Side side = result_.combined[i].side;
       json_.begin_object();
       json_.member("id", scene_.polygons[polygon].id);
-      json_.member("side", side_name(side));
+      json_.member("side", name_of(side));
       json_.key("fragments");
       json_.begin_array();
       for (; i < result_.combined.size() &&
@@ -141,6 +142,18 @@ class ResultWriter {
     json_.end_object();
     json_.key("polygons");
     json_.begin_array();
+    if (options_.sides != nullptr) {
+      const auto index = static_cast<std::size_t>(&light - result_.lights.data());
+      for (const ClassifiedSide& side : (*options_.sides)[index]) write_side(light, side);
+    } else {
+      write_sides(light);
+    }
+    json_.end_array();
+    json_.end_object();
+  }
+
+  /// Polygon by polygon: all sides of a large scene at once would take more room than its result.
+  void write_sides(const LightResult& light) {
     for (std::uint32_t polygon = 0; polygon + 1 < prepared_.first_part.size(); ++polygon) {
       if (options_.interrupted != nullptr && *options_.interrupted) break;
       for (const ClassifiedSide& side :
@@ -148,8 +161,6 @@ class ResultWriter {
         write_side(light, side);
       }
     }
-    json_.end_array();
-    json_.end_object();
   }
 
   void write_side(const LightResult& light, const ClassifiedSide& side) {
@@ -158,12 +169,12 @@ class ResultWriter {
     const std::string& id = scene_.polygons[side.polygon].id;
     json_.begin_object(lines ? JsonLayout::kLines : JsonLayout::kInline);
     json_.member("id", id);
-    json_.member("side", side_name(side.side));
+    json_.member("side", name_of(side.side));
     const double area = nearest_double(side.area);
     if (!std::isfinite(area)) find("polygon " + id + ": its area is beyond the range of doubles");
     json_.member("area", area);
     for (const LightState state : light_states(side.area_light)) {
-      write_share(state_name(state), light, side, area, share_of(side, state),
+      write_share(name_of(state), light, side, area, share_of(side, state),
                   exact_share_of(side, state));
     }
     if (side.area_light && !options_.deep_umbra.empty()) {
@@ -175,7 +186,7 @@ class ResultWriter {
       json_.member("upper", deep.upper);
       json_.end_object();
     }
-    if (side.reason != ShadowReason::kNone) json_.member("reason", reason_name(side.reason));
+    if (side.reason != ShadowReason::kNone) json_.member("reason", name_of(side.reason));
     if (has_parts) write_parts(side);
     if (options_.fragments || options_.exact_loops) write_fragments(light, side);
     json_.end_object();
@@ -227,12 +238,12 @@ class ResultWriter {
       json_.member("area", nearest_area(prepared_, prepared_.parts[first + i]));
       for (const LightState state : light_states(side.area_light)) {
         if (options_.exact_fractions) {
-          json_.member(state_name(state), exact_share(part, state).get_str());
+          json_.member(name_of(state), exact_share(part, state).get_str());
         } else {
-          json_.member(state_name(state), share_of(part, state).middle());
+          json_.member(name_of(state), share_of(part, state).middle());
         }
       }
-      if (part.reason != ShadowReason::kNone) json_.member("reason", reason_name(part.reason));
+      if (part.reason != ShadowReason::kNone) json_.member("reason", name_of(part.reason));
       json_.end_object();
     }
     json_.end_array();
@@ -302,7 +313,7 @@ class ResultWriter {
   void write_whole_part(const Part& part, LightState dark, ShadowReason reason) {
     const Geometry& geometry = prepared_.geometry;
     json_.begin_object(JsonLayout::kInline);
-    json_.member("class", state_name(dark));
+    json_.member("class", name_of(dark));
     if (options_.fragments) {
       write_loop("loop", prepared_.loop(part),
                  [&](VertexId vertex) { write_point(geometry.positions[vertex]); });
@@ -316,19 +327,19 @@ class ResultWriter {
         write_exact_point(point);
       });
     }
-    json_.member("reason", reason_name(reason));
+    json_.member("reason", name_of(reason));
     json_.end_object();
   }
 
   void write_fragment(const LightResult& light, const Fragment& fragment) {
     json_.begin_object(JsonLayout::kInline);
-    json_.member("class", state_name(fragment.state));
+    json_.member("class", name_of(fragment.state));
     write_loops(light.points, light.exact_points, fragment.first, fragment.count);
     if (fragment.caster != Fragment::kNoCaster) {
       json_.member("caster", scene_.polygons[prepared_.parts[fragment.caster].polygon].id);
     }
     if (fragment.reason != ShadowReason::kNone) {
-      json_.member("reason", reason_name(fragment.reason));
+      json_.member("reason", name_of(fragment.reason));
     }
     json_.end_object();
   }

@@ -15,6 +15,7 @@
 #include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
+#include "report/sides/polygon_sides.h"
 #include "report/text/text_sink.h"
 
 namespace gnomon::report {
@@ -29,6 +30,9 @@ struct ResultJsonOptions {
   /// not write them.
   std::vector<std::vector<DeepUmbraBounds>> deep_umbra;
   std::optional<LightState> only;  // list fragments of this class alone; kShadow: all not lit
+  /// Of the same result and with exact shares if exact_fractions, where someone has them already;
+  /// else they are computed polygon by polygon.
+  const SidesByLight* sides = nullptr;
   /// Once true, polygons are left off: what has been written is then no result.
   const std::atomic<bool>* interrupted = nullptr;
 };

@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "scene/base/vectors.h"
+
 namespace gnomon::report {
 
 using Vector = std::array<double, 3>;
@@ -19,12 +21,6 @@ inline Vector operator+(const Vector& a, const Vector& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 inline Vector operator*(double s, const Vector& a) { return {s * a[0], s * a[1], s * a[2]}; }
-inline double dot(const Vector& a, const Vector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 inline double length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
 /// The zero vector stays zero.
 inline Vector unit(const Vector& a) {

@@ -13,11 +13,6 @@ namespace gnomon::report {
 
 namespace {
 
-using oracle::CandidateFragment;
-using oracle::CandidateLight;
-using oracle::CandidatePolygon;
-using oracle::ShadeClass;
-
 // Warm light, cool shadow, and a signal that is neither.
 constexpr Colour kLitBright{255, 241, 198};
 constexpr Colour kLitDim{176, 138, 88};
@@ -42,7 +37,7 @@ constexpr double kCaptionHeight = 34;
 constexpr double kGap = 12;
 
 struct ShadedLoop {
-  ShadeClass shade;
+  LightState state;
   std::vector<Vector> loop;
   Vector low, high;
 };
@@ -69,13 +64,13 @@ bool boxes_meet(const ShadedLoop& a, const ShadedLoop& b) {
 /// The fragments of one result under one light, by polygon and side.
 class ShadedPolygons {
  public:
-  explicit ShadedPolygons(const CandidateLight& light)
+  explicit ShadedPolygons(const ClaimedLight& light)
       : background_(light.background), per_caster_umbra_(light.per_caster_umbra) {
-    for (const CandidatePolygon& polygon : light.polygons) {
+    for (const ClaimedPolygon& polygon : light.polygons) {
       std::vector<ShadedLoop> loops;
-      for (const CandidateFragment& fragment : polygon.fragments) {
-        ShadedLoop shaded{fragment.shade, {}, {}, {}};
-        for (const oracle::ExactPoint& point : fragment.loop) {
+      for (const ClaimedFragment& fragment : polygon.fragments) {
+        ShadedLoop shaded{fragment.state, {}, {}, {}};
+        for (const RationalPoint& point : fragment.loop) {
           shaded.loop.push_back({point[0].get_d(), point[1].get_d(), point[2].get_d()});
         }
         if (shaded.loop.size() < 3) continue;
@@ -83,24 +78,24 @@ class ShadedPolygons {
         loops.push_back(std::move(shaded));
       }
       // A foreign file that names no side means the only one that counts.
-      if (!polygon.side_given) loops_[{polygon.id, oracle::PolygonSide::kBack}] = loops;
+      if (!polygon.side_given) loops_[{polygon.id, Side::kBack}] = loops;
       loops_[{polygon.id, polygon.side}] = std::move(loops);
     }
   }
 
   /// Null if the result does not list this side.
-  const std::vector<ShadedLoop>* find(const std::string& id, oracle::PolygonSide side) const {
+  const std::vector<ShadedLoop>* find(const std::string& id, Side side) const {
     const auto found = loops_.find({id, side});
     return found == loops_.end() ? nullptr : &found->second;
   }
-  std::optional<ShadeClass> background() const { return background_; }
+  std::optional<LightState> background() const { return background_; }
   /// Else umbra may be called penumbra: a cost, no difference.
   bool per_caster_umbra() const { return per_caster_umbra_; }
 
  private:
-  std::optional<ShadeClass> background_;
+  std::optional<LightState> background_;
   bool per_caster_umbra_;
-  std::map<std::pair<std::string, oracle::PolygonSide>, std::vector<ShadedLoop>> loops_;
+  std::map<std::pair<std::string, Side>, std::vector<ShadedLoop>> loops_;
 };
 
 class Painter {
@@ -176,18 +171,18 @@ class Painter {
   }
 
   /// Lit by orientation to the light, shadow by orientation to the eye, so that faces stay apart.
-  Colour colour(ShadeClass shade, const Vector& normal, const Vector& centre,
+  Colour colour(LightState shade, const Vector& normal, const Vector& centre,
                 const View& view) const {
-    if (shade == ShadeClass::kLit) {
+    if (shade == LightState::kLit) {
       return mix(kLitDim, kLitBright, std::abs(dot(normal, to_light(centre))));
     }
     const double facing = std::abs(dot(normal, unit(view.eye() - centre)));
     const double tilt = 0.5 * std::abs(normal[2]);
     const double brightness = 0.5 * facing + tilt;
     switch (shade) {
-      case ShadeClass::kPenumbra:
+      case LightState::kPenumbra:
         return mix(kPenumbraDim, kPenumbraBright, brightness);
-      case ShadeClass::kUmbra:
+      case LightState::kUmbra:
         return mix(kUmbraDim, kUmbraBright, brightness);
       default:
         return mix(kShadowDim, kShadowBright, brightness);
@@ -210,7 +205,7 @@ class Painter {
     const Vector normal = unit(area_vector(whole));
     const bool front = dot(normal, view.eye() - whole.front()) > 0;
     if (!front && !part.two_sided && !options_.backs) return;
-    const auto side = front ? oracle::PolygonSide::kFront : oracle::PolygonSide::kBack;
+    const auto side = front ? Side::kFront : Side::kBack;
     // One shade a part, whatever the tree cut it into.
     Vector centre{};
     for (const Vector& point : whole) {
@@ -219,14 +214,14 @@ class Painter {
     const std::string& id = scene_.polygons[part.polygon].id;
     const std::vector<ShadedLoop>* loops = shown.find(id, side);
     // A side that no result lists does not face the light, nor sees it.
-    const ShadeClass base =
-        shown.background().value_or(area_light_ ? ShadeClass::kUmbra : ShadeClass::kShadow);
+    const LightState base =
+        shown.background().value_or(area_light_ ? LightState::kUmbra : LightState::kShadow);
     if (loops == nullptr) {
       fill(piece.loop, colour(base, normal, centre, view), view);
     } else {
       paint_fragments(
           piece, normal, *loops,
-          [&](std::optional<ShadeClass> shade) {
+          [&](std::optional<LightState> shade) {
             if (!shade && shown.background()) shade = base;
             return shade ? colour(*shade, normal, centre, view) : kMissing;
           },
@@ -247,9 +242,9 @@ class Painter {
                        const View& view) {
     constexpr double kAll = 0.99999;
     const Vector& on_plane = piece.loop.front();
-    ShadedLoop own{ShadeClass::kLit, piece.loop, {}, {}};
+    ShadedLoop own{LightState::kLit, piece.loop, {}, {}};
     set_box(own);
-    std::vector<std::pair<ShadeClass, std::vector<Vector>>> seen;
+    std::vector<std::pair<LightState, std::vector<Vector>>> seen;
     double covered = 0;
     for (const ShadedLoop& shaded : loops) {
       if (!boxes_meet(own, shaded)) continue;
@@ -257,7 +252,7 @@ class Painter {
       std::vector<Vector> cut = intersection(projected(shaded.loop, normal, on_plane), piece.loop);
       if (cut.empty()) continue;
       covered += length(area_vector(cut));
-      seen.emplace_back(shaded.shade, std::move(cut));
+      seen.emplace_back(shaded.state, std::move(cut));
     }
     if (covered < kAll * length(area_vector(piece.loop))) {
       fill(piece.loop, colour_of(std::nullopt), view);
@@ -273,8 +268,8 @@ class Painter {
     if (truth == nullptr) return;
     for (const ShadedLoop& a : shown) {
       for (const ShadedLoop& b : *truth) {
-        if (a.shade == b.shade || !boxes_meet(a, b)) continue;
-        if (!per_caster_umbra && a.shade == ShadeClass::kPenumbra && b.shade == ShadeClass::kUmbra)
+        if (a.state == b.state || !boxes_meet(a, b)) continue;
+        if (!per_caster_umbra && a.state == LightState::kPenumbra && b.state == LightState::kUmbra)
           continue;
         const std::vector<Vector> wrong = intersection(
             intersection(projected(a.loop, normal, piece.loop.front()), b.loop), piece.loop);

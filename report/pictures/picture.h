@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "gnomon/algorithms/painters_order.h"
-#include "gnomon/oracle/candidate.h"
+#include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
 #include "report/pictures/svg.h"
@@ -53,8 +53,8 @@ struct PictureOptions {
 struct Panel {
   std::uint32_t light = 0;  // index into PreparedScene::lights
   std::string caption;
-  const oracle::CandidateLight* shown = nullptr;
-  const oracle::CandidateLight* truth = nullptr;  // what differs from it is marked; may be null
+  const ClaimedLight* shown = nullptr;
+  const ClaimedLight* truth = nullptr;  // what differs from it is marked; may be null
   std::vector<Mark> marks;
 };
 

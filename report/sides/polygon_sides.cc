@@ -2,13 +2,11 @@
 #include "report/sides/polygon_sides.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <span>
+#include <iterator>
 #include <utility>
 
 #include "gnomon/oracle/enclosure.h"
-#include "kernel/signs/nearest_double.h"
+#include "report/sides/part_area.h"
 
 namespace gnomon::report {
 
@@ -18,46 +16,6 @@ using oracle::Enclosure;
 
 Enclosure to_enclosure(const Interval& interval) { return {interval.lower, interval.upper}; }
 Interval to_interval(const Enclosure& enclosure) { return {enclosure.lower, enclosure.upper}; }
-
-mpz_class squared_length(const std::array<mpz_class, 3>& vector) {
-  return vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2];
-}
-
-/// Twice the area vector of a loop whose vertices have integer coordinates, in `Integer`.
-template <class Integer, class At>
-std::array<Integer, 3> doubled_loop_area(std::span<const VertexId> loop, const At& at) {
-  std::array<Integer, 3> origin{}, a{}, b{}, sum{};
-  for (int k = 0; k < 3; ++k) origin[k] = at(loop[0], k);
-  for (int k = 0; k < 3; ++k) a[k] = at(loop[1], k) - origin[k];
-  for (std::size_t i = 2; i < loop.size(); ++i) {
-    for (int k = 0; k < 3; ++k) b[k] = at(loop[i], k) - origin[k];
-    for (int k = 0; k < 3; ++k) {
-      const int u = (k + 1) % 3, v = (k + 2) % 3;
-      sum[k] += a[u] * b[v] - a[v] * b[u];
-    }
-    std::swap(a, b);
-  }
-  return sum;
-}
-
-/// The root of a sum of squares to 160 bits beyond the integer part: the error is far below a
-/// double's. Exact in a plane of constant x, y or z.
-mpq_class precise_part_area(const PreparedScene& scene, const Part& part) {
-  constexpr unsigned kShift = 160;
-  const std::array<mpz_class, 3> doubled = doubled_area_vector(scene, part);
-  mpq_class area;
-  if (std::ranges::count(doubled, 0) == 2) {
-    area = abs(doubled[0] + doubled[1] + doubled[2]);
-    area >>= 1;
-  } else {
-    mpz_class root = squared_length(doubled) << (2 * kShift);
-    mpz_sqrt(root.get_mpz_t(), root.get_mpz_t());
-    area = root;
-    area >>= kShift + 1;
-  }
-  if (scene.geometry.step == 1) return area;
-  return area * scene.geometry.step * scene.geometry.step;
-}
 
 /// The entries of one part: one for each side that sees an area light, else one.
 std::span<const PartResult> results_of(const LightResult& light, std::uint32_t part) {
@@ -178,31 +136,6 @@ void sum_by_enclosure(const PreparedScene& scene, std::uint32_t first, Classifie
   }
 }
 
-/// Sign of the plane of `loop`, as it is oriented, at a grid point.
-Sign sign_at(const std::array<mpz_class, 3>& normal, const std::array<mpz_class, 3>& origin,
-             const std::array<mpz_class, 3>& point) {
-  mpz_class value = 0;
-  for (int k = 0; k < 3; ++k) value += normal[k] * (point[k] - origin[k]);
-  return sign_of(value);
-}
-
-std::array<mpz_class, 3> grid_point(const PreparedScene& scene, VertexId vertex) {
-  const GridPositions& grid = scene.geometry.grid;
-  return {grid.at(vertex, 0), grid.at(vertex, 1), grid.at(vertex, 2)};
-}
-
-/// Of three corners that are not in one line, which the corners of a prepared light are not.
-std::array<mpz_class, 3> light_normal(const PreparedLight& light) {
-  std::array<mpz_class, 3> normal;
-  const auto& loop = light.area_loop;
-  for (int k = 0; k < 3; ++k) {
-    const int u = (k + 1) % 3, v = (k + 2) % 3;
-    normal[k] = (loop[1][u] - loop[0][u]) * (loop[2][v] - loop[0][v]) -
-                (loop[1][v] - loop[0][v]) * (loop[2][u] - loop[0][u]);
-  }
-  return normal;
-}
-
 }  // namespace
 
 std::span<const LightState> light_states(bool area_light) {
@@ -232,110 +165,6 @@ mpq_class exact_share(const PartSide& part, LightState state) {
       return part.area_light ? part.area_fractions->exact_umbra : mpq_class(0);
   }
   return 0;
-}
-
-std::array<mpz_class, 3> doubled_area_vector(const PreparedScene& scene, const Part& part) {
-  const auto loop = scene.loop(part);
-  const GridPositions& grid = scene.geometry.grid;
-  // Each triangle of b-bit coordinates adds less than 2^(2b + 1).
-  if (2 * grid.bits() + 1 + std::bit_width(loop.size()) <= 63) {
-    const auto sum = doubled_loop_area<std::int64_t>(
-        loop, [&](VertexId vertex, int axis) { return grid.narrow(vertex, axis); });
-    return {static_cast<long>(sum[0]), static_cast<long>(sum[1]), static_cast<long>(sum[2])};
-  }
-  return doubled_loop_area<mpz_class>(
-      loop, [&](VertexId vertex, int axis) { return grid.at(vertex, axis); });
-}
-
-Sign sign_at_light(const PreparedScene& scene, const Part& part, const LightPoint& light) {
-  const std::array<mpz_class, 3> normal = doubled_area_vector(scene, part);
-  const VertexId vertex = scene.loop(part)[0];
-  mpz_class value = 0;
-  for (int k = 0; k < 3; ++k) {
-    const mpz_class from = light.directional ? mpz_class(0) : scene.geometry.grid.at(vertex, k);
-    value += normal[k] * (light.grid[k] - from);
-  }
-  return sign_of(value);
-}
-
-bool sees_area_light(const PreparedScene& scene, const Part& part, Side side,
-                     const PreparedLight& light) {
-  if (side == Side::kBack && !part.two_sided) return false;
-  const std::array<mpz_class, 3> plane = doubled_area_vector(scene, part),
-                                 origin = grid_point(scene, scene.loop(part)[0]),
-                                 emitting = light_normal(light);
-  const Sign wanted = side == Side::kFront ? Sign::kPositive : Sign::kNegative;
-  return std::ranges::any_of(
-             light.area_loop,
-             [&](const auto& corner) { return sign_at(plane, origin, corner) == wanted; }) &&
-         std::ranges::any_of(scene.loop(part), [&](VertexId vertex) {
-           return sign_at(emitting, light.area_loop[0], grid_point(scene, vertex)) ==
-                  Sign::kPositive;
-         });
-}
-
-bool cuts_area_light(const PreparedScene& scene, const Part& part, const PreparedLight& light) {
-  const std::array<mpz_class, 3> plane = doubled_area_vector(scene, part),
-                                 origin = grid_point(scene, scene.loop(part)[0]);
-  bool front = false, back = false;
-  for (const std::array<mpz_class, 3>& corner : light.area_loop) {
-    const Sign sign = sign_at(plane, origin, corner);
-    front = front || sign == Sign::kPositive;
-    back = back || sign == Sign::kNegative;
-  }
-  return front && back;
-}
-
-bool reaches_behind(const PreparedScene& scene, const Part& part, const PreparedLight& light) {
-  const std::array<mpz_class, 3> emitting = light_normal(light);
-  bool front = false, back = false;
-  for (const VertexId vertex : scene.loop(part)) {
-    const Sign sign = sign_at(emitting, light.area_loop[0], grid_point(scene, vertex));
-    front = front || sign == Sign::kPositive;
-    back = back || sign == Sign::kNegative;
-  }
-  return front && back;
-}
-
-Interval part_area(const PreparedScene& scene, const Part& part) {
-  mpq_class squared(squared_length(doubled_area_vector(scene, part)));
-  const mpq_class step_squared = scene.geometry.step * scene.geometry.step;
-  squared *= step_squared * step_squared;
-  squared /= 4;
-  return to_interval(oracle::enclose_square_root(squared));
-}
-
-double nearest_area(const PreparedScene& scene, const Part& part) {
-  return nearest_double(precise_part_area(scene, part));
-}
-
-mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon) {
-  mpq_class sum = 0;
-  for (std::uint32_t part = scene.first_part[polygon]; part < scene.first_part[polygon + 1];
-       ++part) {
-    sum += precise_part_area(scene, scene.parts[part]);
-  }
-  return sum;
-}
-
-double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights) {
-  double sum = 0;
-  for (const Part& part : scene.parts) {
-    std::size_t sides = 0;
-    for (const std::uint32_t index : lights) {
-      const PreparedLight& light = scene.lights[index];
-      if (light.type == LightType::kArea) {
-        for (const Side side : {Side::kFront, Side::kBack}) {
-          sides += sees_area_light(scene, part, side, light) ? 1 : 0;
-        }
-        continue;
-      }
-      const Sign sign = sign_at_light(scene, part, light.point);
-      if (sign == Sign::kPositive || (sign == Sign::kNegative && part.two_sided)) ++sides;
-    }
-    if (sides > 0) sum += static_cast<double>(sides) * part_area(scene, part).middle();
-  }
-  return sum;
 }
 
 std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const LightResult& light,
@@ -389,6 +218,23 @@ std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const Ligh
   return sides;
 }
 
+std::vector<ClassifiedSide> classified_sides(const PreparedScene& scene, const LightResult& light,
+                                             bool exact) {
+  std::vector<ClassifiedSide> sides;
+  for (std::uint32_t polygon = 0; polygon + 1 < scene.first_part.size(); ++polygon) {
+    std::ranges::move(polygon_sides(scene, light, polygon, exact), std::back_inserter(sides));
+  }
+  return sides;
+}
+
+SidesByLight classified_sides(const PreparedScene& scene, const ShadowResult& result, bool exact) {
+  SidesByLight sides;
+  for (const LightResult& light : result.lights) {
+    sides.push_back(classified_sides(scene, light, exact));
+  }
+  return sides;
+}
+
 Interval deep_umbra_share(const PreparedScene& scene, const LightResult& light,
                           const ClassifiedSide& side, std::span<const DeepUmbraBounds> bounds) {
   const std::uint32_t first = scene.first_part[side.polygon];
@@ -408,36 +254,6 @@ Interval deep_umbra_share(const PreparedScene& scene, const LightResult& light,
   const Interval share = to_interval(deep / total);
   return {std::max(share.lower, 0.0), std::min(share.upper, 1.0)};
 }
-
-std::string_view reason_name(ShadowReason reason) {
-  switch (reason) {
-    case ShadowReason::kNone:
-      return "";
-    case ShadowReason::kFacesAway:
-      return "faces-away";
-    case ShadowReason::kLightInPlane:
-      return "light-in-plane";
-    case ShadowReason::kBehindLight:
-      return "behind-light";
-  }
-  return "";
-}
-
-std::string_view state_name(LightState state) {
-  switch (state) {
-    case LightState::kLit:
-      return "lit";
-    case LightState::kShadow:
-      return "shadow";
-    case LightState::kPenumbra:
-      return "penumbra";
-    case LightState::kUmbra:
-      return "umbra";
-  }
-  return "";
-}
-
-std::string_view side_name(Side side) { return side == Side::kBack ? "back" : "front"; }
 
 FacingShare facing_share(const PreparedScene& scene, const LightResult& light) {
   FacingShare share;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From parts back to the polygons of the file: every input polygon once for each side that faces or
-// sees the light, or once with its front if none does, with the shares of its parts added up.
+// sees the light, or once with its front if none does, with the shares of its parts added up. The
+// result says which sides these are and why a part is dark; nothing of that is decided here again.
 //
 // Exactness: shares of coplanar parts are weighted by exact areas and summed as rationals; for a
 // polygon whose parts lie in several planes (areas are then square roots) the sum is a certified
@@ -14,12 +15,12 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "gnomon/algorithms/deep_umbra.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/kernel/sign.h"
+#include "gnomon/result/classes.h"
 #include "gnomon/scene/prepare.h"
 
 namespace gnomon::report {
@@ -62,42 +63,21 @@ const std::optional<mpq_class>& exact_share_of(const ClassifiedSide& side, Light
 std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const LightResult& light,
                                           std::uint32_t polygon, bool exact);
 
+/// The same of all polygons under one light, in order of polygons. It points into the light's
+/// result.
+std::vector<ClassifiedSide> classified_sides(const PreparedScene& scene, const LightResult& light,
+                                             bool exact);
+/// The same under each light of a result, computed once for all who read it.
+using SidesByLight = std::vector<std::vector<ClassifiedSide>>;
+SidesByLight classified_sides(const PreparedScene& scene, const ShadowResult& result, bool exact);
+
 /// The exact share of one part, as far as `exact_fractions` were asked for.
 mpq_class exact_share(const PartSide& part, LightState state);
-
-/// Twice the part's area vector on the scene's grid, in the orientation of its own front.
-std::array<mpz_class, 3> doubled_area_vector(const PreparedScene& scene, const Part& part);
-/// The sign of the part's own plane at a point or directional light: positive if its front faces
-/// it.
-Sign sign_at_light(const PreparedScene& scene, const Part& part, const LightPoint& light);
-/// The part receives with that side, and sees the area light: some of the light is in front of the
-/// side's plane, and some of the part in front of the light's.
-bool sees_area_light(const PreparedScene& scene, const Part& part, Side side,
-                     const PreparedLight& light);
-/// The part's plane has some of the area light strictly on either side.
-bool cuts_area_light(const PreparedScene& scene, const Part& part, const PreparedLight& light);
-/// The area light's plane has some of the part strictly on either side.
-bool reaches_behind(const PreparedScene& scene, const Part& part, const PreparedLight& light);
-/// Bounds of the part's area in scene units squared; [0, infinity] beyond the range of doubles.
-Interval part_area(const PreparedScene& scene, const Part& part);
-
-/// The double nearest to the part's area, scene units squared.
-double nearest_area(const PreparedScene& scene, const Part& part);
-/// The area of a polygon's parts, to far more digits than a double has.
-mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon);
-/// Area in scene units squared of all sides of parts that face or see one of the lights, once a
-/// light.
-double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights);
 
 /// Bounds of the share of a side that is in the deep umbra of its area light. `bounds`: of the
 /// parts of the same LightResult, one for each.
 Interval deep_umbra_share(const PreparedScene& scene, const LightResult& light,
                           const ClassifiedSide& side, std::span<const DeepUmbraBounds> bounds);
-
-/// "faces-away", "light-in-plane", "behind-light"; empty for kNone.
-std::string_view reason_name(ShadowReason reason);
-std::string_view state_name(LightState state);
-std::string_view side_name(Side side);
 
 /// How many polygons have a side that faces the light, or sees an area light, of those that were
 /// not dropped.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The integers that preparation decides with: 64, 128 and 256 bits where the scene's grid lets
-// every determinant fit, GMP integers where it does not. Private to scene/src.
+// every determinant fit, GMP integers where it does not.
 #ifndef GNOMON_SCENE_BASE_EXACT_INT_H
 #define GNOMON_SCENE_BASE_EXACT_INT_H
 
@@ -9,6 +9,7 @@
 #include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -42,27 +43,14 @@ inline UInt128 magnitude(Int128 value) {
   return value < 0 ? -static_cast<UInt128>(value) : static_cast<UInt128>(value);
 }
 
-/// Greatest common divisor, by halving. gcd(0, a) = a.
-inline std::uint64_t gcd_of(std::uint64_t a, std::uint64_t b) {
-  if (a == 0) return b;
-  if (b == 0) return a;
-  const int shift = std::countr_zero(a | b);
-  a >>= std::countr_zero(a);
-  while (b != 0) {
-    b >>= std::countr_zero(b);
-    if (a > b) std::swap(a, b);
-    b -= a;
-  }
-  return a << shift;
-}
-
 inline int trailing_zeros(UInt128 value) {
   const auto low = static_cast<std::uint64_t>(value);
   return low != 0 ? std::countr_zero(low)
                   : 64 + std::countr_zero(static_cast<std::uint64_t>(value >> 64));
 }
 
-/// The same, without 128-bit division.
+/// Greatest common divisor, by halving: std::gcd does not take 128 bits, and division of 128 bits
+/// is slow. gcd(0, a) = a.
 inline UInt128 gcd_of(UInt128 a, UInt128 b) {
   if (a == 0) return b;
   if (b == 0) return a;
@@ -72,7 +60,7 @@ inline UInt128 gcd_of(UInt128 a, UInt128 b) {
     b >>= trailing_zeros(b);
     if ((a >> 64) == 0 && (b >> 64) == 0) {
       return static_cast<UInt128>(
-                 gcd_of(static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b)))
+                 std::gcd(static_cast<std::uint64_t>(a), static_cast<std::uint64_t>(b)))
              << shift;
     }
     if (a > b) std::swap(a, b);
@@ -82,7 +70,7 @@ inline UInt128 gcd_of(UInt128 a, UInt128 b) {
 }
 
 inline std::int64_t gcd_of(std::int64_t a, std::int64_t b) {
-  return static_cast<std::int64_t>(gcd_of(magnitude(a), magnitude(b)));
+  return static_cast<std::int64_t>(std::gcd(magnitude(a), magnitude(b)));
 }
 inline Int128 gcd_of(Int128 a, Int128 b) {
   return static_cast<Int128>(gcd_of(magnitude(a), magnitude(b)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Interning: numbers equal things 0, 1, 2, ... in the order in which they are first seen. The
 // things stay with the caller; the table holds their numbers and hashes. Equality is always the
-// caller's exact comparison, never the hash alone. Private to scene/src.
+// caller's exact comparison, never the hash alone.
 #ifndef GNOMON_SCENE_BASE_INDEX_TABLE_H
 #define GNOMON_SCENE_BASE_INDEX_TABLE_H
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Loops over many elements on all cores. A range is cut into pieces of a fixed size, whatever the
 // number of threads, and results of pieces are kept in the order of the range: so what is computed
-// does not depend on the number of threads. Ranges of one piece run on the calling thread. Private
-// to scene/src.
+// does not depend on the number of threads. Ranges of one piece run on the calling thread.
 #ifndef GNOMON_SCENE_BASE_PARALLEL_H
 #define GNOMON_SCENE_BASE_PARALLEL_H
 

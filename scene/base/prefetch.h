@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// A hint for loops that visit memory at random. Private to scene/src.
+// A hint for loops that visit memory at random.
 #ifndef GNOMON_SCENE_BASE_PREFETCH_H
 #define GNOMON_SCENE_BASE_PREFETCH_H
 

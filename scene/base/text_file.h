@@ -29,6 +29,9 @@ ErrorPlace place_in_text(std::string file, std::string_view text, std::size_t of
 /// 'text' for a message: about 40 bytes of it, control characters and broken UTF-8 as \xHH.
 std::string quoted_text(std::string_view text);
 
+/// The length of the valid UTF-8 sequence that begins at byte `at`, 0 if there is none.
+std::size_t utf8_length(std::string_view text, std::size_t at);
+
 /// The length of a UTF-8 byte order mark at the start of the text: 3 or 0.
 std::size_t byte_order_mark(std::string_view text);
 

@@ -15,8 +15,8 @@
 
 #include "gnomon/scene/scene.h"
 #include "scene/base/text_file.h"
-#include "scene/files/json_text.h"
 #include "scene/files/readers.h"
+#include "scene/json/json_text.h"
 
 namespace gnomon {
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "gnomon/scene/read.h"
 
+#include <algorithm>
 #include <new>
 
 #include "scene/base/text_file.h"
+#include "scene/files/formats.h"
 #include "scene/files/readers.h"
 
 namespace gnomon {
@@ -14,6 +16,12 @@ std::string name_from_file(const std::string& file) {
   // A file name may hold any bytes, a scene's name is UTF-8.
   if (!stem.empty() && !check_is_utf8(stem, file)) stem = "scene";
   return stem;
+}
+
+std::string_view first_word_on(std::string_view text) {
+  text.remove_prefix(byte_order_mark(text));
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  return text;
 }
 
 void UnderflowCount::report(std::string_view text, std::vector<std::string>& warnings) const {
@@ -30,7 +38,7 @@ Expected<ReadResult> parse_scene(std::string text, const std::string& file,
   if (!format && file == "<stdin>") format = SceneFormat::kJson;
   if (!format) format = format_by_extension(file);
   if (!format) format = format_by_content(text);
-  if (options.lights_only && format && *format != SceneFormat::kJson) {
+  if (options.lights_only && format && file_format(*format).holds != Holds::kScene) {
     return fail(ErrorCode::kFormat, "lights come from JSON only", "a scene file with lights",
                 ErrorPlace{file, 0, 0, {}});
   }
@@ -39,19 +47,10 @@ Expected<ReadResult> parse_scene(std::string text, const std::string& file,
       return tl::unexpected(std::move(readable.error()));
     }
     return fail(ErrorCode::kFormat, "neither the name nor the content tells the format",
-                "JSON, OBJ, OFF or PLY", ErrorPlace{file, 0, 0, {}});
+                shown_format_titles(), ErrorPlace{file, 0, 0, {}});
   }
   try {
-    switch (*format) {
-      case SceneFormat::kJson:
-        return read_json(std::move(text), file, options);
-      case SceneFormat::kObj:
-        return read_obj(text, file, options);
-      case SceneFormat::kOff:
-        return read_off(text, file, options);
-      default:
-        return read_ply(text, file, options);
-    }
+    return file_format(*format).read(text, file, options);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::kLimit, "the scene does not fit into memory", {},
                 ErrorPlace{file, 0, 0, {}});

@@ -10,8 +10,8 @@
 #include "gnomon/scene/validate.h"
 #include "scene/base/text_file.h"
 #include "scene/files/json_scene_handler.h"
-#include "scene/files/json_text.h"
 #include "scene/files/readers.h"
+#include "scene/json/json_text.h"
 
 namespace gnomon {
 
@@ -33,19 +33,25 @@ std::optional<Error> check_structure(const std::string& text, const Scene& scene
 
 }  // namespace
 
-Expected<ReadResult> read_json(std::string text, const std::string& file,
+Likeness looks_like_json(std::string_view text) {
+  return first_word_on(text).starts_with("{") ? Likeness::kCertain : Likeness::kNone;
+}
+
+Expected<ReadResult> read_json(const std::string& file_text, const std::string& file,
                                const ReadOptions& options) {
-  if (auto readable = check_is_utf8(text, file); !readable) {
+  if (auto readable = check_is_utf8(file_text, file); !readable) {
     return tl::unexpected(std::move(readable.error()));
   }
-  const std::size_t start = byte_order_mark(text);
+  const std::size_t start = byte_order_mark(file_text);
   NumberMeaning meaning = options.numbers.value_or(NumberMeaning::kDouble);
   bool meaning_is_fixed = options.numbers.has_value();
   LongNumbers long_numbers;
+  std::string text_without_long_numbers;
+  const std::string* text = &file_text;
   // Twice at most for a meaning found late, and once more for long numbers.
   for (;;) {
-    rapidjson::StringStream stream(text.c_str() + start);
-    SceneHandler handler(text, file, start, stream, long_numbers, meaning, meaning_is_fixed,
+    rapidjson::StringStream stream(text->c_str() + start);
+    SceneHandler handler(*text, file, start, stream, long_numbers, meaning, meaning_is_fixed,
                          options.lights_only);
     rapidjson::Reader reader;
     const rapidjson::ParseResult parsed = reader.Parse<kJsonFlags>(stream, handler);
@@ -55,20 +61,22 @@ Expected<ReadResult> read_json(std::string text, const std::string& file,
       continue;
     }
     if (parsed.Code() == rapidjson::kParseErrorNumberTooBig && long_numbers.empty()) {
-      long_numbers.hide_in(text);
+      text_without_long_numbers = file_text;
+      text = &text_without_long_numbers;
+      long_numbers.hide_in(text_without_long_numbers);
       if (!long_numbers.empty()) continue;
     }
     if (handler.error()) return tl::unexpected(*std::move(handler.error()));
     if (parsed.IsError()) {
-      return tl::unexpected(
-          json_syntax_error(parsed.Code(), text, start + parsed.Offset(), file, handler.pointer()));
+      return tl::unexpected(json_syntax_error(parsed.Code(), *text, start + parsed.Offset(), file,
+                                              handler.pointer()));
     }
     ReadResult result{std::move(handler.scene()), {}};
     if (!handler.has_name()) result.scene.name = name_from_file(file);
-    if (auto error = check_structure(text, result.scene, options.lights_only)) {
+    if (auto error = check_structure(*text, result.scene, options.lights_only)) {
       return tl::unexpected(*std::move(error));
     }
-    handler.underflow().report(text, result.warnings);
+    handler.underflow().report(*text, result.warnings);
     if (!options.lights_only && result.scene.polygons.empty()) {
       result.warnings.emplace_back("the scene has no polygons");
     }

@@ -7,6 +7,7 @@
 
 #include "scene/base/text_file.h"
 #include "scene/files/mesh_text.h"
+#include "scene/files/readers.h"
 
 namespace gnomon {
 
@@ -92,7 +93,23 @@ std::uint64_t count_vertex_lines(std::string_view text) {
 
 }  // namespace
 
-Expected<ReadResult> read_obj(std::string_view text, const std::string& file,
+/// Does one of the first lines begin with the keyword of a vertex? Other formats may have such
+/// lines too.
+Likeness looks_like_obj(std::string_view text) {
+  constexpr std::size_t kFarEnough = std::size_t{1} << 16;
+  text = first_word_on(text).substr(0, kFarEnough);
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (line.starts_with("v ") || line.starts_with("v\t")) return Likeness::kPossible;
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+  }
+  return Likeness::kNone;
+}
+
+Expected<ReadResult> read_obj(const std::string& text, const std::string& file,
                               const ReadOptions& options) {
   if (auto readable = check_is_text(text, file); !readable) {
     return tl::unexpected(std::move(readable.error()));

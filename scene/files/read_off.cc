@@ -3,6 +3,7 @@
 // passed over like the colours of a face. One vertex and one face a line, as every writer has it.
 #include "scene/base/text_file.h"
 #include "scene/files/mesh_text.h"
+#include "scene/files/readers.h"
 
 namespace gnomon {
 
@@ -171,7 +172,16 @@ class OffReader {
 
 }  // namespace
 
-Expected<ReadResult> read_off(std::string_view text, const std::string& file,
+/// Is the first word OFF, with any of its prefixes?
+Likeness looks_like_off(std::string_view text) {
+  text = first_word_on(text);
+  const std::string_view word = text.substr(0, text.find_first_of(" \t\r\n#"));
+  const bool is_keyword = word.size() >= 3 && word.size() <= 8 && word.ends_with("OFF") &&
+                          word.find_first_not_of("STCN4n") >= word.size() - 3;
+  return is_keyword ? Likeness::kCertain : Likeness::kNone;
+}
+
+Expected<ReadResult> read_off(const std::string& text, const std::string& file,
                               const ReadOptions& options) {
   if (auto readable = check_is_text(text, file); !readable) {
     return tl::unexpected(std::move(readable.error()));

@@ -11,6 +11,7 @@
 #include "scene/base/text_file.h"
 #include "scene/files/mesh_text.h"
 #include "scene/files/ply_header.h"
+#include "scene/files/readers.h"
 
 namespace gnomon {
 
@@ -275,7 +276,12 @@ class PlyReader {
 
 }  // namespace
 
-Expected<ReadResult> read_ply(std::string_view text, const std::string& file,
+Likeness looks_like_ply(std::string_view text) {
+  return text.starts_with("ply\n") || text.starts_with("ply\r") ? Likeness::kCertain
+                                                                : Likeness::kNone;
+}
+
+Expected<ReadResult> read_ply(const std::string& text, const std::string& file,
                               const ReadOptions& options) {
   if (text.empty()) return tl::unexpected(check_is_text(text, file).error());
   auto header = read_ply_header(text, file);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The reader of each format, behind parse_scene. Each gets a whole file and its name for messages.
+// What the table of formats (formats.h) has of each: the test whether a file looks like one, and
+// the reader. Each reader gets a whole file and its name for messages.
 #ifndef GNOMON_SCENE_FILES_READERS_H
 #define GNOMON_SCENE_FILES_READERS_H
 
@@ -9,17 +10,26 @@
 #include <vector>
 
 #include "gnomon/scene/read.h"
+#include "scene/files/formats.h"
 
 namespace gnomon {
 
-Expected<ReadResult> read_json(std::string text, const std::string& file,
+Likeness looks_like_json(std::string_view text);
+Likeness looks_like_obj(std::string_view text);
+Likeness looks_like_off(std::string_view text);
+Likeness looks_like_ply(std::string_view text);
+
+Expected<ReadResult> read_json(const std::string& text, const std::string& file,
                                const ReadOptions& options);
-Expected<ReadResult> read_obj(std::string_view text, const std::string& file,
+Expected<ReadResult> read_obj(const std::string& text, const std::string& file,
                               const ReadOptions& options);
-Expected<ReadResult> read_off(std::string_view text, const std::string& file,
+Expected<ReadResult> read_off(const std::string& text, const std::string& file,
                               const ReadOptions& options);
-Expected<ReadResult> read_ply(std::string_view text, const std::string& file,
+Expected<ReadResult> read_ply(const std::string& text, const std::string& file,
                               const ReadOptions& options);
+
+/// The text without its byte order mark and the blanks that it begins with.
+std::string_view first_word_on(std::string_view text);
 
 /// The name of a scene whose file gives none.
 std::string name_from_file(const std::string& file);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "scene/base/output_file.h"
+#include "scene/files/formats.h"
 #include "scene/files/writers.h"
 
 namespace gnomon {
@@ -15,7 +16,7 @@ std::string counted(std::size_t count, const char* singular, const char* plural)
 }
 
 /// What a mesh format has no place for.
-std::vector<std::string> left_out_of_mesh(const Scene& scene, SceneFormat format) {
+std::vector<std::string> left_out_of_mesh(const Scene& scene, Holds holds) {
   std::size_t holes = 0, ids = 0, flags = 0;
   for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
     const Polygon& polygon = scene.polygons[i];
@@ -34,7 +35,7 @@ std::vector<std::string> left_out_of_mesh(const Scene& scene, SceneFormat format
     warnings.push_back(counted(scene.lights.size(), "light", "lights") + end);
   }
   if (!scene.extra.empty()) warnings.push_back("\"extra\"" + end);
-  if (scene.numbers == NumberMeaning::kDecimal && format != SceneFormat::kPlyBinary) {
+  if (scene.numbers == NumberMeaning::kDecimal && holds == Holds::kMesh) {
     warnings.emplace_back("the numbers are decimals: read the file with --numbers decimal");
   }
   return warnings;
@@ -58,25 +59,9 @@ Expected<void> append_position(std::string& text, const Position& position, Numb
 
 Expected<WrittenScene> scene_to_text(const Scene& scene, SceneFormat format) {
   WrittenScene result;
-  if (format != SceneFormat::kJson) result.warnings = left_out_of_mesh(scene, format);
-  Expected<std::string> text;
-  switch (format) {
-    case SceneFormat::kJson:
-      text = write_json(scene);
-      break;
-    case SceneFormat::kObj:
-      text = write_obj(scene);
-      break;
-    case SceneFormat::kOff:
-      text = write_off(scene);
-      break;
-    case SceneFormat::kPlyAscii:
-      text = write_ply_ascii(scene);
-      break;
-    case SceneFormat::kPlyBinary:
-      text = write_ply_binary(scene);
-      break;
-  }
+  const FileFormat& file = file_format(format);
+  if (file.holds != Holds::kScene) result.warnings = left_out_of_mesh(scene, file.holds);
+  Expected<std::string> text = file.write(scene);
   if (!text) {
     text.error().where.file = scene.file;
     return tl::unexpected(std::move(text.error()));

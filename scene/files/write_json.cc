@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The JSON writer. The layout is its own, one vertex and one polygon a line, so that scenes can be
-// read and compared by people; a generic JSON writer has only all on one line or all on many.
+// The writer of scenes as JSON. The layout is its own, one vertex and one polygon a line, so that
+// people can read and compare scenes. It is also exact: numbers are written as the scene holds
+// them, decimals too, where report/json/json_writer.h has doubles.
 #include "scene/files/writers.h"
 
 namespace gnomon {
@@ -35,9 +36,9 @@ void append_indices(std::string& text, const std::vector<VertexId>& indices) {
   text += ']';
 }
 
-class JsonWriter {
+class SceneText {
  public:
-  explicit JsonWriter(const Scene& scene) : scene_(scene) {}
+  explicit SceneText(const Scene& scene) : scene_(scene) {}
 
   Expected<std::string> write() {
     text_ += R"({"format": "gnomon-scene", "version": 1, "name": )";
@@ -161,6 +162,6 @@ class JsonWriter {
 
 }  // namespace
 
-Expected<std::string> write_json(const Scene& scene) { return JsonWriter(scene).write(); }
+Expected<std::string> write_json(const Scene& scene) { return SceneText(scene).write(); }
 
 }  // namespace gnomon

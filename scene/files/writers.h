@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The writers behind scene_to_text, and what they share.
+// The writers of the table of formats (formats.h), and what they share.
 #ifndef GNOMON_SCENE_FILES_WRITERS_H
 #define GNOMON_SCENE_FILES_WRITERS_H
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What the generators build with: a scene whose equal vertices are shared, boxes, lights. Private
-// to scene/src.
+// What the generators build with: a scene whose equal vertices are shared, boxes, lights.
 #ifndef GNOMON_SCENE_GENERATE_SCENE_MAKER_H
 #define GNOMON_SCENE_GENERATE_SCENE_MAKER_H
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Solids and furniture that several generators build with. Faces look outwards. Private to
-// scene/src.
+// Solids and furniture that several generators build with. Faces look outwards.
 #ifndef GNOMON_SCENE_GENERATE_SCENE_SHAPES_H
 #define GNOMON_SCENE_GENERATE_SCENE_SHAPES_H
 

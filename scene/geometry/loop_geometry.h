@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Exact vectors on the scene's grid, and what a loop is: cleaned of repeated and collinear
-// vertices, its area vector, planar or not, convex or not. Private to scene/src.
+// vertices, its area vector, planar or not, convex or not.
 #ifndef GNOMON_SCENE_GEOMETRY_LOOP_GEOMETRY_H
 #define GNOMON_SCENE_GEOMETRY_LOOP_GEOMETRY_H
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Interning of many things at once, on all cores: equal things get one number, 0, 1, 2, ... in the
 // order in which they first occur. Equality is always the caller's exact comparison, never the hash
-// alone. Private to scene/src.
+// alone.
 //
 // All things are entered into one open hash table whose slots hold the index of a thing and a part
 // of its hash. Who finds an equal thing in a slot lowers the slot's index to its own if that is

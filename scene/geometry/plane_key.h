@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The canonical name of a plane on the scene's grid: two parts lie in one plane if and only if the
-// names are equal. Private to scene/src.
+// names are equal.
 #ifndef GNOMON_SCENE_GEOMETRY_PLANE_KEY_H
 #define GNOMON_SCENE_GEOMETRY_PLANE_KEY_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Joins holes to the loop, so that one weakly simple ring bounds the polygon: rule 1 of
-// polygon_cut.h. Private to scene/src.
+// polygon_cut.h.
 #ifndef GNOMON_SCENE_PREPARE_BRIDGES_H
 #define GNOMON_SCENE_PREPARE_BRIDGES_H
 

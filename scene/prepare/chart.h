@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Exact predicates of the plane over the vertices of a CutInput. Private to scene/src.
+// Exact predicates of the plane over the vertices of a CutInput.
 #ifndef GNOMON_SCENE_PREPARE_CHART_H
 #define GNOMON_SCENE_PREPARE_CHART_H
 

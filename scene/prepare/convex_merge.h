@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Merges triangles into convex parts across their diagonals: rule 4 of polygon_cut.h. Private to
-// scene/src.
+// Merges triangles into convex parts across their diagonals: rule 4 of polygon_cut.h.
 #ifndef GNOMON_SCENE_PREPARE_CONVEX_MERGE_H
 #define GNOMON_SCENE_PREPARE_CONVEX_MERGE_H
 

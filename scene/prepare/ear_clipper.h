@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Triangulates a weakly simple ring by clipping ears: rule 3 of polygon_cut.h. Private to
-// scene/src.
+// Triangulates a weakly simple ring by clipping ears: rule 3 of polygon_cut.h.
 //
 // Why the test of an ear needs vertices only: no edge of the ring crosses the ear's two own edges,
 // and where the ring visits the ear's tip again it has another angle there, so an edge that enters

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Cuts a projected polygon with holes into triangles, and merges these into convex parts. Private
-// to scene/src; prepare.h says what it is for.
+// Cuts a projected polygon with holes into triangles, and merges these into convex parts. prepare.h
+// says what that is for.
 //
 // Which loops are legal: no ring crosses itself or another, none runs round an area twice; holes
 // lie inside the loop, and their interiors do not overlap. Rings may touch themselves and each
@@ -8,23 +8,20 @@
 // (a keyhole) is legal. Everything else is a CutProblem that names the place. In a polygon that is
 // not planar, rings may touch only in vertices that they share.
 //
-// The rule, by vertex indices of the scene alone (`key`), so that it depends neither on where a
+// The rule goes by vertex indices of the scene alone (`key`), so that it depends neither on where a
 // loop starts nor on its direction:
-//  1. Edges that two rings share cancel, and rings that touch in vertices become one
-//  (region_loops.h); a
-//     polygon that its holes cut apart falls into components.
-//  2. Holes inside a component are joined to its ring by bridges: holes in order of their smallest
-//  key,
-//     the vertices of the hole and then of the ring in order of key, the first pair that sees each
-//     other.
-//  3. The ear at the smallest key is clipped, again and again. An ear is a strictly convex corner
-//  whose
-//     *closed* triangle holds no other vertex of the ring, but for vertices at its own three
-//     corners: so a vertex that only touches an ear's edge or its diagonal forbids the ear, and no
-//     triangle ever has a vertex of the polygon inside one of its edges.
-//  4. For planar polygons, parts are merged across diagonals (bridges among them), in order of the
-//     diagonals' sorted pairs of keys, while the union is convex; then collinear vertices are
-//     dropped.
+//  1. Edges that two rings share cancel, and rings that touch in vertices become one ring
+//     (region_loops.h). A polygon that its holes cut apart falls into components.
+//  2. Holes inside a component are joined to its ring by bridges (bridges.h). Holes are taken in
+//     order of their smallest key. A bridge goes from a vertex of the hole to a vertex of the ring,
+//     both taken in order of key: the first pair that see each other.
+//  3. The ear at the smallest key is clipped, again and again (ear_clipper.h). An ear is a strictly
+//     convex corner whose *closed* triangle holds no other vertex of the ring, except vertices at
+//     its own three corners. So a vertex that only touches an edge or the diagonal of an ear
+//     forbids the ear, and no triangle ever has a vertex of the polygon inside one of its edges.
+//  4. Parts of a planar polygon are merged across diagonals, bridges among them, while the union
+//     is convex (convex_merge.h). Diagonals are taken in order of their sorted pairs of keys. Then
+//     collinear vertices are dropped.
 #ifndef GNOMON_SCENE_PREPARE_POLYGON_CUT_H
 #define GNOMON_SCENE_PREPARE_POLYGON_CUT_H
 

@@ -150,16 +150,21 @@ class RunMaker {
     }
   }
 
-  std::optional<Error> cut(std::uint32_t p, const Point& area, bool planar) {
-    const Polygon& polygon = scene_.polygons[p];
-    std::vector<std::vector<Corner>> rings{loop_};
-    std::vector<std::size_t> ring_names{0};
-    Int hole_area = 0;
-    const int axis = projection_axis(area);
+  /// A loop and those of its holes that have an area.
+  struct Outline {
+    std::vector<std::vector<Corner>> rings;
+    std::vector<std::size_t> names;  // 0 for the loop, h + 1 for hole h
+    Int hole_area = 0;               // twice that of all holes, in the projection
+    bool planar = true;              // all of it, exactly
+  };
+
+  Outline outline_with_holes(std::uint32_t p, const Point& area, bool planar) {
+    Outline outline{{loop_}, {0}, 0, planar};
     std::vector<Corner> hole;
-    std::vector<Point> hole_points;
-    for (std::size_t h = 0; h < polygon.holes.size(); ++h) {
-      load(polygon.holes[h], hole);
+    std::vector<Point> points;
+    const auto& holes = scene_.polygons[p].holes;
+    for (std::size_t h = 0; h < holes.size(); ++h) {
+      load(holes[h], hole);
       const Cleaning done = clean_loop<Int>(grid_, hole);
       if (hole.size() < 3) {
         note(p, Repair::kHoles, fmt::format("hole {} has no area and is dropped", h));
@@ -169,76 +174,100 @@ class RunMaker {
         note(p, done.collinear > 0 ? Repair::kCollinearVertices : Repair::kRepeatedVertices,
              fmt::format("hole {}: {} dropped", h, done.repeated + done.collinear));
       }
-      load_points(hole, hole_points);
-      planar = planar && lies_in_plane(hole_points, points_[0], area);
-      const Int part = area_vector(hole_points)[axis];
-      hole_area += part < 0 ? Int(-part) : part;
-      rings.push_back(hole);
-      ring_names.push_back(h + 1);
+      load_points(hole, points);
+      outline.planar = outline.planar && lies_in_plane(points, points_[0], area);
+      outline.hole_area += magnitude_along(area_vector(points), projection_axis(area));
+      outline.rings.push_back(hole);
+      outline.names.push_back(h + 1);
     }
+    return outline;
+  }
 
+  static Int magnitude_along(const Point& vector, int axis) {
+    return vector[axis] < 0 ? Int(-vector[axis]) : vector[axis];
+  }
+
+  /// The outline in the projection in which its loop is counter-clockwise.
+  struct Projected {
     CutInput<Int> input;
-    std::vector<VertexId> vertices;
+    std::vector<VertexId> vertices;  // by the indices of the input
+  };
+
+  Projected projected(const Outline& outline, const Point& area) const {
+    Projected result;
+    CutInput<Int>& input = result.input;
+    input.planar = outline.planar;
     std::unordered_map<VertexId, std::uint32_t> local;
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const bool swap = area[axis] < 0;
-    for (const auto& ring : rings) {
+    const int axis = projection_axis(area);
+    int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    if (area[axis] < 0) std::swap(u, v);
+    for (const auto& ring : outline.rings) {
       input.rings.emplace_back();
       for (const Corner& corner : ring) {
         const auto [entry, is_new] =
-            local.emplace(corner.vertex, static_cast<std::uint32_t>(vertices.size()));
+            local.emplace(corner.vertex, static_cast<std::uint32_t>(result.vertices.size()));
         const std::uint32_t i = entry->second;
         if (is_new) {
-          vertices.push_back(corner.vertex);
-          input.x.push_back(coordinate<Int>(grid_, corner.vertex, swap ? v : u));
-          input.y.push_back(coordinate<Int>(grid_, corner.vertex, swap ? u : v));
+          result.vertices.push_back(corner.vertex);
+          input.x.push_back(coordinate<Int>(grid_, corner.vertex, u));
+          input.y.push_back(coordinate<Int>(grid_, corner.vertex, v));
           input.key.push_back(corner.input);
         }
         input.key[i] = std::min(input.key[i], corner.input);
         input.rings.back().push_back(i);
       }
     }
-    input.planar = planar;
-    if (rings.size() == 1 && planar && is_convex(points_, area)) {  // all holes were empty
-      add_part(p, vertices, area);
+    return result;
+  }
+
+  std::optional<Error> cut(std::uint32_t p, const Point& area, bool loop_is_planar) {
+    const Outline outline = outline_with_holes(p, area, loop_is_planar);
+    Projected flat = projected(outline, area);
+    if (outline.rings.size() == 1 && outline.planar && is_convex(points_, area)) {
+      add_part(p, flat.vertices, area);  // all holes were empty
       return std::nullopt;
     }
-    const auto parts = cut_into_convex_parts(std::move(input));
-    if (!parts) {
-      const CutProblem& problem = parts.error();
-      std::string what = problem.what;
-      if (!planar) {
-        what += fmt::format(" (the polygon is not planar, so this is in its projection along {})",
-                            "xyz"[axis]);
-      }
-      return error_at(p, ring_names[problem.ring], what,
-                      problem.ring == 0 ? "a simple closed curve"
-                                        : "holes inside the loop that do not overlap");
-    }
-    const Int loop_area = area[axis] < 0 ? Int(-area[axis]) : area[axis];
-    if (parts->empty() && loop_area == hole_area) {
+    const auto parts = cut_into_convex_parts(std::move(flat.input));
+    const int axis = projection_axis(area);
+    if (!parts) return problem_of(p, outline, parts.error(), axis);
+    if (parts->empty() && magnitude_along(area, axis) == outline.hole_area) {
       note(p, Repair::kZeroArea, "dropped: its holes fill it");
       return std::nullopt;
     }
-    const std::string count =
-        fmt::format("{} part{}", parts->size(), parts->size() == 1 ? "" : "s");
-    if (!planar) {
-      note(p, Repair::kNotPlanar,
-           fmt::format("{:.3g} scene units off its plane; {}", off_plane(rings), count));
-    } else if (rings.size() > 1) {
-      note(p, Repair::kHoles,
-           fmt::format("{} hole{}; {}", rings.size() - 1, rings.size() == 2 ? "" : "s", count));
-    } else {
-      note(p, Repair::kNotConvex, count);
-    }
+    note_cut(p, outline, parts->size());
     for (const auto& part : *parts) {
       workspace_.clear();
-      for (const std::uint32_t i : part) workspace_.push_back(vertices[i]);
+      for (const std::uint32_t i : part) workspace_.push_back(flat.vertices[i]);
       const Point a = point<Int>(grid_, workspace_[0]);
       add_part(p, workspace_,
                cross(point<Int>(grid_, workspace_[1]) - a, point<Int>(grid_, workspace_[2]) - a));
     }
     return std::nullopt;
+  }
+
+  std::optional<Error> problem_of(std::uint32_t p, const Outline& outline,
+                                  const CutProblem& problem, int axis) const {
+    std::string what = problem.what;
+    if (!outline.planar) {
+      what += fmt::format(" (the polygon is not planar, so this is in its projection along {})",
+                          "xyz"[axis]);
+    }
+    return error_at(
+        p, outline.names[problem.ring], what,
+        problem.ring == 0 ? "a simple closed curve" : "holes inside the loop that do not overlap");
+  }
+
+  void note_cut(std::uint32_t p, const Outline& outline, std::size_t parts) {
+    const std::string count = fmt::format("{} part{}", parts, parts == 1 ? "" : "s");
+    const std::size_t holes = outline.rings.size() - 1;
+    if (!outline.planar) {
+      note(p, Repair::kNotPlanar,
+           fmt::format("{:.3g} scene units off its plane; {}", off_plane(outline.rings), count));
+    } else if (holes > 0) {
+      note(p, Repair::kHoles, fmt::format("{} hole{}; {}", holes, holes == 1 ? "" : "s", count));
+    } else {
+      note(p, Repair::kNotConvex, count);
+    }
   }
 
   /// Greatest distance, in scene units, of a vertex from the plane of the first three vertices of

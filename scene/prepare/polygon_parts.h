@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Takes each polygon apart into convex planar loops, and interns their support planes and edges.
-// Private to scene/src.
+//
 #ifndef GNOMON_SCENE_PREPARE_POLYGON_PARTS_H
 #define GNOMON_SCENE_PREPARE_POLYGON_PARTS_H
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Lights on the scene's grid, and what is wrong with those that cannot be used. Private to
-// scene/src.
+// Lights on the scene's grid, and what is wrong with those that cannot be used.
 #ifndef GNOMON_SCENE_PREPARE_PREPARE_LIGHTS_H
 #define GNOMON_SCENE_PREPARE_PREPARE_LIGHTS_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The connected components of a polygon whose loop and holes may touch themselves and each other:
-// rule 1 of polygon_cut.h. Private to scene/src.
+// rule 1 of polygon_cut.h.
 //
 // Where two rings run along one edge in opposite directions both edges cancel. What is left is
 // traced anew: coming into a vertex, the trace leaves by the first edge clockwise from where it

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Whether the rings of a polygon are legal (see polygon_cut.h), exactly. Private to scene/src.
+// Whether the rings of a polygon are legal (see polygon_cut.h), exactly.
 #ifndef GNOMON_SCENE_PREPARE_RING_CHECK_H
 #define GNOMON_SCENE_PREPARE_RING_CHECK_H
 

@@ -10,45 +10,19 @@
 #include "area_check.h"
 #include "fuzz/generate/area_families.h"
 #include "gnomon/scene/read.h"
+#include "suite.h"
 
 namespace gnomon::test {
 namespace {
 
-using namespace fuzz;  // families and pens
-
-struct Block {
-  const Family* family;
-  unsigned index;
-};
-
-std::vector<Block> blocks() {
-  std::vector<Block> all;
-  for (const Family& family : area_families()) {
-    for (unsigned i = 0; i < family.blocks; ++i) all.push_back({&family, i});
-  }
-  return all;
-}
-
 class AreaSuite : public testing::TestWithParam<Block> {};
 
 TEST_P(AreaSuite, KernelsAlgorithmsAndOracleAgree) {
-  const auto [family, index] = GetParam();
-  unsigned checked = 0;
-  for (unsigned i = 0; i < family->scenes; ++i) {
-    const std::uint64_t seed = 1000 * index + i;
-    std::string why;
-    const auto scene = Case::make(family->make(seed), &why);
-    if (!scene) continue;
-    ++checked;
-    ASSERT_EQ(check_area_exact(*scene), "") << family->name << " seed " << seed << "\n"
-                                            << text_of(scene->scene());
-  }
-  EXPECT_GT(checked, family->scenes * 8 / 10);  // most scenes can be prepared
+  check_block(GetParam(), check_area_exact, 80);
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, AreaSuite, testing::ValuesIn(blocks()), [](const auto& info) {
-  return info.param.family->name + std::to_string(info.param.index);
-});
+INSTANTIATE_TEST_SUITE_P(Families, AreaSuite, testing::ValuesIn(blocks_of(fuzz::area_families())),
+                         [](const auto& info) { return info.param.name(); });
 
 /// Scenes of shared/: skipped where they are absent.
 class SharedAreaScene : public testing::TestWithParam<const char*> {};

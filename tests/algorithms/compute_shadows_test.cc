@@ -80,7 +80,7 @@ TEST(ComputeShadows, StopsWhenInterrupted) {
   const auto scene = box_on_floor();
   const std::atomic<bool> stop = true;
   for (const KernelInfo& kernel : kernel_list()) {
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options;
       options.kernel = kernel.id;
       options.algorithm = algorithm;
@@ -92,7 +92,7 @@ TEST(ComputeShadows, StopsWhenInterrupted) {
 
 TEST(ComputeShadows, ReportsProgressThatGrows) {
   const auto scene = box_on_floor();
-  for (const Algorithm algorithm : kAlgorithms) {
+  for (const MethodId algorithm : kAlgorithms) {
     ShadowOptions options;
     options.algorithm = algorithm;
     options.task_size = 1;
@@ -109,7 +109,7 @@ TEST(ComputeShadows, ReportsProgressThatGrows) {
 
 TEST(ComputeShadows, AlgorithmIsSectorsUnlessOnlySvbspCan) {
   const auto scene = box_on_floor();
-  const auto algorithm_of = [&](Algorithm algorithm, bool combined) {
+  const auto algorithm_of = [&](MethodId algorithm, bool combined) {
     ShadowOptions options;
     options.algorithm = algorithm;
     options.combined = combined;
@@ -117,16 +117,16 @@ TEST(ComputeShadows, AlgorithmIsSectorsUnlessOnlySvbspCan) {
     EXPECT_TRUE(result);
     return result ? result->algorithm : "";
   };
-  EXPECT_EQ(algorithm_of(Algorithm::kAutomatic, false), "sectors");
-  EXPECT_EQ(algorithm_of(Algorithm::kAutomatic, true), "svbsp");
-  EXPECT_EQ(algorithm_of(Algorithm::kSectors, false), "sectors");
-  EXPECT_EQ(algorithm_of(Algorithm::kSvbsp, false), "svbsp");
+  EXPECT_EQ(algorithm_of(MethodId::kAutomatic, false), "sectors");
+  EXPECT_EQ(algorithm_of(MethodId::kAutomatic, true), "svbsp");
+  EXPECT_EQ(algorithm_of(MethodId::kSectors, false), "sectors");
+  EXPECT_EQ(algorithm_of(MethodId::kSvbsp, false), "svbsp");
 }
 
 TEST(ComputeShadows, EveryKernelSaysWhatItIs) {
   const auto scene = box_on_floor();
   for (const KernelInfo& kernel : kernel_list()) {
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options;
       options.kernel = kernel.id;
       options.algorithm = algorithm;
@@ -162,7 +162,7 @@ TEST(ComputeShadows, EveryKernelSaysWhatItIs) {
 
 TEST(ComputeShadows, FragmentsAreCountedWithoutPoints) {
   const auto scene = box_on_floor();
-  for (const Algorithm algorithm : kAlgorithms) {
+  for (const MethodId algorithm : kAlgorithms) {
     ShadowOptions options;
     options.algorithm = algorithm;
     const Expected<ShadowResult> without = compute_shadows(scene->prepared(), options);
@@ -177,7 +177,7 @@ TEST(ComputeShadows, FragmentsAreCountedWithoutPoints) {
   }
 }
 
-StageCounts stages_of(const std::string& family, bool count, Algorithm algorithm) {
+StageCounts stages_of(const std::string& family, bool count, MethodId algorithm) {
   StageCounts sum;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const auto scene = Case::make(family_by_name(family).make(seed));
@@ -191,7 +191,7 @@ StageCounts stages_of(const std::string& family, bool count, Algorithm algorithm
   return sum;
 }
 
-class StageCount : public testing::TestWithParam<Algorithm> {
+class StageCount : public testing::TestWithParam<MethodId> {
  protected:
   static StageCounts counts(const std::string& family, bool count = true) {
     return stages_of(family, count, GetParam());
@@ -237,13 +237,13 @@ TEST(FarLamp, ExactStageIsAsWideAsTheLampNeeds) {
       ASSERT_TRUE(prepared) << to_string(prepared.error());
       ShadowOptions options;
       options.exact_fractions = true;
-      options.algorithm = Algorithm::kSvbsp;
+      options.algorithm = MethodId::kSvbsp;
       options.kernel = KernelId::kRational;
       const auto rational = compute_shadows(*prepared, options);
       ASSERT_TRUE(rational);
       const auto& theirs = rational->lights[0].parts;
       options.kernel = KernelId::kPlane;
-      for (const Algorithm algorithm : kAlgorithms) {
+      for (const MethodId algorithm : kAlgorithms) {
         options.algorithm = algorithm;
         options.leaf_size = seed % 2 == 0 ? 2 : 16;
         const auto plane = compute_shadows(*prepared, options);

@@ -8,45 +8,17 @@
 
 #include "exact_check.h"
 #include "fuzz/generate/families.h"
+#include "suite.h"
 
 namespace gnomon::test {
 namespace {
 
-using namespace fuzz;  // families and pens
-
-struct Block {
-  const Family* family;
-  unsigned index;
-};
-
-std::vector<Block> blocks() {
-  std::vector<Block> all;
-  for (const Family& family : families()) {
-    for (unsigned i = 0; i < family.blocks; ++i) all.push_back({&family, i});
-  }
-  return all;
-}
-
 class ExactSuite : public testing::TestWithParam<Block> {};
 
-TEST_P(ExactSuite, KernelsAndOracleAgree) {
-  const auto [family, index] = GetParam();
-  unsigned checked = 0;
-  for (unsigned i = 0; i < family->scenes; ++i) {
-    const std::uint64_t seed = 1000 * index + i;
-    std::string why;
-    const auto scene = Case::make(family->make(seed), &why);
-    if (!scene) continue;
-    ++checked;
-    const std::string wrong = check_exact(*scene);
-    ASSERT_EQ(wrong, "") << family->name << " seed " << seed << "\n" << text_of(scene->scene());
-  }
-  EXPECT_GT(checked, family->scenes * 9 / 10);  // most scenes can be prepared
-}
+TEST_P(ExactSuite, KernelsAndOracleAgree) { check_block(GetParam(), check_exact, 90); }
 
-INSTANTIATE_TEST_SUITE_P(Families, ExactSuite, testing::ValuesIn(blocks()), [](const auto& info) {
-  return info.param.family->name + std::to_string(info.param.index);
-});
+INSTANTIATE_TEST_SUITE_P(Families, ExactSuite, testing::ValuesIn(blocks_of(fuzz::families())),
+                         [](const auto& info) { return info.param.name(); });
 
 }  // namespace
 }  // namespace gnomon::test

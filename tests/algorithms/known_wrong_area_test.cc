@@ -19,7 +19,7 @@ class AreaKnownWrong : public testing::Test {
   }
   oracle::Report failed(const std::string& policy) {
     const Expected<ShadowResult> result =
-        compute_shadows(case_->prepared(), options_by_name(policy, Algorithm::kSectors));
+        compute_shadows(case_->prepared(), options_by_name(policy, MethodId::kSectors));
     EXPECT_TRUE(result);
     oracle::Report report = judge(*case_, *result, false);
     EXPECT_EQ(report.verdict, oracle::Verdict::kFailed) << policy << " turned right";
@@ -33,7 +33,7 @@ TEST_F(AreaKnownWrong, Warning1And2PlanesAndEdgesOfFragments) {
   // Without identity an edge's pieces are not on the plane that cut them: a whole umbra is lost.
   load("i_crossing");
   const oracle::Report report = failed("double@0");
-  EXPECT_EQ(report.worst->found, oracle::ShadeClass::kLit);
+  EXPECT_EQ(report.worst->found, LightState::kLit);
   EXPECT_GT(report.totals.width.lower, 0.1);
 }
 
@@ -41,28 +41,28 @@ TEST_F(AreaKnownWrong, Warning4LightInThePlaneOfAPolygon) {
   load("i_decimals");
   for (const std::string policy : {"double@0", "longdouble@0", "epick"}) {
     const oracle::Report report = failed(policy);
-    EXPECT_EQ(report.worst->found, oracle::ShadeClass::kLit) << policy;
-    EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kUmbra) << policy;
+    EXPECT_EQ(report.worst->found, LightState::kLit) << policy;
+    EXPECT_EQ(report.worst->truth, LightState::kUmbra) << policy;
   }
   // A thickness helps here, and harms where the light is just in front.
   load("i_thickness_too_large");
-  EXPECT_EQ(failed("double@1e-12").worst->truth, oracle::ShadeClass::kLit);
+  EXPECT_EQ(failed("double@1e-12").worst->truth, LightState::kLit);
 }
 
 TEST_F(AreaKnownWrong, Warning5MissingPenumbraIsAnError) {
   for (const std::string name : {"i_light_shares_features", "i_needles"}) {
     load(name);
     const oracle::Report report = failed("double@0");
-    EXPECT_EQ(report.worst->found, oracle::ShadeClass::kLit) << name;
-    EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kPenumbra) << name;
+    EXPECT_EQ(report.worst->found, LightState::kLit) << name;
+    EXPECT_EQ(report.worst->truth, LightState::kPenumbra) << name;
   }
 }
 
 TEST_F(AreaKnownWrong, Warning6LightCutByAPolygonsPlane) {
   load("i_light_cut");
-  EXPECT_EQ(failed("double@0").worst->truth, oracle::ShadeClass::kPenumbra);
+  EXPECT_EQ(failed("double@0").worst->truth, LightState::kPenumbra);
   load("i_light_cut_rounded_points");
-  EXPECT_EQ(failed("epick").worst->truth, oracle::ShadeClass::kPenumbra);
+  EXPECT_EQ(failed("epick").worst->truth, LightState::kPenumbra);
 }
 
 }  // namespace

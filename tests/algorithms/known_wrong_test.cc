@@ -22,7 +22,7 @@ class KnownWrong : public testing::Test {
     case_ = Case::make(regression_scene(name));
     ASSERT_TRUE(case_);
     ASSERT_EQ(check_exact(*case_), "");
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const MethodId algorithm : kAlgorithms) {
       const oracle::Report plane = judged("plane", algorithm);
       EXPECT_EQ(plane.verdict, oracle::Verdict::kIdentical);
       EXPECT_EQ(plane.totals.misclassified.upper, 0);
@@ -30,21 +30,21 @@ class KnownWrong : public testing::Test {
       EXPECT_EQ(plane.totals.overlapping.upper, 0);
     }
   }
-  oracle::Report judged(const std::string& policy, Algorithm algorithm) {
+  oracle::Report judged(const std::string& policy, MethodId algorithm) {
     const Expected<ShadowResult> result =
         compute_shadows(case_->prepared(), options_by_name(policy, algorithm));
     EXPECT_TRUE(result);
     return judge(*case_, *result, false);
   }
   /// Failed, with the worst place and why.
-  oracle::Report failed(const std::string& policy, Algorithm algorithm) {
+  oracle::Report failed(const std::string& policy, MethodId algorithm) {
     const oracle::Report report = judged(policy, algorithm);
     EXPECT_EQ(report.verdict, oracle::Verdict::kFailed)
         << policy << " by " << name_of(algorithm) << " turned right";
     EXPECT_TRUE(report.worst && !report.worst->text.empty()) << policy;
     return report;
   }
-  void not_failed(const std::string& policy, Algorithm algorithm) {
+  void not_failed(const std::string& policy, MethodId algorithm) {
     const oracle::Report report = judged(policy, algorithm);
     EXPECT_NE(report.verdict, oracle::Verdict::kFailed)
         << policy << " by " << name_of(algorithm) << ": " << report.reason;
@@ -59,17 +59,17 @@ class KnownWrong : public testing::Test {
 TEST_F(KnownWrong, Warning1PlanesComputedAnewFromFragments) {
   load("i_plane_recomputed");
   for (const std::string policy : {"double@0", "longdouble@0", "epick"}) {
-    const oracle::Report report = failed(policy, Algorithm::kSvbsp);
+    const oracle::Report report = failed(policy, MethodId::kSvbsp);
     ASSERT_TRUE(report.worst);
-    EXPECT_EQ(report.worst->found, oracle::ShadeClass::kShadow) << policy;
-    EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kLit) << policy;
+    EXPECT_EQ(report.worst->found, LightState::kShadow) << policy;
+    EXPECT_EQ(report.worst->truth, LightState::kLit) << policy;
     EXPECT_GT(report.totals.width.lower, 1.0) << policy;  // a blunder, not a sliver
-    not_failed(policy, Algorithm::kSectors);              // computes none
+    not_failed(policy, MethodId::kSectors);               // computes none
   }
   // The same number types with planes that are copied are right.
   for (const std::string policy :
        {"double+identity@0", "longdouble+identity@0", "epick+identity"}) {
-    for (const Algorithm algorithm : kAlgorithms) not_failed(policy, algorithm);
+    for (const MethodId algorithm : kAlgorithms) not_failed(policy, algorithm);
   }
 }
 
@@ -77,7 +77,7 @@ TEST_F(KnownWrong, Warning2PiecesOfAnEdgeAreNotCollinear) {
   load("i_crack_in_needle");
   for (const std::string policy : {"double@0", "double@1e-12", "double+identity@0",
                                    "double+identity@1e-12", "epick", "epick+identity"}) {
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const MethodId algorithm : kAlgorithms) {
       const oracle::Report report = failed(policy, algorithm);
       // The fragments no longer tile the needle: something is covered by nothing or lies outside.
       EXPECT_GT(report.totals.uncovered.lower + report.totals.overlapping.lower, 0) << policy;
@@ -90,7 +90,7 @@ TEST_F(KnownWrong, Warning2PiecesOfAnEdgeAreNotCollinear) {
 TEST_F(KnownWrong, Warning3VerticesOnTheEdgesOfOthers) {
   load("i_crack_in_needle");
   for (const std::string policy : {"double@0", "double@1e-12", "double+identity@0"}) {
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const MethodId algorithm : kAlgorithms) {
       const oracle::Report report = failed(policy, algorithm);
       EXPECT_GT(report.totals.t_vertices, 0u) << policy;
       EXPECT_GT(report.totals.uncovered.lower, 0) << policy;
@@ -100,13 +100,13 @@ TEST_F(KnownWrong, Warning3VerticesOnTheEdgesOfOthers) {
 
 TEST_F(KnownWrong, Warning4LightInThePlane) {
   load("i_light_in_plane");
-  for (const Algorithm algorithm : kAlgorithms) {
+  for (const MethodId algorithm : kAlgorithms) {
     for (const std::string policy : {"float@0", "float@1e-12", "double@0", "double+identity@0",
                                      "longdouble@0", "epick", "epick+identity"}) {
       const oracle::Report report = failed(policy, algorithm);
       ASSERT_TRUE(report.worst);
-      EXPECT_EQ(report.worst->found, oracle::ShadeClass::kLit) << policy;
-      EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kShadow) << policy;
+      EXPECT_EQ(report.worst->found, LightState::kLit) << policy;
+      EXPECT_EQ(report.worst->truth, LightState::kShadow) << policy;
       EXPECT_NE(report.worst->text.find("in its plane"), std::string::npos) << report.worst->text;
     }
     // Here a thickness helps; a lamp far away takes that back, see the next.
@@ -116,12 +116,12 @@ TEST_F(KnownWrong, Warning4LightInThePlane) {
 
 TEST_F(KnownWrong, Warning4LampFarAwayInThePlane) {
   load("i_light_in_plane_far");
-  for (const Algorithm algorithm : kAlgorithms) {
+  for (const MethodId algorithm : kAlgorithms) {
     for (const std::string policy :
          {"float@0", "double@0", "double@1e-12", "double+identity@0", "double+identity@1e-12"}) {
       const oracle::Report report = failed(policy, algorithm);
       ASSERT_TRUE(report.worst);
-      EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kShadow) << policy;
+      EXPECT_EQ(report.worst->truth, LightState::kShadow) << policy;
     }
     not_failed("epick", algorithm);
   }
@@ -129,7 +129,7 @@ TEST_F(KnownWrong, Warning4LampFarAwayInThePlane) {
 
 TEST_F(KnownWrong, Warning4SunInThePlane) {
   load("i_sun_in_plane");
-  for (const Algorithm algorithm : kAlgorithms) {
+  for (const MethodId algorithm : kAlgorithms) {
     // A thickness below what the number type rounds is worse than none.
     failed("float@1e-12", algorithm);
     EXPECT_EQ(judged("float@0", algorithm).verdict, oracle::Verdict::kIdentical);
@@ -139,12 +139,12 @@ TEST_F(KnownWrong, Warning4SunInThePlane) {
 TEST_F(KnownWrong, CoplanarPolygonsShadowEachOther) {
   load("i_panes_of_decimals");
   for (const std::string policy : {"float@0", "float@1e-12", "double@0", "longdouble@0", "epick"}) {
-    failed(policy, Algorithm::kSvbsp);
+    failed(policy, MethodId::kSvbsp);
   }
-  not_failed("double+identity@0", Algorithm::kSvbsp);
-  for (const std::string policy : {"float@0", "float@1e-12"}) failed(policy, Algorithm::kSectors);
+  not_failed("double+identity@0", MethodId::kSvbsp);
+  for (const std::string policy : {"float@0", "float@1e-12"}) failed(policy, MethodId::kSectors);
   for (const std::string policy : {"double@0", "longdouble@0", "epick", "double+identity@0"}) {
-    not_failed(policy, Algorithm::kSectors);
+    not_failed(policy, MethodId::kSectors);
   }
 }
 
@@ -152,12 +152,12 @@ TEST_F(KnownWrong, LampNearAVertex) {
   load("i_lamp_near_vertex");
   for (const std::string policy : {"float@0", "double@0", "double@1e-12", "double+identity@0",
                                    "double+identity@1e-12", "epick"}) {
-    const oracle::Report report = failed(policy, Algorithm::kSvbsp);
+    const oracle::Report report = failed(policy, MethodId::kSvbsp);
     EXPECT_GT(share(report.totals.misclassified, report), 1e-9) << policy;
   }
-  for (const std::string policy : {"float@0", "float@1e-12"}) failed(policy, Algorithm::kSectors);
+  for (const std::string policy : {"float@0", "float@1e-12"}) failed(policy, MethodId::kSectors);
   for (const std::string policy : {"double@0", "double+identity@1e-12", "epick"}) {
-    not_failed(policy, Algorithm::kSectors);
+    not_failed(policy, MethodId::kSectors);
   }
 }
 

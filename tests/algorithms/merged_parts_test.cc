@@ -311,17 +311,17 @@ struct UnionCheck {
   unsigned in = 0, out = 0, wrong = 0;
 };
 
-UnionCheck check_union(UnionScene& scene, Random& random, Union kind, bool prefix) {
+UnionCheck check_union(UnionScene& scene, Random& random, const Rules& rules, bool prefix) {
   Space& space = scene.space();
-  VolumeTree<Space> tree(space, kind);
+  VolumeTree<Space> tree(space, rules);
   CellFilter<Space> filter(space, true);
   if (prefix) {
-    std::vector<SpaceBox> boxes;
+    std::vector<Box> boxes;
     LoopStore<Vertex> store;
     for (std::uint32_t i = 0; i < scene.scene().parts.size(); ++i) {
       store.clear();
       const auto loop = load(space, scene.scene(), i, store);
-      SpaceBox box{{2, 2, 2}, {-1, -1, -1}};
+      Box box{{2, 2, 2}, {-1, -1, -1}};
       for (std::uint32_t k = 0; k < loop.size(); ++k) {
         const auto position = space.position(loop.corner(k));
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -368,7 +368,7 @@ UnionCheck check_union(UnionScene& scene, Random& random, Union kind, bool prefi
     output.clear();
     filter.filter(tree, whole, {front, &corner}, output);
     mpq_class area = 0;
-    for (const CellLoop& cell : output.cells) {
+    for (const CellLoop& cell : output.fragments) {
       const auto loop = output.loops.view(cell.loop, part.plane);
       Point centre{0, 0, 0};
       for (std::uint32_t k = 0; k < loop.size(); ++k) {
@@ -405,7 +405,7 @@ TEST(VolumeTree, IsInWhereAVolumeIs) {
   for (std::uint64_t seed = 0; seed < 240; ++seed) {
     UnionScene scene(seed, 10, seed % 3 == 0 ? 4 : seed % 3 == 1 ? 12 : 1000);
     Random random(seed);
-    const UnionCheck one = check_union(scene, random, Union::kTrue, seed % 2 == 0);
+    const UnionCheck one = check_union(scene, random, Rules{}, seed % 2 == 0);
     EXPECT_EQ(one.wrong, 0u) << "seed " << seed;
     all.in += one.in;
     all.out += one.out;
@@ -416,20 +416,22 @@ TEST(VolumeTree, IsInWhereAVolumeIs) {
 
 // 1992, fig. 6: volumes that cross each other, if the second is not continued behind the first.
 TEST(VolumeTree, WrongUnionIsWrong) {
+  Rules rules;
+  rules.volumes_continue_behind_others = false;
   unsigned wrong = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     UnionScene scene(seed, 10, seed % 2 == 1 ? 12 : 1000);
     Random random(seed);
-    wrong += check_union(scene, random, Union::kWrong, false).wrong;
+    wrong += check_union(scene, random, rules, false).wrong;
   }
   EXPECT_GT(wrong, 10u);
 }
 
-TEST(VolumeTreePrefix, LeavesHoldWhatTheyShould) {
+TEST(VolumeTreePrefix, SplitsAtShortValues) {
   Random random(5);
-  std::vector<SpaceBox> boxes;
+  std::vector<Box> boxes;
   for (int i = 0; i < 500; ++i) {
-    SpaceBox box;
+    Box box;
     for (std::size_t k = 0; k < 3; ++k) {
       box.low[k] = std::ldexp(static_cast<double>(random.below(1000)), -10);
       box.high[k] = box.low[k] + std::ldexp(static_cast<double>(random.below(50)), -11);
@@ -438,19 +440,11 @@ TEST(VolumeTreePrefix, LeavesHoldWhatTheyShould) {
   }
   const SpacePrefix prefix = plan_space_prefix(boxes, 8);
   EXPECT_GT(prefix.nodes.size(), 40u);
-  for (const SpaceBox& box : boxes) {  // no box reaches into a leaf that is not used
-    std::vector<std::int32_t> stack{0};
-    while (!stack.empty()) {
-      const std::int32_t at = stack.back();
-      stack.pop_back();
-      ASSERT_NE(at, SpacePrefix::kUnused);
-      if (at == SpacePrefix::kLeaf) continue;
-      const auto& node = prefix.nodes[static_cast<std::size_t>(at)];
-      EXPECT_EQ(node.value, std::ldexp(std::nearbyint(std::ldexp(node.value, SpacePrefix::kBits)),
-                                       -SpacePrefix::kBits));
-      if (box.high[node.axis] >= node.value) stack.push_back(node.front);
-      if (box.low[node.axis] <= node.value) stack.push_back(node.back);
-    }
+  for (const SpacePrefix::Node& node : prefix.nodes) {
+    EXPECT_GT(node.value, 0);
+    EXPECT_LT(node.value, 1);
+    const double scaled = std::ldexp(node.value, KdSplit::kBits);
+    EXPECT_EQ(scaled, std::nearbyint(scaled));
   }
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fuzz/generate/scene_pen.h"
+#include "fuzz/mistakes/compute.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/scene/prepare.h"
 #include "scene/base/random.h"
@@ -101,7 +102,7 @@ Scene figure_6() {
   return with_lamp(pen, {{-4, -4, 20}, {-4, 4, 20}, {4, 4, 20}, {4, -4, 20}});
 }
 
-ShadowOptions options_of(AreaAlgorithm algorithm, KernelId kernel) {
+ShadowOptions options_of(MethodId algorithm, KernelId kernel) {
   ShadowOptions options;
   options.kernel = kernel;
   options.area_algorithm = algorithm;
@@ -122,8 +123,9 @@ std::string text_of(const LightResult& light) {
   return text;
 }
 
-std::string text_of(const PreparedScene& scene, const ShadowOptions& options) {
-  const auto result = compute_shadows(scene, options);
+std::string text_of(const PreparedScene& scene, const ShadowOptions& options,
+                    Mistake mistake = Mistake::kNone) {
+  const auto result = compute_shadows(scene, options, mistake);
   if (!result) return result.error().what;
   EXPECT_EQ(result->lights.size(), 1u);
   EXPECT_EQ(result->lights[0].dropped_slivers, 0u);
@@ -142,14 +144,14 @@ void compare(Scene (*make)(std::uint64_t), unsigned scenes) {
     const auto prepared = prepare(scene);
     if (!prepared) continue;
     const std::string expected =
-        text_of(*prepared, options_of(AreaAlgorithm::kReceiver, KernelId::kPlane));
-    ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+        text_of(*prepared, options_of(MethodId::kReceiver, KernelId::kPlane));
+    ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
     EXPECT_EQ(text_of(*prepared, options), expected) << "seed " << seed;
     options.prefix = false;
     options.merge = false;
     EXPECT_EQ(text_of(*prepared, options), expected) << "without a prefix, seed " << seed;
     if (seed % 10 != 0) continue;
-    options = options_of(AreaAlgorithm::kMerged, KernelId::kRational);
+    options = options_of(MethodId::kMerged, KernelId::kRational);
     EXPECT_EQ(text_of(*prepared, options), expected) << "rational, seed " << seed;
   }
 }
@@ -160,12 +162,10 @@ TEST(Merged, EqualsReceiverOnStandingWalls) { compare(standing, 200); }
 
 TEST(Merged, Figure6) {
   const auto scene = prepare(figure_6()).value();
-  const std::string expected =
-      text_of(scene, options_of(AreaAlgorithm::kReceiver, KernelId::kPlane));
-  ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+  const std::string expected = text_of(scene, options_of(MethodId::kReceiver, KernelId::kPlane));
+  const ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
   EXPECT_EQ(text_of(scene, options), expected);
-  options.mutation = Mutation::kUnionWithoutContinuedPlanes;
-  EXPECT_NE(text_of(scene, options), expected);
+  EXPECT_NE(text_of(scene, options, Mistake::kUnionWithoutContinuedPlanes), expected);
 }
 
 /// What the wrong union leaves out is lit where penumbra is true: an error, and the oracle sees it.
@@ -173,17 +173,17 @@ TEST(Merged, TheOracleCatchesTheWrongUnion) {
   std::string why;
   const auto scene = Case::make(figure_6(), &why);
   ASSERT_TRUE(scene) << why;
-  ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+  ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
   options.keep_exact_points = true;
   const auto right = compute_shadows(scene->prepared(), options).value();
   EXPECT_EQ(judge(*scene, right).verdict, oracle::Verdict::kIdentical);
-  options.mutation = Mutation::kUnionWithoutContinuedPlanes;
-  const auto wrong = compute_shadows(scene->prepared(), options).value();
+  const auto wrong =
+      compute_shadows(scene->prepared(), options, Mistake::kUnionWithoutContinuedPlanes).value();
   const oracle::Report report = judge(*scene, wrong, false);
   EXPECT_EQ(report.verdict, oracle::Verdict::kFailed);
   ASSERT_TRUE(report.worst.has_value());
-  EXPECT_EQ(report.worst->found, oracle::ShadeClass::kLit);
-  EXPECT_EQ(report.worst->truth, oracle::ShadeClass::kPenumbra);
+  EXPECT_EQ(report.worst->found, LightState::kLit);
+  EXPECT_EQ(report.worst->truth, LightState::kPenumbra);
 }
 
 /// 1992, fig. 4(f): between the umbras of two polygons that together hide the light is penumbra.
@@ -194,9 +194,8 @@ TEST(Merged, Figure4f) {
   pen.polygon({{0, -20, 10}, {8, -20, 10}, {8, 20, 10}, {0, 20, 10}});
   const Scene scene = with_lamp(pen, {{-4, -4, 20}, {-4, 4, 20}, {4, 4, 20}, {4, -4, 20}});
   const auto prepared = prepare(scene).value();
-  const std::string expected =
-      text_of(prepared, options_of(AreaAlgorithm::kReceiver, KernelId::kPlane));
-  const ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+  const std::string expected = text_of(prepared, options_of(MethodId::kReceiver, KernelId::kPlane));
+  const ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
   EXPECT_EQ(text_of(prepared, options), expected);
   ShadowOptions with_points = options;
   with_points.keep_points = true;
@@ -220,10 +219,10 @@ TEST(Merged, Figure4f) {
 
 TEST(Merged, StopsAtLimits) {
   const auto scene = prepare(boxes(3)).value();
-  ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+  ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
   options.max_fragments = 1;
   EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kLimit);
-  options.area_algorithm = AreaAlgorithm::kPieces;
+  options.area_algorithm = MethodId::kPieces;
   EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kLimit);
   options.max_fragments = 1000000;
   options.combined = true;
@@ -237,7 +236,7 @@ TEST(Merged, StopsAtLimits) {
 TEST(Merged, AnswersAlikeOnAnyNumberOfThreads) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const auto scene = prepare(soup(seed)).value();
-    ShadowOptions options = options_of(AreaAlgorithm::kMerged, KernelId::kPlane);
+    ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
     const std::string expected = text_of(scene, options);
     options.jobs = 2;
     double last = 0;
@@ -254,8 +253,8 @@ TEST(Merged, EpeckAgrees) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const auto scene = prepare(seed % 2 == 0 ? soup(seed) : standing(seed));
     if (!scene) continue;
-    EXPECT_EQ(text_of(*scene, options_of(AreaAlgorithm::kMerged, KernelId::kEpeck)),
-              text_of(*scene, options_of(AreaAlgorithm::kMerged, KernelId::kPlane)))
+    EXPECT_EQ(text_of(*scene, options_of(MethodId::kMerged, KernelId::kEpeck)),
+              text_of(*scene, options_of(MethodId::kMerged, KernelId::kPlane)))
         << seed;
   }
 }
@@ -271,7 +270,7 @@ TEST(Merged, RoundedKernelsComeToAnEnd) {
     for (const KernelId kernel :
          {KernelId::kFloat, KernelId::kDouble, KernelId::kLongDouble, KernelId::kEpick}) {
       for (const bool identity : {false, true}) {
-        ShadowOptions options = options_of(AreaAlgorithm::kMerged, kernel);
+        ShadowOptions options = options_of(MethodId::kMerged, kernel);
         options.exact_fractions = false;
         options.identity = identity;
         options.thickness = seed % 2 == 0 ? 0 : kDefaultThickness;
@@ -294,12 +293,12 @@ TEST(Merged, RoundedKernelsComeToAnEnd) {
 
 TEST(Pieces, OfALightThatNothingCutsIsTheLight) {
   const auto scene = prepare(figure_6()).value();
-  ShadowOptions options = options_of(AreaAlgorithm::kPieces, KernelId::kPlane);
+  ShadowOptions options = options_of(MethodId::kPieces, KernelId::kPlane);
   const auto result = compute_shadows(scene, options).value();
   ASSERT_EQ(result.lights.size(), 1u);
   EXPECT_EQ(result.lights[0].piece, 0u);
   EXPECT_EQ(text_of(result.lights[0]),
-            text_of(scene, options_of(AreaAlgorithm::kReceiver, KernelId::kPlane)));
+            text_of(scene, options_of(MethodId::kReceiver, KernelId::kPlane)));
 }
 
 /// Every piece as a light of its own, for the receiver algorithm.
@@ -309,7 +308,7 @@ TEST(Pieces, AreLights) {
     const Scene scene = boxes(seed);
     const auto prepared = prepare(scene);
     if (!prepared) continue;
-    ShadowOptions options = options_of(AreaAlgorithm::kPieces, KernelId::kPlane);
+    ShadowOptions options = options_of(MethodId::kPieces, KernelId::kPlane);
     options.keep_exact_points = true;
     const auto result = compute_shadows(*prepared, options).value();
     EXPECT_EQ(result.algorithm, "pieces");
@@ -329,7 +328,7 @@ TEST(Pieces, AreLights) {
       }
       const auto prepared_alone = prepare(alone).value();
       EXPECT_EQ(text_of(light),
-                text_of(prepared_alone, options_of(AreaAlgorithm::kReceiver, KernelId::kPlane)))
+                text_of(prepared_alone, options_of(MethodId::kReceiver, KernelId::kPlane)))
           << "seed " << seed << " piece " << i;
     }
   }
@@ -356,7 +355,7 @@ TEST(Pieces, TileTheLightAndRationalAgrees) {
     const Scene scene = soup(seed);
     const auto prepared = prepare(scene);
     if (!prepared) continue;
-    ShadowOptions options = options_of(AreaAlgorithm::kPieces, KernelId::kPlane);
+    ShadowOptions options = options_of(MethodId::kPieces, KernelId::kPlane);
     options.keep_exact_points = true;
     const auto result = compute_shadows(*prepared, options).value();
     std::vector<std::array<mpq_class, 3>> whole;

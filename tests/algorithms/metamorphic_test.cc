@@ -57,7 +57,7 @@ const std::vector<std::string> kPlanarFamilies = {"Generic",       "Lattice",   
                                                   "CoplanarTiles", "TouchingBoxes", "NestedBoxes",
                                                   "Grazing",       "Needles"};
 
-class Metamorphic : public testing::TestWithParam<std::tuple<std::string, Algorithm>> {
+class Metamorphic : public testing::TestWithParam<std::tuple<std::string, MethodId>> {
  protected:
   static Scene scene_of(std::uint64_t seed) {
     return family_by_name(std::get<0>(GetParam())).make(seed);
@@ -66,7 +66,7 @@ class Metamorphic : public testing::TestWithParam<std::tuple<std::string, Algori
   static ShadowOptions options() {
     ShadowOptions options = options_for(KernelId::kPlane);
     options.algorithm = std::get<1>(GetParam());
-    return options.algorithm == Algorithm::kSectors ? with_small_cells(options) : options;
+    return options.algorithm == MethodId::kSectors ? with_small_cells(options) : options;
   }
   static Answer answer(const Scene& scene) {
     const auto prepared = Case::make(scene);
@@ -240,7 +240,7 @@ TEST_P(LargeScenes, AlgorithmPrefixAndScaleChangeNothing) {
     const auto changed = Case::make(scaled(*made, exponent));
     ASSERT_TRUE(changed);
     for (const int variant : {0, 1, 2, 3}) {
-      options.algorithm = variant < 2 ? Algorithm::kSvbsp : Algorithm::kSectors;
+      options.algorithm = variant < 2 ? MethodId::kSvbsp : MethodId::kSectors;
       options.prefix = options.merge = variant != 0;
       options.seed = variant;
       options.leaf_size = variant == 2 ? 2 : 16;
@@ -258,7 +258,7 @@ TEST_P(LargeScenes, AlgorithmPrefixAndScaleChangeNothing) {
       }
     }
   }
-  for (const Algorithm algorithm : kAlgorithms) {
+  for (const MethodId algorithm : kAlgorithms) {
     ShadowOptions exact;
     exact.algorithm = algorithm;
     exact.keep_exact_points = true;

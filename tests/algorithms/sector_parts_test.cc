@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "algorithms/partition/fraction_sums.h"
+#include "algorithms/partition/kd_tree.h"
 #include "algorithms/partition/piece_fractions.h"
 #include "algorithms/sectors/sector_split.h"
 #include "scene/base/random.h"
@@ -132,7 +133,7 @@ TEST(SplitChooser, SeparatesTwoClusters) {
     items.push_back(item_at(-1, 1, v, v + 0.2f));
   }
   SplitChooser chooser;
-  const std::optional<SectorSplit> split = chooser.choose(items);
+  const std::optional<ChartSplit> split = chooser.choose(items);
   ASSERT_TRUE(split);
   EXPECT_EQ(split->axis, 1);
   EXPECT_GT(split->value, 0.2);
@@ -165,7 +166,7 @@ TEST(SplitChooser, ValuesAreDyadicAndShort) {
       const auto w = static_cast<float>(scale * random_double(random, 0, 0.1));
       items.push_back(item_at(u, u + w, v, v + w));
     }
-    const std::optional<SectorSplit> split = chooser.choose(items);
+    const std::optional<ChartSplit> split = chooser.choose(items);
     if (!split) continue;
     ++chosen;
     EXPECT_LE(split->bits, 60);
@@ -178,7 +179,7 @@ TEST(SplitChooser, ValuesAreDyadicAndShort) {
 TEST(PlaneOf, SeparatesExactlyAtTheValue) {
   Random random(5);
   for (int round = 0; round < 2000; ++round) {
-    SectorSplit split;
+    ChartSplit split;
     split.axis = static_cast<int>(random.below(2));
     split.bits = static_cast<int>(random.below(40));
     split.steps = random.between(-(std::int64_t{1} << split.bits), std::int64_t{1} << split.bits);

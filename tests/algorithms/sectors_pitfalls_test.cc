@@ -26,9 +26,9 @@ void expect_agreement(Scene made) {
   ASSERT_TRUE(scene) << why;
   ShadowOptions options = options_for(KernelId::kPlane);
   options.keep_exact_points = false;
-  options.algorithm = Algorithm::kSvbsp;
+  options.algorithm = MethodId::kSvbsp;
   const std::vector<mpq_class> svbsp = lit_fractions(*scene, options);
-  options.algorithm = Algorithm::kSectors;
+  options.algorithm = MethodId::kSectors;
   for (const std::uint32_t leaf_size : {16u, 4u, 1u}) {
     options.leaf_size = leaf_size;
     options.task_size = leaf_size == 4 ? 1 : 0;
@@ -121,7 +121,7 @@ TEST(Occlusion, ClosedRoomHidesAllThatIsOutside) {
   ASSERT_GT(scene->prepared().parts.size(), 900u);
   for (const std::uint32_t leaf_size : {16u, 1u}) {
     ShadowOptions options = options_for(KernelId::kPlane);
-    options.algorithm = Algorithm::kSectors;
+    options.algorithm = MethodId::kSectors;
     options.leaf_size = leaf_size;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
     ASSERT_TRUE(result);
@@ -148,7 +148,7 @@ TEST(Occlusion, LampInTheInnermostOfNestedBoxes) {
   pen.lamp({0, 0, 0});
   const auto scene = Case::make(pen.take());
   ASSERT_TRUE(scene);
-  for (const Algorithm algorithm : kAlgorithms) {
+  for (const MethodId algorithm : kAlgorithms) {
     ShadowOptions options = options_for(KernelId::kPlane);
     options.algorithm = algorithm;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);

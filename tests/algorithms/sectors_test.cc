@@ -45,7 +45,7 @@ ShadowResult solved(const PreparedScene& scene, const ShadowOptions& options) {
 ShadowOptions sectors(KernelId kernel = KernelId::kPlane) {
   ShadowOptions options;
   options.kernel = kernel;
-  options.algorithm = Algorithm::kSectors;
+  options.algorithm = MethodId::kSectors;
   return options;
 }
 
@@ -155,9 +155,9 @@ class SectorsAndSvbsp : public testing::TestWithParam<Generated> {
     const PreparedScene scene = prepared(GetParam());
     ShadowOptions options;
     options.exact_fractions = exact;
-    options.algorithm = Algorithm::kSvbsp;
+    options.algorithm = MethodId::kSvbsp;
     const ShadowResult svbsp = solved(scene, options);
-    options.algorithm = Algorithm::kSectors;
+    options.algorithm = MethodId::kSectors;
     for (const std::uint32_t leaf_size : {16u, 3u}) {
       options.leaf_size = leaf_size;
       const ShadowResult result = solved(scene, options);
@@ -355,7 +355,7 @@ TEST(SmallestScenes, NoPolygons) {
   const Expected<PreparedScene> scene = prepare(pen.take());
   if (!scene) GTEST_SKIP() << to_string(scene.error());
   for (const KernelInfo& kernel : kernel_list()) {
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options = options_for(kernel.id);
       options.algorithm = algorithm;
       const ShadowResult result = solved(*scene, options);
@@ -371,7 +371,7 @@ TEST(SmallestScenes, NoLights) {
   pen.polygon({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   const Expected<PreparedScene> scene = prepare(pen.take());
   ASSERT_TRUE(scene);
-  for (const Algorithm algorithm : kAlgorithms) {
+  for (const MethodId algorithm : kAlgorithms) {
     ShadowOptions options;
     options.algorithm = algorithm;
     EXPECT_TRUE(solved(*scene, options).lights.empty());
@@ -385,7 +385,7 @@ TEST(SmallestScenes, NothingFacesTheLight) {
   const Expected<PreparedScene> scene = prepare(pen.take());
   ASSERT_TRUE(scene);
   for (const KernelInfo& kernel : kernel_list()) {
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options = options_for(kernel.id);
       options.algorithm = algorithm;
       const ShadowResult result = solved(*scene, options);
@@ -409,7 +409,7 @@ TEST(SmallestScenes, OneTriangle) {
   const Expected<PreparedScene> scene = prepare(pen.take());
   ASSERT_TRUE(scene);
   for (const KernelInfo& kernel : kernel_list()) {
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options = options_for(kernel.id);
       options.algorithm = algorithm;
       options.keep_points = true;

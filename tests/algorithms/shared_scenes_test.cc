@@ -84,7 +84,7 @@ TEST(SharedScenes, EastWallOfCase630) {
     EXPECT_EQ(scene->answer().fractions(0, entry).lit.exact, mpq_class(97, 147));
   }
   for (const KernelId kernel : kExactKernels) {
-    for (const Algorithm algorithm : kAlgorithms) {
+    for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options = options_for(kernel);
       options.algorithm = algorithm;
       EXPECT_EQ(lit_fraction_of(*scene, options, first_sun, wall), mpq_class(97, 147));

@@ -52,6 +52,19 @@ class CorpusCommand : public testing::Test {
   TestDirectory directory_;
 };
 
+TEST(CorpusOfTheTree, MistakesAreNoKernelsHere) {
+  const std::string scene = kCorpus + "/zoo/y_on_swapped.json";
+  for (const auto& command : {std::vector<std::string>{"certify", "--corpus", kCorpus},
+                              {"certify", scene},
+                              {"shadows", scene}}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {"--kernel", "plane~on-swapped"});
+    const RunResult run = run_gnomon(arguments);
+    EXPECT_EQ(run.status, 2) << command[0];
+    EXPECT_NE(run.err.find("plane~on-swapped: no such kernel"), std::string::npos) << run.err;
+  }
+}
+
 TEST(CorpusOfTheTree, IsPassedByOurKernels) {
   const RunResult run =
       certify(kCorpus, {"--kernel", "plane", "--kernel", "double/svbsp", "--in-process"});

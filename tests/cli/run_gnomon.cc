@@ -26,21 +26,6 @@ void write_text(const fs::path& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-TestDirectory::TestDirectory() {
-  std::string pattern = (fs::temp_directory_path() / "gnomon-test-XXXXXX").string();
-  path_ = ::mkdtemp(pattern.data());
-}
-
-TestDirectory::~TestDirectory() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
-std::size_t TestDirectory::count() const {
-  return static_cast<std::size_t>(
-      std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
-}
-
 namespace {
 
 /// Whether the process has a handler of the signal; what Linux tells of its signals is a mask.

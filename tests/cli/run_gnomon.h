@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/test_directory.h"
+
 namespace gnomon::test {
 
 struct RunOptions {
@@ -29,21 +31,6 @@ RunResult run_gnomon(const std::vector<std::string>& arguments, const RunOptions
 
 std::string read_text(const std::filesystem::path& path);
 void write_text(const std::filesystem::path& path, const std::string& text);
-
-/// An empty directory of its own for the running test, removed by the destructor.
-class TestDirectory {
- public:
-  TestDirectory();
-  TestDirectory(const TestDirectory&) = delete;
-  TestDirectory& operator=(const TestDirectory&) = delete;
-  ~TestDirectory();
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-  const std::filesystem::path& path() const { return path_; }
-  std::size_t count() const;
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace gnomon::test
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "fuzz/campaign/campaign_report.h"
+#include "tests/support/test_directory.h"
 
 namespace gnomon::fuzz {
 namespace {
@@ -27,17 +28,13 @@ using testing::HasSubstr;
 class CampaignTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        std::filesystem::temp_directory_path() / ("gnomon-campaign-" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
     plan_.worker.generators = {"mix"};
     // A rounded kernel, so that there is something to find.
     plan_.worker.check.subjects = {*parse_subject("plane"), *parse_subject("float+thin")};
     plan_.worker.check.properties = {Property::kOracle};
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  std::string path(const std::string& name) const { return folder_ / name; }
+  std::string path(const std::string& name) const { return directory_.file(name); }
 
   CampaignRun run_of(std::string database, std::uint64_t count, unsigned jobs = 2) const {
     CampaignRun run;
@@ -58,7 +55,7 @@ class CampaignTest : public testing::Test {
     return outcome ? figures(*outcome) : to_string(outcome.error());
   }
 
-  std::filesystem::path folder_;
+  const test::TestDirectory directory_;
   CampaignPlan plan_;
 };
 

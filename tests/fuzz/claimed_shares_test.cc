@@ -24,7 +24,7 @@ class ClaimedShares : public testing::Test {
     auto prepared = prepare(scene_);
     ASSERT_TRUE(prepared);
     prepared_ = std::move(*prepared);
-    auto recorded = exact_answer_of(scene_);
+    auto recorded = exact_answer_of(JudgedScene(scene_, prepared_));
     ASSERT_TRUE(recorded);
     recorded_ = std::move(*recorded);
     // The floor under the panel: penumbra 6 wide, cut to 4 by 4, umbra 2 wide.

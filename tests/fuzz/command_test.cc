@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace gnomon::fuzz {
 namespace {
@@ -30,6 +33,10 @@ TEST(Command, PassesInputArgumentsOutputAndStatus) {
   EXPECT_EQ(refused.end, CommandEnd::kExited);
   EXPECT_EQ(refused.status, 3);
   EXPECT_EQ(how_it_ended(refused), "exit status 3: no");
+}
+
+TEST(Command, CanOpenItsOutputByName) {
+  EXPECT_EQ(run("echo out >/dev/stdout; echo no >/dev/stderr").out, "out\n");
 }
 
 TEST(Command, ThatReadsNoInputDoesNotHarm) {
@@ -67,6 +74,27 @@ TEST(Command, HangsFloodsAndLeftoversEnd) {
   EXPECT_TRUE(behind.succeeded());
   EXPECT_EQ(behind.out, "done\n");
   EXPECT_LT(behind.seconds, 20);
+  // Nor does one that has left the group, which is killed.
+  const CommandResult away = run("setsid sleep 5 & echo done", options);
+  EXPECT_EQ(away.out, "done\n");
+  EXPECT_LT(away.seconds, 4);
+}
+
+TEST(Command, ManyRunSideBySide) {
+  std::atomic<int> done = 0;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back([&done, i] {
+      for (int k = 0; k < 25; ++k) {
+        const std::string text = std::to_string(100 * i + k);
+        CommandOptions options;
+        options.input = text;
+        done += run("cat; exit 7", options).out == text ? 1 : 0;
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(done, 100);
 }
 
 #if !defined(__SANITIZE_ADDRESS__)

@@ -7,6 +7,8 @@
 
 #include "fuzz/corpus/corpus.h"
 #include "gnomon/scene/read.h"
+#include "solve.h"
+#include "tests/support/test_directory.h"
 
 namespace gnomon::fuzz {
 namespace {
@@ -15,12 +17,6 @@ namespace fs = std::filesystem;
 
 class CorpusFormat : public testing::Test {
  protected:
-  CorpusFormat() {
-    std::string pattern = (fs::temp_directory_path() / "gnomon-corpus-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~CorpusFormat() override { fs::remove_all(folder_); }
-
   void write(const std::string& name, const std::string& text) const {
     fs::create_directories((folder_ / name).parent_path());
     std::ofstream(folder_ / name) << text;
@@ -35,7 +31,8 @@ class CorpusFormat : public testing::Test {
     return to_string(read.error()).substr(read.error().where.file.size() + 2);
   }
 
-  fs::path folder_;
+  const test::TestDirectory directory_;
+  const fs::path folder_ = directory_.path();
 };
 
 Scene scene_of(const std::string& text) {
@@ -51,6 +48,10 @@ const std::string kTable = R"({ "format": "gnomon-scene", "version": 1, "name": 
   "lights": [{"id": "sun", "type": "directional", "to_light": [0,0,1]},
              {"id": "panel", "type": "area", "loop": [[1,1,2],[1,3,2],[3,3,2],[3,1,2]]}] })";
 
+Expected<std::string> text_of(const Scene& scene, const FixtureNote& note) {
+  return fixture_text(test::Case::make(scene)->judged(), note);
+}
+
 // One corner is lifted: two parts in two planes, lit differently.
 const std::string kFold = R"({ "format": "gnomon-scene", "version": 1, "name": "y_fold",
   "vertices": [[0,0,0],[4,0,0],[4,4,1],[0,4,0],[2,-1,2],[5,-1,2],[5,1,2],[2,1,2]],
@@ -59,14 +60,14 @@ const std::string kFold = R"({ "format": "gnomon-scene", "version": 1, "name": "
 
 TEST_F(CorpusFormat, WhatIsWrittenReadsBack) {
   FixtureNote note{"A table \"over\" a floor.", "touching", "by hand", {}};
-  const auto text = fixture_text(scene_of(kTable), note);
+  const auto text = text_of(scene_of(kTable), note);
   ASSERT_TRUE(text) << to_string(text.error());
-  EXPECT_EQ(*text, *fixture_text(scene_of(*text), note));  // stable
+  EXPECT_EQ(*text, *text_of(scene_of(*text), note));  // stable
   write("touching/y_table.json", *text);
   note.inform = true;
   note.wrong = {"float", "double+thin"};
-  write("i_table.json", *fixture_text(scene_of(kTable), note));
-  write("y_fold.json", *fixture_text(scene_of(kFold), note = {"A fold.", "parts", {}, {}}));
+  write("i_table.json", *text_of(scene_of(kTable), note));
+  write("y_fold.json", *text_of(scene_of(kFold), note = {"A fold.", "parts", {}, {}}));
   const auto corpus = read_corpus(folder_);
   ASSERT_TRUE(corpus) << to_string(corpus.error());
   ASSERT_EQ(corpus->size(), 3u);
@@ -86,7 +87,7 @@ TEST_F(CorpusFormat, WhatIsWrittenReadsBack) {
   EXPECT_TRUE(table.fractions[1].area);
   EXPECT_EQ(table.fractions[1].sides[0].shares.size(), 3u);
   for (const Fixture* fixture : {&table, &fold}) {
-    const auto again = exact_answer_of(fixture->scene);
+    const auto again = exact_answer_of(test::Case::make(fixture->scene)->judged());
     ASSERT_TRUE(again);
     EXPECT_EQ(difference(fixture->fractions, *again), "");
   }
@@ -98,7 +99,7 @@ TEST_F(CorpusFormat, WhatIsWrittenReadsBack) {
 }
 
 TEST_F(CorpusFormat, DifferencesAreTold) {
-  auto recorded = exact_answer_of(scene_of(kTable));
+  auto recorded = exact_answer_of(test::Case::make(scene_of(kTable))->judged());
   ASSERT_TRUE(recorded);
   auto other = *recorded;
   other[0].sides[0].shares[0].exact = mpq_class(1, 2);
@@ -114,7 +115,7 @@ TEST_F(CorpusFormat, DifferencesAreTold) {
 }
 
 TEST_F(CorpusFormat, BrokenFixturesSayWhere) {
-  const std::string text = *fixture_text(scene_of(kTable), {"A table.", "touching", {}, {}});
+  const std::string text = *text_of(scene_of(kTable), {"A table.", "touching", {}, {}});
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = text;
     changed.replace(changed.find(from), from.size(), to);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "fuzz/corpus/corpus_judge.h"
+#include "tests/support/test_directory.h"
 
 namespace gnomon::fuzz {
 namespace {
@@ -16,15 +17,12 @@ namespace fs = std::filesystem;
 class CorpusProcess : public testing::Test {
  protected:
   CorpusProcess() {
-    std::string pattern = (fs::temp_directory_path() / "gnomon-process-XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
     auto read = read_corpus(std::string(GNOMON_REGRESSIONS) + "/flags");
     if (read) fixtures_ = {read->front()};
     for (const char* name : {"double", "epick", "plane"}) {
       options_.subjects.push_back(*parse_subject(name));
     }
   }
-  ~CorpusProcess() override { fs::remove_all(folder_); }
 
   /// Judged by a script with this body.
   CorpusReport judge(const std::string& body) {
@@ -37,7 +35,8 @@ class CorpusProcess : public testing::Test {
     return report.value_or(CorpusReport{});
   }
 
-  fs::path folder_;
+  const test::TestDirectory directory_;
+  const fs::path folder_ = directory_.path();
   std::vector<Fixture> fixtures_;
   CorpusOptions options_;
 };

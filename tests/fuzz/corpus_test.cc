@@ -17,7 +17,7 @@
 #include "area_check.h"
 #include "exact_check.h"
 #include "fuzz/corpus/corpus_judge.h"
-#include "fuzz/generate/kind_predicates.h"
+#include "fuzz/kinds/kind_predicates.h"
 #include "fuzz/scene/kinds.h"
 #include "gnomon/scene/read.h"
 
@@ -90,18 +90,18 @@ TEST_P(CorpusKind, FractionsAreThoseRecorded) {
       ASSERT_TRUE(found) << to_string(found.error());
       EXPECT_EQ(difference(fixture.fractions, *found), "");
     };
-    options.algorithm = Algorithm::kSvbsp;
-    options.area_algorithm = AreaAlgorithm::kMerged;
+    options.algorithm = MethodId::kSvbsp;
+    options.area_algorithm = MethodId::kMerged;
     for (options.seed = 1; options.seed <= 8; ++options.seed) check();  // orders of splitting
-    options.algorithm = Algorithm::kSectors;
-    options.area_algorithm = AreaAlgorithm::kReceiver;
+    options.algorithm = MethodId::kSectors;
+    options.area_algorithm = MethodId::kReceiver;
     for (options.leaf_size = 0; options.leaf_size <= 4; ++options.leaf_size) check();
   });
 }
 
 TEST_P(CorpusKind, RoundedKernelsDifferWhereRecorded) {
-  for_each_scene([](const Fixture& fixture, const Case&) {
-    const std::vector<std::string> wrong = wrong_subjects(fixture.scene, recorded_subjects());
+  for_each_scene([](const Fixture& fixture, const Case& scene) {
+    const std::vector<std::string> wrong = wrong_subjects(scene.judged(), recorded_subjects());
     EXPECT_EQ(wrong, fixture.wrong);
     if (fixture.expectation == Expectation::kInform) {
       EXPECT_FALSE(wrong.empty()) << "an i_ scene that all get right is a y_ scene";
@@ -238,7 +238,7 @@ TEST(Corpus, SlantedThroughIsSplitAtAll) {
   unsigned split = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     ShadowOptions options = test::options_for(KernelId::kPlane);
-    options.algorithm = Algorithm::kSvbsp;
+    options.algorithm = MethodId::kSvbsp;
     options.seed = seed;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
     ASSERT_TRUE(result);

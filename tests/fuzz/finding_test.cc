@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -19,6 +18,7 @@
 #include "fuzz/shrink/still_fails.h"
 #include "gnomon/scene/generate.h"
 #include "solve.h"
+#include "tests/support/test_directory.h"
 
 namespace gnomon::fuzz {
 namespace {
@@ -32,9 +32,6 @@ using testing::StartsWith;
 
 class Findings : public testing::Test {
  protected:
-  Findings() { fs::create_directories(folder_); }
-  ~Findings() override { fs::remove_all(folder_); }
-
   /// Of the first scene of a family on which the subject fails so; not shrunken.
   static Finding found(const Family& family, const char* subject, Property property) {
     Finding finding;
@@ -73,8 +70,8 @@ class Findings : public testing::Test {
     return place ? *place : fs::path();
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("gnomon_finding_test." + std::to_string(::getpid()));
+  const test::TestDirectory directory_;
+  const fs::path folder_ = directory_.path();
 };
 
 TEST_F(Findings, SayAllThereIsToSay) {
@@ -170,7 +167,7 @@ TEST_F(Findings, WhatCrashedIsNotRunAgainHere) {
                                         HasSubstr("not run again here")));
 }
 
-TEST_F(Findings, MutationsSayWhatIsWrongOnPurpose) {
+TEST_F(Findings, MistakesSayWhatIsWrongOnPurpose) {
   Finding finding;
   finding.scene = finding.original = *generate("table-chair");
   finding.check.subjects = {*parse_subject("plane~on-swapped")};

@@ -12,11 +12,12 @@
 #include <set>
 #include <string>
 
-#include "fuzz/generate/kind_predicates.h"
+#include "fuzz/kinds/kind_predicates.h"
 #include "fuzz/moves/moves.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/write.h"
+#include "scene/base/text_hash.h"
 
 namespace gnomon::fuzz {
 namespace {
@@ -75,15 +76,11 @@ INSTANTIATE_TEST_SUITE_P(Generator, Mix, testing::Values("mix", "area-mix"), [](
   return std::string(test.param) == "mix" ? "Mix" : "AreaMix";
 });
 
-/// FNV-1a of the texts of 300 scenes.
+/// Of the texts of 300 scenes.
 std::uint64_t digest_of(const Generator& made_by) {
-  std::uint64_t digest = 0xcbf29ce484222325u;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    for (const char c : text_of(made_by.make(seed).scene)) {
-      digest = (digest ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    }
-  }
-  return digest;
+  TextHash digest;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) digest.add(text_of(made_by.make(seed).scene));
+  return digest.value();
 }
 
 /// A change of a generator changes what every seed in a database or a report means: it is to be

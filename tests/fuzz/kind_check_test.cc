@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/generate/kind_predicates.h"
+#include "fuzz/kinds/kind_predicates.h"
 #include "fuzz/generate/scene_pen.h"
 #include "fuzz/generate/soups.h"
 #include "fuzz/moves/moves.h"

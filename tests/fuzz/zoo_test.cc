@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bug zoo: on each scene of tests/regressions/zoo and area-zoo the sound subject passes and the
-// mutant fails as the table says; every mutation has a row; and hunts find what they are for.
+// mutant fails as the table says; every mistake has a row; and hunts find what they are for.
 #include "fuzz/zoo/zoo.h"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ TEST_P(Zoo, TheOracleCatchesTheMutantAlone) {
   EXPECT_TRUE(verdict->shows());
   EXPECT_EQ(verdict->disagreement, entry.disagreement) << verdict->text;
   EXPECT_NE(verdict->text, "");
-  if (entry.mutation == Mutation::kTVerticesLeftIn) {
+  if (entry.mistake == Mistake::kTVerticesLeftIn) {
     EXPECT_TRUE(verdict->mutant.mesh);
     EXPECT_GT(verdict->jump, 0.1);
   } else {
@@ -53,7 +53,7 @@ TEST_P(Zoo, TheOracleCatchesTheMutantAlone) {
 TEST_P(Zoo, HasAPicture) {
   const auto picture = zoo_picture(GetParam(), fixture());
   ASSERT_TRUE(picture) << to_string(picture.error());
-  EXPECT_THAT(*picture, HasSubstr(std::string(name_of(GetParam().mutation))));
+  EXPECT_THAT(*picture, HasSubstr(std::string(name_of(GetParam().mistake))));
 }
 
 TEST_P(Zoo, HuntsFindItAgain) {
@@ -73,16 +73,16 @@ INSTANTIATE_TEST_SUITE_P(Table, Zoo, testing::ValuesIn(zoo().begin(), zoo().end(
                            return name;
                          });
 
-TEST(ZooTable, HasEveryMutation) {
-  std::set<Mutation> seen;
+TEST(ZooTable, HasEveryMistake) {
+  std::set<Mistake> seen;
   for (const ZooEntry& entry : zoo()) {
-    seen.insert(entry.mutation);
+    seen.insert(entry.mistake);
     EXPECT_TRUE(parse_subject(entry.sound)) << entry.name;
-    EXPECT_EQ(zoo_entry(entry.name)->mutation, entry.mutation);
-    if (entry.mutation == Mutation::kTVerticesLeftIn) continue;
+    EXPECT_EQ(zoo_entry(entry.name)->mistake, entry.mistake);
+    if (entry.mistake == Mistake::kTVerticesLeftIn) continue;
     EXPECT_TRUE(parse_subject(entry.mutant())) << entry.mutant();
   }
-  EXPECT_EQ(seen.size(), mutations().size());
+  EXPECT_EQ(seen.size(), mistakes().size());
   EXPECT_EQ(zoo_entry("unicorn"), nullptr);
 }
 
@@ -106,10 +106,9 @@ TEST(ZooTable, NothingIsShownWhereNothingIsWrong) {
 
 // --- The oracle on meshes, by hand ---
 
-using oracle::ExactPoint;
 using oracle::MeshFaceClaim;
 
-MeshFaceClaim face(std::vector<ExactPoint> loop, std::vector<double> shades) {
+MeshFaceClaim face(std::vector<RationalPoint> loop, std::vector<double> shades) {
   MeshFaceClaim claim;
   claim.polygon = "a";
   claim.loop = std::move(loop);
@@ -137,7 +136,7 @@ TEST(MeshCheck, FindsTheTVertexAndItsJump) {
   ASSERT_EQ(report.t_vertices, 1u);
   EXPECT_EQ(report.worst[0].face, 0u);
   EXPECT_EQ(report.worst[0].edge, 2u);
-  EXPECT_EQ(report.worst[0].point, (ExactPoint{1, 1, 0}));
+  EXPECT_EQ(report.worst[0].point, (RationalPoint{1, 1, 0}));
   EXPECT_DOUBLE_EQ(report.largest_jump, 0.5);  // 3.5 against the middle of 4 and 2
 }
 

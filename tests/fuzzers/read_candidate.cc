@@ -2,14 +2,13 @@
 // A result file against a scene. Text that begins with a brace is read for a fixed scene of two
 // polygons under a lamp and a panel; otherwise the first byte counts the bytes of a scene's code
 // (gnomon/fuzz/scene_code.h) that follow, and then comes the file. What can be read is judged.
-#include "gnomon/oracle/read_candidate.h"
-
 #include <array>
 #include <memory>
 
 #include "fuzz/generate/scene_code.h"
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/oracle/witness_check.h"
+#include "gnomon/result/read_claims.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/read.h"
 #include "harness.h"
@@ -43,7 +42,7 @@ const Judge& fixed_judge() {
 }
 
 /// Small enough to be judged in no time.
-bool is_small(const oracle::Candidate& candidate) {
+bool is_small(const Claims& candidate) {
   std::size_t points = 0, bits = 0;
   for (const auto& light : candidate.lights) {
     for (const auto& polygon : light.polygons) {
@@ -61,7 +60,7 @@ bool is_small(const oracle::Candidate& candidate) {
 }
 
 void check_candidate(const Judge& judge, std::string_view text) {
-  const auto candidate = oracle::parse_candidate(text, "input.json", judge.scene);
+  const auto candidate = parse_claims(text, "input.json", judge.scene);
   if (!candidate) {
     const Error& error = candidate.error();
     check_error(error, "input.json", text, error.code == ErrorCode::kSyntax);

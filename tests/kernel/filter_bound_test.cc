@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bounds of the plane kernel's filter, computed again: rays and their errors against exact
-// ones, on grids from 2 bits to hundreds and for lamps near and far.
+// The bounds of the plane kernel's filter, computed again: the constants of filter_bounds.h by
+// following each formula term by term, and rays and their errors against exact ones, on grids from
+// 2 bits to hundreds and for lamps near and far. (The bounds of values and positions in volume
+// space are held against rationals in plane_volume_space_test.cc, those of charts and planar points
+// in sector_space_test.h.)
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +11,7 @@
 #include <string>
 #include <tuple>
 
+#include "kernel/implicit/filter_bounds.h"
 #include "kernel/implicit/implicit_light_space.h"
 #include "scene/base/random.h"
 
@@ -81,6 +85,82 @@ void expect_within(const Space::Vertex& vertex, const Rational3& exact, const ch
     EXPECT_LE(abs(mpq_class(vertex.ray[k]) - exact[k]), most) << what << " " << k;
     EXPECT_LE(abs(exact[k]), 2) << what << " " << k;
   }
+}
+
+/// A number of a formula to first order: its magnitude at most, and its error at most in units of
+/// u.
+struct Term {
+  double size = 1, error = 0;
+};
+Term operator+(const Term& a, const Term& b) {
+  return {a.size + b.size, a.error + b.error + a.size + b.size};
+}
+Term operator*(const Term& a, const Term& b) {
+  return {a.size * b.size, a.size * b.error + b.size * a.error + a.size * b.size};
+}
+/// Of relative errors.
+Term operator/(const Term& a, const Term& b) { return {1, a.error + b.error + 1}; }
+/// A component of a cross product, and a dot product: plus and minus are alike.
+Term cross_of(const Term& a, const Term& b) { return a * b + a * b; }
+Term dot_of(const Term& a, const Term& b) { return a * b + a * b + a * b; }
+
+/// The constant covers the count, without more slack than `most` times it.
+void expect_covers(double constant, double count, double most, const char* what) {
+  EXPECT_LE(count, constant / Ball::kUnit) << what;
+  EXPECT_LE(constant / Ball::kUnit, most * count) << what;
+}
+
+constexpr Term kExact{1, 0}, kConverted{1, 2};
+
+TEST(FilterConstants, OfSpace) {
+  const Term offset{3, 6};
+  expect_covers(SceneBounds::kPlaneError, (dot_of(kConverted, kExact) + offset).error, 2.5,
+                "n . x - d");
+  expect_covers(SceneBounds::value(1) - SceneBounds::value(0), 3 / Ball::kUnit, 1.01, "of x");
+  // The parameter: 5/4 v over 3/4 gap.
+  EXPECT_LE(1.25 / 0.75, SceneBounds::parameter(1, 1));
+}
+
+TEST(FilterConstants, OfLightSpace) {
+  expect_covers(LightBounds::ray(0, 1), dot_of(kConverted, kExact).error, 1.01, "n . r");
+  expect_covers(3 * LightBounds::kMadeError, cross_of(kConverted, kConverted).error, 1.01, "m x n");
+  expect_covers(LightBounds::kDepthPlane, (kConverted / kConverted).error, 1.6, "n / h");
+  const Term depth{1, LightBounds::kDepthPlane / Ball::kUnit};
+  expect_covers(LightBounds::depth(1, 0, 1), dot_of(depth, kExact).error, 1.04, "depth . r");
+  const Term half{0.5, depth.error / 2};
+  expect_covers(LightBounds::kDepthDifference, (half + half).error, 1.02, "difference");
+  const Term difference{1, LightBounds::kDepthDifference / Ball::kUnit}, ray{2, 0};
+  expect_covers(LightBounds::depth_difference(1, 0), dot_of(difference, ray).error, 1.03,
+                "differences . r");
+  // In units of 2u.
+  EXPECT_LE((half + half).error / 2, LightBounds::cut_slack(1, 1) - 1);
+  const Term quotient = kConverted / kConverted;
+  expect_covers(LightBounds::kAccurate, quotient.error + 2 + 1, 2.1, "h r / (n . r)");
+}
+
+TEST(FilterConstants, OfVolumes) {
+  expect_covers(VolumeBounds::kOffset, dot_of(kConverted, kConverted).error, 1, "n . a");
+  const Term offset{3, VolumeBounds::kOffset / Ball::kUnit};
+  expect_covers(VolumeBounds::kPlaneError, (dot_of(kConverted, kExact) + offset).error, 1.2,
+                "n . x - d");
+  expect_covers(VolumeBounds::kCross, cross_of(kConverted, kConverted).error, 1.02, "n x n");
+  const Term minor{2, VolumeBounds::kCross / Ball::kUnit};
+  expect_covers(VolumeBounds::kDeterminant, dot_of(minor, kConverted).error, 1.03, "determinant");
+  // Sums of residuals or values times minors: together the factors are 1, and no sum is above 2.
+  const Term moved = minor * kExact, offset_of = minor * kConverted;
+  EXPECT_LE(moved.error + 2 + 2, 19);
+  EXPECT_LE(offset_of.error + 2 + 2, 25);
+  EXPECT_LE(VolumeBounds::kDeterminant, 67 * Ball::kUnit);
+  // A difference of values of different signs is as large as either.
+  const Term gap{1, 2 + 1};
+  expect_covers(VolumeBounds::kParameter, (kConverted / gap).error, 1.02, "parameter");
+  expect_covers(VolumeBounds::kQuotient, (kConverted / kConverted).error, 1.02, "x / w");
+  // With the errors of the points as 0, and as 1u, of which a difference has two.
+  const Term way{1, 1}, rough{1, 1 + 2};
+  const double exact = dot_of(kConverted, cross_of(way, way)).error;
+  EXPECT_LE(exact, VolumeBounds::turn(0) / Ball::kUnit);
+  EXPECT_LE(dot_of(kConverted, cross_of(rough, rough)).error,
+            VolumeBounds::turn(Ball::kUnit) / Ball::kUnit);
 }
 
 class FilterBound : public testing::TestWithParam<std::tuple<unsigned, bool>> {};

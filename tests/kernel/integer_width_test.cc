@@ -10,8 +10,9 @@
 #include <string>
 
 #include "gnomon/kernel/precision_plan.h"
+#include "kernel/implicit/exact_geometry.h"
+#include "kernel/implicit/exact_predicates.h"
 #include "kernel/implicit/exact_shadow_plane.h"
-#include "kernel/implicit/implicit_scene_space.h"
 #include "kernel/numbers/exact_integer.h"
 #include "triangle_soup.h"
 

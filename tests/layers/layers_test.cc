@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The layers: kernel <- scene <- algorithms <- (report, fuzz, cli, bench), and oracle <- scene
-// only. Reads the includes of every source of every component. The oracle shares no predicate, no
-// splitting and no tree with what it judges: of the kernel it may use the four headers that hold no
-// arithmetic.
+// The layers: kernel <- scene <- result <- algorithms <- (report, fuzz, cli, bench), and oracle <-
+// result; and in each component the order of its rooms. Reads the includes of every source of every
+// component. The oracle shares no predicate, no splitting and no tree with what it judges: of the
+// kernel it may use the four headers that hold no arithmetic.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,29 +23,123 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// What each component may include: whole components, or single headers.
+/// What each component may include of others: whole components, or single headers.
 const std::map<std::string, std::set<std::string>>& allowed_includes() {
   static const std::map<std::string, std::set<std::string>> kAllowed = {
       {"kernel", {"kernel"}},
       {"scene", {"kernel", "scene"}},
-      {"algorithms", {"kernel", "scene", "algorithms"}},
+      {"result", {"scene", "result", "kernel/sign.h", "kernel/error.h", "kernel/geometry.h"}},
+      {"algorithms", {"kernel", "scene", "result", "algorithms"}},
       {"oracle",
-       {"scene", "oracle", "kernel/sign.h", "kernel/orientation.h", "kernel/error.h",
+       {"scene", "result", "oracle", "kernel/sign.h", "kernel/orientation.h", "kernel/error.h",
         "kernel/geometry.h"}},
-      {"report", {"kernel", "scene", "algorithms", "oracle", "report"}},
-      {"fuzz", {"kernel", "scene", "algorithms", "oracle", "report", "fuzz"}},
-      {"cli", {"kernel", "scene", "algorithms", "oracle", "report", "fuzz", "cli"}},
-      {"bench", {"kernel", "scene", "algorithms", "oracle", "report", "fuzz", "bench"}},
+      {"report", {"kernel", "scene", "result", "algorithms", "oracle", "report"}},
+      {"fuzz", {"kernel", "scene", "result", "algorithms", "oracle", "report", "fuzz"}},
+      {"cli", {"kernel", "scene", "result", "algorithms", "oracle", "report", "fuzz", "cli"}},
+      {"bench", {"kernel", "scene", "result", "algorithms", "oracle", "report", "fuzz", "bench"}},
   };
   return kAllowed;
 }
 
-/// Headers that are CGAL's types under a kernel's name; no other header may include them or CGAL,
-/// so that only sources which ask for these types need CGAL and its -frounding-math.
-const std::set<std::string>& cgal_headers() {
-  static const std::set<std::string> kHeaders = {"gnomon/kernel/epeck_space.h",
-                                                 "gnomon/kernel/epeck_volume_space.h"};
-  return kHeaders;
+/// The rooms of a component, each after those that it may include. Every room may also include the
+/// headers that the component installs, which include one another only.
+struct Room {
+  std::string name;
+  std::set<std::string> may_include;
+};
+const std::map<std::string, std::vector<Room>>& rooms() {
+  static const std::map<std::string, std::vector<Room>> kRooms = {
+      {"kernel",
+       {{"signs", {}},
+        {"numbers", {"signs"}},
+        {"concept", {"signs", "numbers"}},
+        {"coordinate", {"signs", "concept"}},
+        {"cgal", {"signs", "concept"}},
+        {"implicit", {"signs", "numbers", "concept"}},
+        {"pair", {"concept"}}}},
+      {"scene",
+       {{"base", {}},
+        {"model", {"base"}},
+        {"geometry", {"base"}},
+        {"prepare", {"base", "geometry"}},
+        {"json", {"base"}},
+        {"files", {"base", "json"}},
+        {"generate", {"base"}}}},
+      {"algorithms",
+       {{"partition", {}},
+        {"scene_bsp", {"partition"}},
+        {"svbsp", {"partition", "scene_bsp"}},
+        {"sectors", {"partition"}},
+        {"shadow_volumes", {"partition"}},
+        {"volume_trees", {"partition", "shadow_volumes"}},
+        {"illumination", {"partition"}},
+        {"shading_mesh", {"partition", "shadow_volumes"}},
+        {"run",
+         {"partition", "scene_bsp", "svbsp", "sectors", "shadow_volumes", "volume_trees",
+          "illumination", "shading_mesh"}}}},
+      {"oracle",
+       {{"geometry", {}},
+        {"visibility", {"geometry"}},
+        {"answer", {"geometry", "visibility"}},
+        {"judge", {"geometry", "visibility", "answer"}}}},
+      {"report",
+       {{"text", {}},
+        {"sides", {}},
+        {"json", {"sides", "text"}},
+        {"certificate", {"json", "text"}},
+        {"facts", {"json", "sides", "text"}},
+        {"meshes", {"json", "text"}},
+        {"pictures", {"meshes", "text"}}}},
+      {"fuzz",
+       {{"text", {}},
+        {"scene", {}},
+        {"kinds", {"scene"}},
+        {"moves", {"scene"}},
+        {"generate", {"kinds", "moves", "scene"}},
+        {"process", {}},
+        {"mistakes", {}},
+        {"check", {"mistakes", "moves", "process"}},
+        {"workers", {"check", "generate", "process"}},
+        {"campaign", {"generate", "workers"}},
+        {"shrink", {"check", "scene"}},
+        {"corpus", {"check", "process", "text"}},
+        {"findings", {"check", "corpus", "process", "scene", "shrink"}},
+        {"zoo", {"check", "findings", "generate", "mistakes"}}}},
+      {"cli", {{"common", {}}, {"commands", {"common"}}}},
+  };
+  return kRooms;
+}
+
+/// Headers through which a user enters the algorithms; the rooms behind them include the data that
+/// they speak of, never the doors.
+const std::set<std::string>& doors() {
+  static const std::set<std::string> kDoors = {"gnomon/algorithms/shadows.h",
+                                               "gnomon/algorithms/explain.h"};
+  return kDoors;
+}
+
+/// Headers that are CGAL's types under a kernel's name, in their own room; no installed header may
+/// include them or CGAL, so that only sources which ask for these types need CGAL and its
+/// -frounding-math.
+bool names_cgal(const std::string& header) {
+  return header.starts_with("CGAL/") || header.starts_with("kernel/cgal/");
+}
+
+/// "component/room/" of a header or source that is in a room, else "".
+std::string room_of(const std::string& path) {
+  const std::size_t first = path.find('/');
+  const std::size_t second = path.find('/', first + 1);
+  if (second == std::string::npos || path.find("/include/") != std::string::npos) return "";
+  return path.substr(first + 1, second - first - 1);
+}
+
+/// Whether `room` of `component` may include `other` of it.
+bool room_may_include(const std::string& component, const std::string& room,
+                      const std::string& other) {
+  const auto found = rooms().find(component);
+  if (found == rooms().end() || room.empty() || room == other) return true;
+  const auto own = std::ranges::find(found->second, room, &Room::name);
+  return own != found->second.end() && own->may_include.contains(other);
 }
 
 /// The violations of one file, given by its path in the project and its text; one line each.
@@ -53,9 +147,8 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
   std::vector<std::string> found;
   const std::string component = path.substr(0, path.find('/'));
   const auto& allowed = allowed_includes().at(component);
-  const std::string public_folder = component + "/include/";
-  const bool is_public = path.starts_with(public_folder);
-  const std::string public_name = is_public ? path.substr(public_folder.size()) : "";
+  const bool is_public = path.starts_with(component + "/include/");
+  const std::string room = room_of(path);
 
   static const std::regex kInclude(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"])");
   std::istringstream lines(text);
@@ -64,18 +157,34 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
     std::smatch match;
     if (!std::regex_search(line, match, kInclude)) continue;
     const std::string header = match[2];
-    const std::string place = path + ":" + std::to_string(number) + ": ";
-    if (header.find("..") != std::string::npos) {
-      found.push_back(place + header + " leaves its folder");
+    const auto complain = [&](const std::string& what) {
+      found.push_back(path + ":" + std::to_string(number) + ": " + what);
+    };
+    if (header.find("..") != std::string::npos) complain(header + " leaves its folder");
+    if (is_public && names_cgal(header)) {
+      complain(header + " belongs in a source, not in a public header");
     }
-    const bool names_cgal = header.starts_with("CGAL/") || cgal_headers().contains(header);
-    if (is_public && names_cgal && !cgal_headers().contains(public_name)) {
-      found.push_back(place + header + " belongs in a source, not in a public header");
+    if (header.starts_with("gnomon/")) {
+      const std::string name = header.substr(std::string("gnomon/").size());
+      if (!allowed.contains(name.substr(0, name.find('/'))) && !allowed.contains(name)) {
+        complain(component + " must not include " + header);
+      }
+      if (component == "algorithms" && !room.empty() && room != "run" && doors().contains(header) &&
+          !path.ends_with("/" + header.substr(header.rfind('/') + 1))) {
+        complain(room + " must not include the front door " + header);
+      }
+      continue;
     }
-    if (!header.starts_with("gnomon/")) continue;
-    const std::string name = header.substr(std::string("gnomon/").size());
-    if (!allowed.contains(name.substr(0, name.find('/'))) && !allowed.contains(name)) {
-      found.push_back(place + component + " must not include " + header);
+    const std::string other = header.substr(0, header.find('/'));
+    if (!allowed_includes().contains(other)) continue;
+    if (is_public) {
+      complain(header + " is in a room, and not installed with this header");
+    } else if (other != component && !allowed.contains(other)) {
+      complain(component + " must not include " + header);
+    } else if (component == "oracle" && other != component) {
+      complain("oracle must not include " + header);
+    } else if (other == component && !room_may_include(component, room, room_of(header))) {
+      complain(component + "/" + room + " must not include " + header);
     }
   }
   return found;
@@ -109,39 +218,74 @@ TEST(Layers, EveryIncludeStaysBelowItsOwnLayer) {
   const Walk result = walk(GNOMON_SOURCE_DIR);
   EXPECT_THAT(result.violations, IsEmpty());
   // A walk that read nothing would hold any rule.
-  for (const char* component : {"kernel", "scene", "algorithms", "oracle"}) {
+  for (const char* component : {"kernel", "scene", "result", "algorithms", "oracle"}) {
     EXPECT_GT(result.files.contains(component) ? result.files.at(component) : 0, 0) << component;
   }
 }
 
+TEST(Layers, TheTableOfRoomsHasNoCircle) {
+  for (const auto& [component, own] : rooms()) {
+    std::set<std::string> before;
+    for (const Room& room : own) {
+      for (const std::string& other : room.may_include) {
+        EXPECT_TRUE(before.contains(other)) << component << '/' << room.name << " -> " << other;
+      }
+      before.insert(room.name);
+    }
+  }
+}
+
+TEST(Layers, EveryRoomOfTheTableIsThere) {
+  for (const auto& [component, own] : rooms()) {
+    for (const Room& room : own) {
+      EXPECT_TRUE(std::filesystem::is_directory(std::filesystem::path(GNOMON_SOURCE_DIR) /
+                                                component / room.name))
+          << component << '/' << room.name;
+    }
+  }
+}
+
 TEST(Layers, SeesAViolationOfEachRule) {
-  EXPECT_THAT(violations("kernel/src/a.cc", "\n#include \"gnomon/scene/scene.h\"\n"),
-              ElementsAre("kernel/src/a.cc:2: kernel must not include gnomon/scene/scene.h"));
-  EXPECT_THAT(violations("scene/src/a.cc", "#  include <gnomon/algorithms/shadows.h>\n"),
+  EXPECT_THAT(violations("kernel/room/a.cc", "\n#include \"gnomon/scene/scene.h\"\n"),
+              ElementsAre("kernel/room/a.cc:2: kernel must not include gnomon/scene/scene.h"));
+  EXPECT_THAT(violations("scene/room/a.cc", "#  include <gnomon/algorithms/shadows.h>\n"),
               ElementsAre(HasSubstr("scene must not include")));
-  EXPECT_THAT(violations("algorithms/src/a.cc", "#include \"gnomon/oracle/candidate.h\""),
+  EXPECT_THAT(violations("algorithms/room/a.cc", "#include \"gnomon/oracle/verdict.h\""),
               ElementsAre(HasSubstr("algorithms must not include")));
-  EXPECT_THAT(violations("oracle/src/a.cc", "#include \"gnomon/algorithms/shadow_result.h\""),
+  EXPECT_THAT(violations("oracle/room/a.cc", "#include \"gnomon/algorithms/shadow_result.h\""),
               ElementsAre(HasSubstr("oracle must not include")));
-  EXPECT_THAT(violations("oracle/src/a.cc", "#include \"gnomon/kernel/plane_kernel.h\""),
+  EXPECT_THAT(violations("oracle/room/a.cc", "#include \"gnomon/kernel/plane_kernel.h\""),
               ElementsAre(HasSubstr("oracle must not include")));
-  EXPECT_THAT(violations("report/src/a.cc", "#include \"gnomon/cli/command.h\""),
+  EXPECT_THAT(violations("result/a.cc", "#include \"gnomon/oracle/verdict.h\""),
+              ElementsAre(HasSubstr("result must not include")));
+  EXPECT_THAT(violations("report/room/a.cc", "#include \"gnomon/cli/command.h\""),
               ElementsAre(HasSubstr("report must not include")));
-  EXPECT_THAT(violations("oracle/src/a.cc", "#include \"../../kernel/src/a.h\""),
+  EXPECT_THAT(violations("oracle/room/a.cc", "#include \"../../kernel/room/a.h\""),
               ElementsAre(HasSubstr("leaves its folder")));
   EXPECT_THAT(violations("oracle/include/gnomon/oracle/a.h", "#include <CGAL/Gmpq.h>"),
               ElementsAre(HasSubstr("not in a public header")));
-  EXPECT_THAT(violations("algorithms/include/gnomon/algorithms/a.h",
-                         "#include \"gnomon/kernel/epeck_space.h\""),
-              ElementsAre(HasSubstr("not in a public header")));
+  EXPECT_THAT(
+      violations("algorithms/include/gnomon/algorithms/a.h", "#include \"kernel/signs/ball.h\""),
+      ElementsAre(HasSubstr("not installed with this header")));
+  EXPECT_THAT(violations("scene/files/a.cc", "#include \"oracle/geometry/chart.h\""),
+              ElementsAre(HasSubstr("scene must not include")));
+  EXPECT_THAT(violations("oracle/judge/a.cc", "#include \"scene/base/text_file.h\""),
+              ElementsAre(HasSubstr("oracle must not include")));
+  EXPECT_THAT(violations("algorithms/sectors/a.h", "#include \"algorithms/svbsp/svbsp.h\""),
+              ElementsAre("algorithms/sectors/a.h:1: algorithms/sectors must not include "
+                          "algorithms/svbsp/svbsp.h"));
+  EXPECT_THAT(violations("algorithms/sectors/a.h", "#include \"gnomon/algorithms/shadows.h\""),
+              ElementsAre(HasSubstr("sectors must not include the front door")));
+  EXPECT_THAT(violations("algorithms/attic/a.h", "#include \"algorithms/partition/split.h\""),
+              ElementsAre(HasSubstr("algorithms/attic must not include")));
 }
 
 TEST(Layers, LetsPassWhatIsAllowed) {
-  EXPECT_THAT(violations("oracle/src/a.cc",
+  EXPECT_THAT(violations("oracle/room/a.cc",
                          "#include <CGAL/Gmpq.h>\n#include \"gnomon/kernel/sign.h\"\n"
                          "#include \"gnomon/scene/prepare.h\"\n#include \"own.h\"\n"),
               IsEmpty());
-  EXPECT_THAT(violations("kernel/src/a.cc", "// includes \"gnomon/scene/scene.h\" in words"),
+  EXPECT_THAT(violations("kernel/room/a.cc", "// includes \"gnomon/scene/scene.h\" in words"),
               IsEmpty());
 }
 
@@ -149,12 +293,12 @@ TEST(Layers, SeesAViolationInAMadeUpTree) {
   namespace fs = std::filesystem;
   const fs::path root = fs::path(testing::TempDir()) / "gnomon_layers_made_up";
   fs::remove_all(root);
-  fs::create_directories(root / "oracle" / "src");
-  std::ofstream(root / "oracle" / "src" / "bad.cc") << "#include \"gnomon/algorithms/bsp.h\"\n";
+  fs::create_directories(root / "oracle" / "room");
+  std::ofstream(root / "oracle" / "room" / "bad.cc") << "#include \"gnomon/algorithms/bsp.h\"\n";
   const Walk result = walk(root);
   fs::remove_all(root);
   EXPECT_THAT(result.violations,
-              ElementsAre("oracle/src/bad.cc:1: oracle must not include gnomon/algorithms/bsp.h"));
+              ElementsAre("oracle/room/bad.cc:1: oracle must not include gnomon/algorithms/bsp.h"));
 }
 
 }  // namespace

@@ -21,8 +21,7 @@ struct Fractions {
   }
 };
 
-Fractions fractions(const BuiltScene& built, const std::string& id,
-                    PolygonSide side = PolygonSide::kFront) {
+Fractions fractions(const BuiltScene& built, const std::string& id, Side side = Side::kFront) {
   const ExactAnswer answer(built.scene, built.prepared);
   for (const AnswerEntry& entry : answer.entries(0)) {
     if (built.scene.polygons[entry.polygon].id != id || entry.side != side) continue;
@@ -44,12 +43,10 @@ std::size_t entry_count(const BuiltScene& built, const std::string& id) {
   return count;
 }
 
-const std::vector<Triple> kFloor{{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}};
 /// Faces up; the light of the same size at height 4 faces down.
 std::vector<Triple> square(double half, double z) {
   return {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
 }
-const std::vector<Triple> kPanel{{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}};
 
 TEST(AreaRegions, SquareUnderASquareOfItsSize) {
   // A caster half way: 2 o - a of its corners o and the light's a. The penumbra is [-3, 3]^2, the
@@ -66,7 +63,7 @@ TEST(AreaRegions, SquareUnderASquareOfItsSize) {
   const AreaPointVisibility half = visibility.at(0, Side::kFront, at(2, 0, 0));
   EXPECT_EQ(half.visible, mpq_class(1, 2));
   EXPECT_EQ(half.hidden, mpq_class(1, 2));
-  EXPECT_EQ(half.shade, ShadeClass::kPenumbra);
+  EXPECT_EQ(half.state, LightState::kPenumbra);
   EXPECT_EQ(half.caster, 1u);
   EXPECT_EQ(visibility.at(0, Side::kFront, at(2, 2, 0)).hidden, mpq_class(1, 4));
   EXPECT_TRUE(visibility.at(0, Side::kFront, at(3, 0, 0)).on_boundary);
@@ -98,7 +95,7 @@ TEST(AreaRegions, CasterThatOnlyShowsItsBackOrDoesNotCast) {
                               .build();
   EXPECT_EQ(fractions(both, "floor"), (Fractions{ratio(220, 256), ratio(32, 256), ratio(4, 256)}));
   EXPECT_EQ(entry_count(both, "lid"), 1u);
-  EXPECT_EQ(fractions(both, "lid", PolygonSide::kBack), (Fractions{1, 0, 0}));
+  EXPECT_EQ(fractions(both, "lid", Side::kBack), (Fractions{1, 0, 0}));
   const BuiltScene none = SceneBuilder()
                               .polygon("floor", kFloor)
                               .polygon("lid", square(1, 2), false, false)
@@ -130,7 +127,7 @@ TEST(AreaRegions, WallUnderTheMiddleOfTheLight) {
   EXPECT_EQ(fractions(built, "floor"), (Fractions{ratio(244, 256), ratio(12, 256), 0}));
   EXPECT_EQ(entry_count(built, "wall"), 2u);
   EXPECT_EQ(fractions(built, "wall"), (Fractions{1, 0, 0}));
-  EXPECT_EQ(fractions(built, "wall", PolygonSide::kBack), (Fractions{1, 0, 0}));
+  EXPECT_EQ(fractions(built, "wall", Side::kBack), (Fractions{1, 0, 0}));
 }
 
 TEST(AreaRegions, CasterThatSharesTheLightsEdge) {
@@ -165,12 +162,12 @@ TEST(AreaRegions, DeepUmbraOfTwoHalves) {
   const AreaVisibility visibility(built.prepared, built.prepared.lights[0]);
   const AreaPointVisibility seen = visibility.at(0, Side::kFront, at(0.5, 0.25, 0));
   EXPECT_TRUE(seen.deep());
-  EXPECT_EQ(seen.shade, ShadeClass::kPenumbra);
+  EXPECT_EQ(seen.state, LightState::kPenumbra);
   EXPECT_FALSE(visibility.at(0, Side::kFront, at(1.5, 0.25, 0)).deep());
   // They share an edge: no light passes there, whatever the size of the piece.
   const auto square_on_floor = [](double x0, double x1) {
-    return std::vector<ExactPoint>{at(x0, -0.5, 0), at(x1, -0.5, 0), at(x1, 0.5, 0),
-                                   at(x0, 0.5, 0)};
+    return std::vector<RationalPoint>{at(x0, -0.5, 0), at(x1, -0.5, 0), at(x1, 0.5, 0),
+                                      at(x0, 0.5, 0)};
   };
   EXPECT_TRUE(visibility.hides_all_from(0, Side::kFront, square_on_floor(-1, 1)));
   EXPECT_FALSE(visibility.hides_all_from(0, Side::kFront, square_on_floor(-1, 1.25)));
@@ -185,11 +182,11 @@ TEST(AreaRegions, DeepUmbraBehindABoxOnTheFloor) {
                                .build();
   const AreaVisibility visibility(built.prepared, built.prepared.lights[0]);
   const auto strip = [](double x0, double x1) {
-    return std::vector<ExactPoint>{at(x0, -0.25, 0), at(x1, -0.25, 0), at(x1, 0.25, 0),
-                                   at(x0, 0.25, 0)};
+    return std::vector<RationalPoint>{at(x0, -0.25, 0), at(x1, -0.25, 0), at(x1, 0.25, 0),
+                                      at(x0, 0.25, 0)};
   };
   const AreaPointVisibility seen = visibility.at(0, Side::kFront, at(-3, 0, 0));
-  EXPECT_EQ(seen.shade, ShadeClass::kPenumbra);
+  EXPECT_EQ(seen.state, LightState::kPenumbra);
   EXPECT_TRUE(seen.deep());
   EXPECT_TRUE(visibility.hides_all_from(0, Side::kFront, strip(-5, -2)));
   EXPECT_TRUE(visibility.hides_all_from(0, Side::kFront, strip(-6, -4)));
@@ -219,8 +216,8 @@ TEST(AreaRegions, WhatIsCertifiedDarkIsDark) {
     const AreaVisibility visibility(built.prepared, built.prepared.lights[0]);
     for (int i = 0; i < 12; ++i) {
       const double px = some(-6, 6) / 2, py = some(-6, 6) / 2, size = i % 2 == 0 ? 0.5 : 1.5;
-      const std::vector<ExactPoint> triangle{at(px, py, 0), at(px + size, py, 0),
-                                             at(px, py + size, 0)};
+      const std::vector<RationalPoint> triangle{at(px, py, 0), at(px + size, py, 0),
+                                                at(px, py + size, 0)};
       ++tried;
       if (!visibility.hides_all_from(0, Side::kFront, triangle)) continue;
       ++certified;
@@ -276,7 +273,7 @@ void agree(const BuiltScene& built, std::uint64_t seed, Agreement& counts) {
   const AreaVisibility visibility(built.prepared, built.prepared.lights[0]);
   Random random(seed);
   for (const AnswerEntry& entry : answer.entries(0)) {
-    const Side side = entry.side == PolygonSide::kFront ? Side::kFront : Side::kBack;
+    const Side side = entry.side;
     for (const ReceiverGroup& group : entry.groups) {
       if (!group.faces) continue;
       for (std::uint32_t part : group.parts) {
@@ -293,7 +290,7 @@ void agree(const BuiltScene& built, std::uint64_t seed, Agreement& counts) {
             weights += weight;
             for (int k = 0; k < 3; ++k) sum[k] += weight * vertex[k];
           }
-          ExactPoint point;
+          RationalPoint point;
           for (int k = 0; k < 3; ++k) {
             mpq_class coordinate(sum[k], weights);
             coordinate.canonicalize();
@@ -314,12 +311,12 @@ void agree(const BuiltScene& built, std::uint64_t seed, Agreement& counts) {
           }
           const int in_penumbra = place_in(shade.penumbra, place);
           const int in_umbra = place_in(shade.umbra, place);
-          switch (seen.shade) {
-            case ShadeClass::kUmbra:
+          switch (seen.state) {
+            case LightState::kUmbra:
               ++counts.umbra;
               EXPECT_GE(in_umbra, 0) << seed << " part " << part;
               break;
-            case ShadeClass::kPenumbra:
+            case LightState::kPenumbra:
               ++counts.penumbra;
               EXPECT_GT(in_penumbra, 0) << seed << " part " << part;
               EXPECT_LT(in_umbra, 0) << seed << " part " << part;
@@ -338,7 +335,7 @@ void agree(const BuiltScene& built, std::uint64_t seed, Agreement& counts) {
           }
           EXPECT_GE(seen.hidden, most);
           EXPECT_LE(seen.hidden + seen.visible, 1);
-          EXPECT_EQ(seen.shade == ShadeClass::kLit, seen.hidden == 0);
+          EXPECT_EQ(seen.state == LightState::kLit, seen.hidden == 0);
         }
       }
     }

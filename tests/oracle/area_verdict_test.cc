@@ -9,24 +9,13 @@
 namespace gnomon::oracle {
 namespace {
 
-const std::vector<Triple> kFloor{{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}};
-const std::vector<Triple> kPanel{{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}};
-
-CandidateFragment rectangle(ShadeClass shade, double x0, double y0, double x1, double y1) {
-  CandidateFragment fragment;
-  fragment.shade = shade;
-  fragment.exact = true;
-  fragment.loop = {at(x0, y0, 0), at(x1, y0, 0), at(x1, y1, 0), at(x0, y1, 0)};
-  return fragment;
-}
-
 /// A floor whose nested squares are of these classes, from the outermost in.
-Candidate nested(const std::vector<std::pair<double, ShadeClass>>& squares) {
-  Candidate candidate;
+Claims nested(const std::vector<std::pair<double, LightState>>& squares) {
+  Claims candidate;
   candidate.name = "by hand";
-  CandidateLight light;
+  ClaimedLight light;
   light.id = "panel";
-  CandidatePolygon floor;
+  ClaimedPolygon floor;
   floor.id = "floor";
   for (std::size_t i = 0; i < squares.size(); ++i) {
     const auto [outer, shade] = squares[i];
@@ -45,13 +34,14 @@ Candidate nested(const std::vector<std::pair<double, ShadeClass>>& squares) {
   return candidate;
 }
 
-constexpr ShadeClass kIsLit = ShadeClass::kLit, kIsPenumbra = ShadeClass::kPenumbra,
-                     kIsUmbra = ShadeClass::kUmbra;
+constexpr LightState kIsLit = LightState::kLit, kIsPenumbra = LightState::kPenumbra,
+                     kIsUmbra = LightState::kUmbra;
 
-Report certified(const BuiltScene& built, const Candidate& candidate) {
+/// Of polygons that are listed.
+Report certified_subset(const BuiltScene& built, const Claims& candidate) {
   CertifyOptions options;
   options.subset = true;
-  return *certify(built.scene, built.prepared, candidate, options);
+  return certified(built, candidate, options);
 }
 
 class AreaVerdict : public testing::Test {
@@ -65,10 +55,10 @@ class AreaVerdict : public testing::Test {
 };
 
 TEST_F(AreaVerdict, ExactIsIdentical) {
-  Candidate candidate = nested({{8, kIsLit}, {3, kIsPenumbra}, {1, kIsUmbra}});
+  Claims candidate = nested({{8, kIsLit}, {3, kIsPenumbra}, {1, kIsUmbra}});
   for (const bool per_caster : {false, true}) {
     candidate.lights[0].per_caster_umbra = per_caster;
-    const Report report = certified(whole_, candidate);
+    const Report report = certified_subset(whole_, candidate);
     EXPECT_EQ(report.verdict, Verdict::kIdentical) << report.reason;
     const PolygonComparison& floor = report.lights[0].polygons[0];
     EXPECT_EQ(floor.lit.exact, mpq_class(220) / 256);
@@ -81,14 +71,14 @@ TEST_F(AreaVerdict, ExactIsIdentical) {
 }
 
 TEST_F(AreaVerdict, MissingUmbraIsACost) {
-  Candidate candidate = nested({{8, kIsLit}, {3, kIsPenumbra}});
-  Report report = certified(whole_, candidate);
+  Claims candidate = nested({{8, kIsLit}, {3, kIsPenumbra}});
+  Report report = certified_subset(whole_, candidate);
   EXPECT_EQ(report.verdict, Verdict::kIdentical) << report.reason;
   EXPECT_EQ(report.lights[0].polygons[0].missing_umbra.exact, mpq_class(4) / 256);
   EXPECT_TRUE(report.totals.missing_umbra.contains(4));
   EXPECT_EQ(report.totals.lost, 0u);
   candidate.lights[0].per_caster_umbra = true;
-  report = certified(whole_, candidate);
+  report = certified_subset(whole_, candidate);
   EXPECT_EQ(report.verdict, Verdict::kFailed);
   EXPECT_EQ(report.lights[0].polygons[0].misclassified.exact, mpq_class(4) / 256);
   EXPECT_EQ(report.totals.lost, 1u);
@@ -96,20 +86,23 @@ TEST_F(AreaVerdict, MissingUmbraIsACost) {
 }
 
 TEST_F(AreaVerdict, MissingPenumbraIsAnError) {
-  const Report report = certified(whole_, nested({{8, kIsLit}, {2, kIsPenumbra}, {1, kIsUmbra}}));
+  const Report report =
+      certified_subset(whole_, nested({{8, kIsLit}, {2, kIsPenumbra}, {1, kIsUmbra}}));
   EXPECT_EQ(report.verdict, Verdict::kFailed);
   EXPECT_EQ(report.lights[0].polygons[0].misclassified.exact, mpq_class(20) / 256);
   EXPECT_EQ(report.worst->text, "found lit, truly penumbra of 'lid'");
 }
 
 TEST_F(AreaVerdict, TooMuchPenumbraIsAnError) {
-  const Report report = certified(whole_, nested({{8, kIsLit}, {4, kIsPenumbra}, {1, kIsUmbra}}));
+  const Report report =
+      certified_subset(whole_, nested({{8, kIsLit}, {4, kIsPenumbra}, {1, kIsUmbra}}));
   EXPECT_EQ(report.verdict, Verdict::kFailed);
   EXPECT_EQ(report.lights[0].polygons[0].misclassified.exact, mpq_class(28) / 256);
 }
 
 TEST_F(AreaVerdict, TooMuchUmbraIsAnErrorThatSeesLight) {
-  const Report report = certified(whole_, nested({{8, kIsLit}, {3, kIsPenumbra}, {2, kIsUmbra}}));
+  const Report report =
+      certified_subset(whole_, nested({{8, kIsLit}, {3, kIsPenumbra}, {2, kIsUmbra}}));
   EXPECT_EQ(report.verdict, Verdict::kFailed);
   EXPECT_EQ(report.lights[0].polygons[0].misclassified.exact, mpq_class(12) / 256);
   EXPECT_NE(report.worst->text.find("of the light is seen"), std::string::npos)
@@ -118,7 +111,7 @@ TEST_F(AreaVerdict, TooMuchUmbraIsAnErrorThatSeesLight) {
 
 TEST_F(AreaVerdict, ClassesOfPointLightsAreUnknownHere) {
   const Report report =
-      certified(whole_, nested({{8, kIsLit}, {3, kIsPenumbra}, {1, ShadeClass::kShadow}}));
+      certified_subset(whole_, nested({{8, kIsLit}, {3, kIsPenumbra}, {1, LightState::kShadow}}));
   EXPECT_EQ(report.verdict, Verdict::kFailed);
   EXPECT_EQ(report.reason,
             "light 'panel': polygon 'floor' has a fragment of class 'shadow'; lit, penumbra or "
@@ -126,13 +119,13 @@ TEST_F(AreaVerdict, ClassesOfPointLightsAreUnknownHere) {
 }
 
 TEST_F(AreaVerdict, BackgroundIsAClassOfTheLight) {
-  Candidate candidate = nested({{3, kIsPenumbra}, {1, kIsUmbra}});
+  Claims candidate = nested({{3, kIsPenumbra}, {1, kIsUmbra}});
   candidate.lights[0].background = kIsLit;
   candidate.lights[0].polygons.push_back({});
   candidate.lights[0].polygons[1].id = "lid";
-  EXPECT_EQ(certified(whole_, candidate).verdict, Verdict::kIdentical);
+  EXPECT_EQ(certified_subset(whole_, candidate).verdict, Verdict::kIdentical);
   candidate.lights[0].background = kIsUmbra;
-  EXPECT_EQ(certified(whole_, candidate).verdict, Verdict::kFailed);
+  EXPECT_EQ(certified_subset(whole_, candidate).verdict, Verdict::kFailed);
 }
 
 // Strips along y, so that only x counts: a light at z = 4 over a floor at z = 0.
@@ -145,10 +138,10 @@ SceneBuilder strips() {
       .polygon("floor", {{-8, -1, 0}, {8, -1, 0}, {8, 1, 0}, {-8, 1, 0}})
       .area("panel", kPanel);
 }
-Candidate floor_of(const std::vector<std::pair<double, ShadeClass>>& from) {
-  Candidate candidate;
+Claims floor_of(const std::vector<std::pair<double, LightState>>& from) {
+  Claims candidate;
   candidate.lights.emplace_back().id = "panel";
-  CandidatePolygon& floor = candidate.lights[0].polygons.emplace_back();
+  ClaimedPolygon& floor = candidate.lights[0].polygons.emplace_back();
   floor.id = "floor";
   for (std::size_t i = 0; i < from.size(); ++i) {
     const double end = i + 1 < from.size() ? from[i + 1].first : 8;
@@ -163,10 +156,11 @@ TEST(AreaVerdictStrips, AUnionWhosePlanesAreNotContinuedLosesPenumbra) {
   // of the first volume's first plane, it ends there: ]1, 2] is lost.
   const BuiltScene built =
       strips().polygon("lower", strip(0, 0.5, 1)).polygon("upper", strip(-0.5, -0.25, 3)).build();
-  EXPECT_EQ(certified(built, floor_of({{-8, kIsLit}, {-5, kIsPenumbra}, {2, kIsLit}})).verdict,
-            Verdict::kIdentical);
-  const Candidate wrong = floor_of({{-8, kIsLit}, {-5, kIsPenumbra}, {1, kIsLit}});
-  const Report report = certified(built, wrong);
+  EXPECT_EQ(
+      certified_subset(built, floor_of({{-8, kIsLit}, {-5, kIsPenumbra}, {2, kIsLit}})).verdict,
+      Verdict::kIdentical);
+  const Claims wrong = floor_of({{-8, kIsLit}, {-5, kIsPenumbra}, {1, kIsLit}});
+  const Report report = certified_subset(built, wrong);
   EXPECT_EQ(report.verdict, Verdict::kFailed);
   const PolygonComparison& floor = report.lights[0].polygons[0];
   EXPECT_EQ(floor.misclassified.exact, mpq_class(1, 16));
@@ -185,24 +179,24 @@ TEST(AreaVerdictStrips, DeepUmbraMayBeClaimed) {
   // [-1/4, 7/3] too. Penumbra is [-5, 3].
   const BuiltScene built =
       strips().polygon("upper", strip(-2, 0.25, 2)).polygon("lower", strip(0, 2, 1)).build();
-  Candidate candidate = floor_of({{-8, kIsLit},
-                                  {-5, kIsPenumbra},
-                                  {-3, kIsUmbra},
-                                  {-0.5, kIsPenumbra},
-                                  {-0.125, kIsUmbra},
-                                  {2.25, kIsPenumbra},
-                                  {3, kIsLit}});
-  Report report = certified(built, candidate);
+  Claims candidate = floor_of({{-8, kIsLit},
+                               {-5, kIsPenumbra},
+                               {-3, kIsUmbra},
+                               {-0.5, kIsPenumbra},
+                               {-0.125, kIsUmbra},
+                               {2.25, kIsPenumbra},
+                               {3, kIsLit}});
+  Report report = certified_subset(built, candidate);
   EXPECT_EQ(report.verdict, Verdict::kIdentical) << report.reason;
   // [2.25, 7/3] was called penumbra.
   EXPECT_EQ(report.lights[0].polygons[0].missing_umbra.exact, mpq_class(1, 192));
   candidate.lights[0].per_caster_umbra = true;
-  EXPECT_EQ(certified(built, candidate).verdict, Verdict::kFailed);
+  EXPECT_EQ(certified_subset(built, candidate).verdict, Verdict::kFailed);
   // Up to -3/8 some of the light is seen from a part of it.
   candidate.lights[0].per_caster_umbra = false;
   candidate.lights[0].polygons[0].fragments[3] = rectangle(kIsPenumbra, -0.5, -1, -0.375, 1);
   candidate.lights[0].polygons[0].fragments[4] = rectangle(kIsUmbra, -0.375, -1, 2.25, 1);
-  report = certified(built, candidate);
+  report = certified_subset(built, candidate);
   EXPECT_EQ(report.verdict, Verdict::kFailed);
   EXPECT_GE(report.lights[0].polygons[0].misclassified.fraction.upper, 0.125 / 16);
   EXPECT_LE(report.lights[0].polygons[0].misclassified.fraction.upper, 0.2 / 16);
@@ -220,12 +214,12 @@ TEST(AreaVerdictStrips, DeepUmbraOfASheetMayBeClaimed) {
     }
   }
   const BuiltScene built = builder.build();
-  Candidate candidate = nested({{8, kIsLit}, {3, kIsPenumbra}, {1, kIsUmbra}});
-  const Report report = certified(built, candidate);
+  Claims candidate = nested({{8, kIsLit}, {3, kIsPenumbra}, {1, kIsUmbra}});
+  const Report report = certified_subset(built, candidate);
   EXPECT_EQ(report.verdict, Verdict::kIdentical) << report.reason;
   EXPECT_TRUE(report.lights[0].polygons[0].umbra.zero);
   candidate.lights[0].per_caster_umbra = true;
-  EXPECT_EQ(certified(built, candidate).verdict, Verdict::kFailed);
+  EXPECT_EQ(certified_subset(built, candidate).verdict, Verdict::kFailed);
 }
 
 TEST(AreaVerdictSoups, ExactCandidatesAreIdentical) {
@@ -233,7 +227,7 @@ TEST(AreaVerdictSoups, ExactCandidatesAreIdentical) {
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
     const BuiltScene built = lattice_area_soup(seed, 9, seed % 2 == 0 ? 4 : 2);
     const ExactAnswer answer(built.scene, built.prepared);
-    Candidate candidate = exact_candidate(answer);
+    Claims candidate = exact_candidate(answer);
     for (const bool per_caster : {true, false}) {
       candidate.lights[0].per_caster_umbra = per_caster;
       const Expected<Report> report = certify(answer, candidate, {});
@@ -252,10 +246,10 @@ TEST(AreaVerdictSoups, ExactCandidatesAreIdentical) {
     // One class changed is found, by regions and as a rule by points.
     Random random(seed);
     candidate.lights[0].per_caster_umbra = true;
-    CandidateLight& light = candidate.lights[0];
-    CandidatePolygon& polygon = light.polygons[random.next() % light.polygons.size()];
-    CandidateFragment& fragment = polygon.fragments[random.next() % polygon.fragments.size()];
-    fragment.shade = fragment.shade == kIsUmbra ? kIsPenumbra : kIsUmbra;
+    ClaimedLight& light = candidate.lights[0];
+    ClaimedPolygon& polygon = light.polygons[random.next() % light.polygons.size()];
+    ClaimedFragment& fragment = polygon.fragments[random.next() % polygon.fragments.size()];
+    fragment.state = fragment.state == kIsUmbra ? kIsPenumbra : kIsUmbra;
     EXPECT_EQ(certify(answer, candidate, {})->verdict, Verdict::kFailed) << seed;
   }
   EXPECT_GT(fragments, 4000u);
@@ -271,7 +265,7 @@ TEST(AreaVerdictMixed, LightsOfEveryKind) {
           .sun("sun", {0, 1, 2})
           .build();
   const ExactAnswer answer(built.scene, built.prepared);
-  Candidate candidate = exact_candidate(answer);
+  Claims candidate = exact_candidate(answer);
   const Report report = *certify(answer, candidate, {});
   EXPECT_EQ(report.verdict, Verdict::kIdentical) << report.reason;
   ASSERT_EQ(report.lights.size(), 3u);

@@ -25,20 +25,9 @@ class AreaWitness : public testing::Test {
         answer_(built_.scene, built_.prepared),
         good_(exact_candidate(answer_)) {}
 
-  std::string first_finding(const Candidate& candidate) const {
-    const WitnessReport report = check_witnesses(built_.scene, built_.prepared, candidate);
-    return report.findings.empty() ? "" : report.findings[0].text;
-  }
-  CandidateFragment& fragment(Candidate& candidate, std::size_t polygon, ShadeClass shade) const {
-    for (CandidateFragment& own : candidate.lights[0].polygons[polygon].fragments) {
-      if (own.shade == shade) return own;
-    }
-    throw std::runtime_error("none");
-  }
-
   BuiltScene built_;
   ExactAnswer answer_;
-  Candidate good_;
+  Claims good_;
 };
 
 TEST_F(AreaWitness, RightIsAccepted) {
@@ -49,71 +38,73 @@ TEST_F(AreaWitness, RightIsAccepted) {
 }
 
 TEST_F(AreaWitness, EveryLieIsNamed) {
-  const ShadeClass lit = ShadeClass::kLit, penumbra = ShadeClass::kPenumbra,
-                   umbra = ShadeClass::kUmbra;
-  Candidate wrong = good_;
-  fragment(wrong, 0, umbra).caster = "wall";
-  EXPECT_THAT(first_finding(wrong), HasSubstr("'wall' does not hide all of the light"));
+  const LightState lit = LightState::kLit, penumbra = LightState::kPenumbra,
+                   umbra = LightState::kUmbra;
+  Claims wrong = good_;
+  fragment_of(wrong, 0, umbra).caster = "wall";
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("'wall' does not hide all of the light"));
 
   wrong = good_;
-  fragment(wrong, 0, penumbra).caster = "away";
-  EXPECT_THAT(first_finding(wrong), HasSubstr("'away' does not hide part of the light"));
+  fragment_of(wrong, 0, penumbra).caster = "away";
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("'away' does not hide part of the light"));
 
   wrong = good_;
-  fragment(wrong, 0, penumbra).caster.clear();
-  EXPECT_THAT(first_finding(wrong), HasSubstr("a penumbra fragment names no caster"));
+  fragment_of(wrong, 0, penumbra).caster.clear();
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("a penumbra fragment names no caster"));
 
   wrong = good_;
-  fragment(wrong, 0, umbra).caster.clear();
-  EXPECT_THAT(first_finding(wrong), HasSubstr("an umbra fragment names no caster"));
+  fragment_of(wrong, 0, umbra).caster.clear();
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("an umbra fragment names no caster"));
 
   wrong = good_;
-  fragment(wrong, 0, umbra).reason = "behind-light";
-  EXPECT_THAT(first_finding(wrong), HasSubstr("'behind-light' does not hold"));
+  fragment_of(wrong, 0, umbra).reason = "behind-light";
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("'behind-light' does not hold"));
 
   wrong = good_;
-  fragment(wrong, 0, penumbra).shade = lit;
-  EXPECT_THAT(first_finding(wrong), HasSubstr("a lit fragment is in the penumbra of 'lid'"));
+  fragment_of(wrong, 0, penumbra).state = lit;
+  EXPECT_THAT(first_finding(built_, wrong),
+              HasSubstr("a lit fragment is in the penumbra of 'lid'"));
 
   wrong = good_;
-  fragment(wrong, 0, penumbra).shade = umbra;
-  EXPECT_THAT(first_finding(wrong), HasSubstr("does not hide all of the light"));
+  fragment_of(wrong, 0, penumbra).state = umbra;
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("does not hide all of the light"));
 
   wrong = good_;
-  fragment(wrong, 0, umbra).shade = penumbra;
-  EXPECT_THAT(first_finding(wrong), HasSubstr("a penumbra fragment is in the umbra of 'lid'"));
+  fragment_of(wrong, 0, umbra).state = penumbra;
+  EXPECT_THAT(first_finding(built_, wrong),
+              HasSubstr("a penumbra fragment is in the umbra of 'lid'"));
   wrong.lights[0].per_caster_umbra = false;
-  EXPECT_EQ(first_finding(wrong), "");
+  EXPECT_EQ(first_finding(built_, wrong), "");
 
   wrong = good_;
-  fragment(wrong, 2, umbra).shade = lit;
-  EXPECT_THAT(first_finding(wrong), HasSubstr("a lit fragment reaches behind the light"));
+  fragment_of(wrong, 2, umbra).state = lit;
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("a lit fragment reaches behind the light"));
 
   wrong = good_;
-  fragment(wrong, 3, umbra).shade = lit;
-  EXPECT_THAT(first_finding(wrong), HasSubstr("sees nothing of the light"));
+  fragment_of(wrong, 3, umbra).state = lit;
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("sees nothing of the light"));
 
   wrong = good_;
-  fragment(wrong, 0, lit).shade = ShadeClass::kShadow;
-  EXPECT_THAT(first_finding(wrong), HasSubstr("an area light does not have"));
+  fragment_of(wrong, 0, lit).state = LightState::kShadow;
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("an area light does not have"));
 
   wrong = good_;
   wrong.lights[0].polygons[0].umbra_fraction = mpq_class(1, 3);
-  EXPECT_THAT(first_finding(wrong), HasSubstr("umbra fraction is claimed as 1/3"));
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("umbra fraction is claimed as 1/3"));
   wrong.lights[0].polygons[0].umbra_fraction = mpq_class(65, 512);
-  EXPECT_EQ(first_finding(wrong), "");
+  EXPECT_EQ(first_finding(built_, wrong), "");
 
   wrong = good_;
   wrong.lights[0].polygons.erase(wrong.lights[0].polygons.begin() + 1);
-  EXPECT_THAT(first_finding(wrong), HasSubstr("the polygon is missing"));
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("the polygon is missing"));
 
   wrong = good_;
   wrong.lights[0].polygons.push_back(wrong.lights[0].polygons[1]);
-  EXPECT_THAT(first_finding(wrong), HasSubstr("listed twice"));
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("listed twice"));
 
   wrong = good_;
   wrong.lights.clear();
-  EXPECT_THAT(first_finding(wrong), HasSubstr("the light is missing"));
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("the light is missing"));
 }
 
 TEST(AreaWitnessSides, BothSidesAreListed) {
@@ -123,7 +114,7 @@ TEST(AreaWitnessSides, BothSidesAreListed) {
           .area("panel", {{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}})
           .build();
   const ExactAnswer answer(built.scene, built.prepared);
-  Candidate candidate = exact_candidate(answer);
+  Claims candidate = exact_candidate(answer);
   ASSERT_EQ(candidate.lights[0].polygons.size(), 2u);
   EXPECT_EQ(check_witnesses(built.scene, built.prepared, candidate).violations, 0u);
   candidate.lights[0].polygons.pop_back();
@@ -136,21 +127,21 @@ TEST(AreaWitnessSoups, AgreesWithTheVerdict) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const BuiltScene built = lattice_area_soup(seed, 9, seed % 2 == 0 ? 4 : 2);
     const ExactAnswer answer(built.scene, built.prepared);
-    const Candidate candidate = exact_candidate(answer);
+    const Claims candidate = exact_candidate(answer);
     const WitnessReport exact = check_witnesses(built.scene, built.prepared, candidate);
     EXPECT_EQ(exact.violations, 0u)
         << seed << " " << exact.findings[0].polygon << " " << exact.findings[0].text;
     Random random(seed);
     for (int i = 0; i < 4; ++i) {
-      Candidate wrong = candidate;
-      CandidateLight& light = wrong.lights[0];
-      CandidatePolygon& polygon = light.polygons[random.next() % light.polygons.size()];
-      CandidateFragment& fragment = polygon.fragments[random.next() % polygon.fragments.size()];
+      Claims wrong = candidate;
+      ClaimedLight& light = wrong.lights[0];
+      ClaimedPolygon& polygon = light.polygons[random.next() % light.polygons.size()];
+      ClaimedFragment& fragment = polygon.fragments[random.next() % polygon.fragments.size()];
       fragment.reason.clear();
-      const ShadeClass others[] = {ShadeClass::kLit, ShadeClass::kPenumbra, ShadeClass::kUmbra};
-      ShadeClass other = fragment.shade;
-      while (other == fragment.shade) other = others[random.next() % 3];
-      fragment.shade = other;
+      const LightState others[] = {LightState::kLit, LightState::kPenumbra, LightState::kUmbra};
+      LightState other = fragment.state;
+      while (other == fragment.state) other = others[random.next() % 3];
+      fragment.state = other;
       EXPECT_GT(check_witnesses(built.scene, built.prepared, wrong).violations, 0u) << seed;
       EXPECT_EQ(certify(answer, wrong, {})->verdict, Verdict::kFailed) << seed;
     }

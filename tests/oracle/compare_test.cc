@@ -22,17 +22,9 @@ class Compare : public testing::Test {
                    .build()),
         answer_(built_.scene, built_.prepared) {}
 
-  static CandidateFragment rectangle(ShadeClass shade, double x0, double y0, double x1, double y1,
-                                     double z = 0) {
-    CandidateFragment fragment;
-    fragment.shade = shade;
-    fragment.loop = {at(x0, y0, z), at(x1, y0, z), at(x1, y1, z), at(x0, y1, z)};
-    return fragment;
-  }
-
-  PolygonComparison compare(std::vector<CandidateFragment> fragments,
-                            std::optional<ShadeClass> background = {}) const {
-    CandidatePolygon polygon;
+  PolygonComparison compare(std::vector<ClaimedFragment> fragments,
+                            std::optional<LightState> background = {}) const {
+    ClaimedPolygon polygon;
     polygon.id = "floor";
     polygon.fragments = std::move(fragments);
     return compare_entry(answer_, 0, answer_.entries(0)[0], &polygon, {background}, {});
@@ -40,8 +32,8 @@ class Compare : public testing::Test {
 
   BuiltScene built_;
   ExactAnswer answer_;
-  static constexpr ShadeClass kIsLit = ShadeClass::kLit;
-  static constexpr ShadeClass kIsShadow = ShadeClass::kShadow;
+  static constexpr LightState kIsLit = LightState::kLit;
+  static constexpr LightState kIsShadow = LightState::kShadow;
 };
 
 TEST_F(Compare, RightInManyPieces) {
@@ -73,12 +65,12 @@ TEST_F(Compare, MissingSliver) {
 
 TEST_F(Compare, SlantedSliverIsThinToo) {
   // Along the diagonal, bent at the middle: long, thin, and in no direction narrow as a whole.
-  CandidateFragment lower;
-  lower.shade = kIsShadow;
+  ClaimedFragment lower;
+  lower.state = kIsShadow;
   const double thin = 0x1p-40;
   lower.loop = {at(0, 0, 0), at(2, 0, 0), at(2, 1.5, 0), at(1, 1, 0), at(0, 2, 0)};
-  CandidateFragment upper;
-  upper.shade = kIsShadow;
+  ClaimedFragment upper;
+  upper.state = kIsShadow;
   upper.loop = {at(0, 2 + thin, 0), at(1, 1 + thin, 0), at(2, 1.5 + thin, 0), at(2, 4, 0),
                 at(0, 4, 0)};
   const PolygonComparison found = compare({lower, upper, rectangle(kIsLit, 2, 0, 4, 4)});
@@ -91,11 +83,11 @@ TEST_F(Compare, SlantedSliverIsThinToo) {
 
 TEST_F(Compare, WidthOfKnownShapes) {
   // A right triangle of sides 3, 4, 5 has the incircle of diameter 2; scaled by 1/2.
-  CandidateFragment triangle;
-  triangle.shade = kIsLit;
+  ClaimedFragment triangle;
+  triangle.state = kIsLit;
   triangle.loop = {at(0, 0, 0), at(1.5, 0, 0), at(0, 2, 0)};
-  CandidateFragment rest;
-  rest.shade = kIsShadow;
+  ClaimedFragment rest;
+  rest.state = kIsShadow;
   rest.loop = {at(1.5, 0, 0), at(2, 0, 0), at(2, 4, 0), at(0, 4, 0), at(0, 2, 0)};
   const PolygonComparison found = compare({triangle, rest, rectangle(kIsLit, 2, 0, 4, 4)});
   EXPECT_EQ(found.misclassified.exact, mpq_class(3, 32));
@@ -137,8 +129,8 @@ TEST_F(Compare, OffPlaneIsProjected) {
 }
 
 TEST_F(Compare, SelfCrossing) {
-  CandidateFragment bow;
-  bow.shade = kIsShadow;
+  ClaimedFragment bow;
+  bow.state = kIsShadow;
   bow.loop = {at(0, 0, 0), at(2, 4, 0), at(2, 0, 0), at(0, 4, 0)};
   const PolygonComparison found = compare({bow, rectangle(kIsLit, 2, 0, 4, 4)});
   EXPECT_EQ(found.self_crossing, 1u);
@@ -159,11 +151,11 @@ TEST_F(Compare, BackgroundAndNothing) {
 }
 
 TEST_F(Compare, OrientationAndRepeatedVerticesAreFree) {
-  CandidateFragment clockwise = rectangle(kIsShadow, 0, 0, 2, 4);
+  ClaimedFragment clockwise = rectangle(kIsShadow, 0, 0, 2, 4);
   std::reverse(clockwise.loop.begin(), clockwise.loop.end());
   clockwise.loop.insert(clockwise.loop.begin() + 1, clockwise.loop[1]);
   clockwise.loop.push_back(clockwise.loop.front());
-  CandidateFragment flat = rectangle(kIsLit, 0, 0, 0, 4);
+  ClaimedFragment flat = rectangle(kIsLit, 0, 0, 0, 4);
   const PolygonComparison found = compare({clockwise, flat, rectangle(kIsLit, 2, 0, 4, 4)});
   EXPECT_TRUE(found.misclassified.zero);
   EXPECT_TRUE(found.overlapping.zero);
@@ -172,10 +164,10 @@ TEST_F(Compare, OrientationAndRepeatedVerticesAreFree) {
 TEST_F(Compare, AWitnessIsInsideItsRegion) {
   for (int i = 0; i < 20; ++i) {
     Random random(static_cast<std::uint64_t>(i));
-    std::vector<CandidateFragment> fragments;
+    std::vector<ClaimedFragment> fragments;
     for (int k = 0; k < 6; ++k) {
-      CandidateFragment fragment;
-      fragment.shade = random.integer(0, 1) == 0 ? kIsLit : kIsShadow;
+      ClaimedFragment fragment;
+      fragment.state = random.integer(0, 1) == 0 ? kIsLit : kIsShadow;
       for (int v = 0; v < 3; ++v) {
         fragment.loop.push_back(at(random.integer(0, 4), random.integer(0, 4), 0));
       }
@@ -183,7 +175,7 @@ TEST_F(Compare, AWitnessIsInsideItsRegion) {
     }
     const PolygonComparison found = compare(fragments);
     for (const ErrorRegion& region : found.worst) {
-      const ExactPoint& p = region.witness.point;
+      const RationalPoint& p = region.witness.point;
       EXPECT_EQ(p[2], 0);
       if (!region.witness.truth) continue;
       EXPECT_EQ(*region.witness.truth, p[0] < 2 ? kIsShadow : kIsLit);

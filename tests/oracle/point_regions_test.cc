@@ -15,7 +15,7 @@ namespace {
 mpq_class ratio(int a, int b) { return mpq_class(a) / b; }
 
 mpq_class lit_fraction(const BuiltScene& built, std::uint32_t light, const std::string& id,
-                       PolygonSide side = PolygonSide::kFront) {
+                       Side side = Side::kFront) {
   const ExactAnswer answer(built.scene, built.prepared);
   for (const AnswerEntry& entry : answer.entries(light)) {
     if (built.scene.polygons[entry.polygon].id != id || entry.side != side) continue;
@@ -109,7 +109,7 @@ TEST(PointRegions, SidesAndCasts) {
       EXPECT_EQ(lit_fraction(built, 0, "floor"),
                 two_sided && casts ? mpq_class(63, 64) : mpq_class(1));
       if (two_sided) {
-        EXPECT_EQ(lit_fraction(built, 0, "quad", PolygonSide::kBack), 1);
+        EXPECT_EQ(lit_fraction(built, 0, "quad", Side::kBack), 1);
       } else {
         EXPECT_EQ(lit_fraction(built, 0, "quad"), 0);
       }
@@ -165,7 +165,7 @@ void agree(const BuiltScene& built, std::uint64_t seed, std::uint64_t& compared,
               for (int k = 0; k < 3; ++k) sum[k] += weight * vertex[k];
             }
             if (weights == 0) continue;
-            ExactPoint point;
+            RationalPoint point;
             for (int k = 0; k < 3; ++k) {
               mpq_class coordinate(sum[k], weights);
               coordinate.canonicalize();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "gnomon/oracle/witness_check.h"
 #include "oracle/geometry/group_overlay.h"
 
 namespace gnomon::oracle {
@@ -131,7 +132,9 @@ BuiltScene lattice_area_soup(std::uint64_t seed, int polygons, int size) {
   }
 }
 
-ExactPoint at(double x, double y, double z) { return {mpq_class(x), mpq_class(y), mpq_class(z)}; }
+RationalPoint at(double x, double y, double z) {
+  return {mpq_class(x), mpq_class(y), mpq_class(z)};
+}
 
 namespace {
 
@@ -153,16 +156,16 @@ Loop half(const Loop& loop, const ChartLine& line, int sign) {
 
 }  // namespace
 
-Candidate exact_candidate(const ExactAnswer& answer) {
-  Candidate candidate;
+Claims exact_candidate(const ExactAnswer& answer) {
+  Claims candidate;
   candidate.name = "exact";
   const PreparedScene& prepared = answer.prepared();
   for (std::uint32_t light = 0; light < prepared.lights.size(); ++light) {
-    CandidateLight found;
+    ClaimedLight found;
     found.id = answer.scene().lights[prepared.lights[light].light].id;
     found.per_caster_umbra = answer.is_area(light);
     for (const AnswerEntry& entry : answer.entries(light)) {
-      CandidatePolygon polygon;
+      ClaimedPolygon polygon;
       polygon.id = answer.scene().polygons[entry.polygon].id;
       polygon.side = entry.side;
       for (const ReceiverGroup& group : entry.groups) {
@@ -176,9 +179,9 @@ Candidate exact_candidate(const ExactAnswer& answer) {
           if (orientation(whole[0], whole[1], whole[2]) < 0) {
             std::reverse(whole.begin(), whole.end());
           }
-          const auto add = [&](const Loop& loop, ShadeClass shade, const std::string& caster) {
-            CandidateFragment fragment;
-            fragment.shade = shade;
+          const auto add = [&](const Loop& loop, LightState shade, const std::string& caster) {
+            ClaimedFragment fragment;
+            fragment.state = shade;
             fragment.caster = caster;
             fragment.exact = true;
             for (const ChartPoint& point : loop) {
@@ -188,14 +191,14 @@ Candidate exact_candidate(const ExactAnswer& answer) {
           };
           const bool area = answer.is_area(light);
           if (!group.faces) {
-            add(whole, area ? ShadeClass::kUmbra : ShadeClass::kShadow, {});
+            add(whole, area ? LightState::kUmbra : LightState::kShadow, {});
             polygon.fragments.back().reason = area                   ? "behind-light"
                                               : group.light_in_plane ? "light-in-plane"
                                                                      : "faces-away";
             continue;
           }
           // What one loop leaves of each of `rest`; what it takes is added.
-          const auto take = [&](const Loop& piece, ShadeClass shade, const std::string& caster,
+          const auto take = [&](const Loop& piece, LightState shade, const std::string& caster,
                                 std::vector<Loop>& rest) {
             std::vector<Loop> left;
             for (Loop loop : rest) {
@@ -219,23 +222,23 @@ Candidate exact_candidate(const ExactAnswer& answer) {
             const AreaShade& shade = answer.area_shade(light, part, group.side);
             if (!shade.behind.empty()) {
               const std::size_t before = polygon.fragments.size();
-              take(shade.behind, ShadeClass::kUmbra, {}, lit);
+              take(shade.behind, LightState::kUmbra, {}, lit);
               for (std::size_t f = before; f < polygon.fragments.size(); ++f) {
                 polygon.fragments[f].reason = "behind-light";
               }
             }
             for (const ShadowPiece& piece : shade.umbra) {
-              take(piece.loop, ShadeClass::kUmbra, id_of(piece.caster), lit);
+              take(piece.loop, LightState::kUmbra, id_of(piece.caster), lit);
             }
             for (const ShadowPiece& piece : shade.penumbra) {
-              take(piece.loop, ShadeClass::kPenumbra, id_of(piece.caster), lit);
+              take(piece.loop, LightState::kPenumbra, id_of(piece.caster), lit);
             }
           } else {
             for (const ShadowPiece& piece : answer.shadows(light, part)) {
-              take(piece.loop, ShadeClass::kShadow, id_of(piece.caster), lit);
+              take(piece.loop, LightState::kShadow, id_of(piece.caster), lit);
             }
           }
-          for (const Loop& loop : lit) add(loop, ShadeClass::kLit, {});
+          for (const Loop& loop : lit) add(loop, LightState::kLit, {});
         }
       }
       found.polygons.push_back(std::move(polygon));
@@ -243,6 +246,35 @@ Candidate exact_candidate(const ExactAnswer& answer) {
     candidate.lights.push_back(std::move(found));
   }
   return candidate;
+}
+
+const std::vector<Triple> kFloor{{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}};
+const std::vector<Triple> kPanel{{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}};
+
+ClaimedFragment rectangle(LightState state, double x0, double y0, double x1, double y1, double z) {
+  ClaimedFragment fragment;
+  fragment.state = state;
+  fragment.exact = true;
+  fragment.loop = {at(x0, y0, z), at(x1, y0, z), at(x1, y1, z), at(x0, y1, z)};
+  return fragment;
+}
+
+ClaimedFragment& fragment_of(Claims& claims, std::size_t polygon, LightState state) {
+  for (ClaimedFragment& own : claims.lights[0].polygons[polygon].fragments) {
+    if (own.state == state) return own;
+  }
+  throw std::runtime_error("no fragment of that class");
+}
+
+Report certified(const BuiltScene& built, const Claims& claims, const CertifyOptions& options) {
+  Expected<Report> report = certify(built.scene, built.prepared, claims, options);
+  if (!report) throw std::runtime_error(to_string(report.error()));
+  return std::move(*report);
+}
+
+std::string first_finding(const BuiltScene& built, const Claims& claims) {
+  const WitnessReport report = check_witnesses(built.scene, built.prepared, claims);
+  return report.findings.empty() ? "" : report.findings[0].text;
 }
 
 }  // namespace gnomon::oracle

@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/oracle/candidate.h"
 #include "gnomon/oracle/exact_answer.h"
+#include "gnomon/oracle/verdict.h"
+#include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
 
@@ -60,8 +61,23 @@ BuiltScene lattice_soup(std::uint64_t seed, int polygons, int size);
 BuiltScene lattice_area_soup(std::uint64_t seed, int polygons, int size);
 
 /// Classes of area lights are claimed per caster.
-Candidate exact_candidate(const ExactAnswer& answer);
-ExactPoint at(double x, double y, double z);
+Claims exact_candidate(const ExactAnswer& answer);
+RationalPoint at(double x, double y, double z);
+
+/// A square of 16 by 16 at height 0, and under area lights the light above its middle, which faces
+/// down.
+extern const std::vector<Triple> kFloor, kPanel;
+/// An exact fragment at height z.
+ClaimedFragment rectangle(LightState state, double x0, double y0, double x1, double y1,
+                          double z = 0);
+/// The first fragment of that class of a polygon under the first light. Throws std::runtime_error
+/// if there is none.
+ClaimedFragment& fragment_of(Claims& claims, std::size_t polygon, LightState state);
+
+/// What the oracle says of them; fails the test if it refuses to.
+Report certified(const BuiltScene& built, const Claims& claims, const CertifyOptions& options = {});
+/// The first violation that the checker of claims finds; empty if there is none.
+std::string first_finding(const BuiltScene& built, const Claims& claims);
 
 }  // namespace gnomon::oracle
 

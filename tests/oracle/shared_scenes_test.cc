@@ -52,9 +52,9 @@ TEST(SharedScenes, AllWaysAgree) {
     const std::vector<PreparedFinding> findings = check_prepared(built->scene, built->prepared);
     EXPECT_TRUE(findings.empty()) << findings[0].polygon << ": " << findings[0].text;
     const ExactAnswer answer(built->scene, built->prepared);
-    Candidate candidate = exact_candidate(answer);
+    Claims candidate = exact_candidate(answer);
     std::erase_if(candidate.lights,
-                  [](const CandidateLight& light) { return light.polygons.empty(); });
+                  [](const ClaimedLight& light) { return light.polygons.empty(); });
     const Report report = *certify(answer, candidate, {});
     EXPECT_EQ(report.verdict, Verdict::kIdentical) << report.reason;
     CertifyOptions by_points;

@@ -18,18 +18,12 @@ BuiltScene table() {
       .build();
 }
 
-Report certified(const BuiltScene& built, const Candidate& candidate, CertifyOptions options = {}) {
-  Expected<Report> report = certify(built.scene, built.prepared, candidate, options);
-  EXPECT_TRUE(report.has_value());
-  return *report;
-}
-
 TEST(Verdict, ExactCandidatesAreIdenticalOnSoups) {
   std::uint64_t fragments = 0;
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     const BuiltScene built = lattice_soup(seed, 14, 4);
     const ExactAnswer answer(built.scene, built.prepared);
-    const Candidate candidate = exact_candidate(answer);
+    const Claims candidate = exact_candidate(answer);
     const Expected<Report> report = certify(answer, candidate, {});
     ASSERT_TRUE(report.has_value());
     EXPECT_EQ(report->verdict, Verdict::kIdentical) << seed << " " << report->reason;
@@ -45,11 +39,11 @@ TEST(Verdict, RoundedCandidatesAreWithinTolerance) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const BuiltScene built = lattice_soup(seed, 14, 4);
     const ExactAnswer answer(built.scene, built.prepared);
-    Candidate candidate = exact_candidate(answer);
-    for (CandidateLight& light : candidate.lights) {
-      for (CandidatePolygon& polygon : light.polygons) {
-        for (CandidateFragment& fragment : polygon.fragments) {
-          for (ExactPoint& point : fragment.loop) {
+    Claims candidate = exact_candidate(answer);
+    for (ClaimedLight& light : candidate.lights) {
+      for (ClaimedPolygon& polygon : light.polygons) {
+        for (ClaimedFragment& fragment : polygon.fragments) {
+          for (RationalPoint& point : fragment.loop) {
             for (mpq_class& coordinate : point) coordinate = coordinate.get_d();
           }
         }
@@ -73,57 +67,57 @@ TEST(Verdict, RoundedCandidatesAreWithinTolerance) {
 TEST(Verdict, MissingAndUnknown) {
   const BuiltScene built = table();
   const ExactAnswer answer(built.scene, built.prepared);
-  const Candidate good = exact_candidate(answer);
+  const Claims good = exact_candidate(answer);
   EXPECT_EQ(certified(built, good).verdict, Verdict::kIdentical);
 
-  Candidate missing = good;
+  Claims missing = good;
   missing.lights[0].polygons.pop_back();
   EXPECT_EQ(certified(built, missing).reason, "light 'sun': polygon 'quad' (front) is missing");
   CertifyOptions subset;
   subset.subset = true;
   EXPECT_EQ(certified(built, missing, subset).verdict, Verdict::kIdentical);
 
-  Candidate no_light = good;
+  Claims no_light = good;
   no_light.lights.clear();
   EXPECT_EQ(certified(built, no_light).reason, "light 'sun' is missing");
 
-  Candidate unknown = good;
+  Claims unknown = good;
   unknown.lights[0].polygons[0].id = "flor";
   EXPECT_EQ(certified(built, unknown, subset).reason,
             "light 'sun': no polygon 'flor' in the scene");
 
-  Candidate twice = good;
+  Claims twice = good;
   twice.lights[0].polygons.push_back(twice.lights[0].polygons[0]);
   EXPECT_EQ(certified(built, twice).reason, "light 'sun': polygon 'floor' (front) is listed twice");
 
-  Candidate penumbra = good;
-  penumbra.lights[0].polygons[0].fragments[0].shade = ShadeClass::kPenumbra;
+  Claims penumbra = good;
+  penumbra.lights[0].polygons[0].fragments[0].state = LightState::kPenumbra;
   EXPECT_EQ(certified(built, penumbra).verdict, Verdict::kFailed);
 
-  Candidate background = good;
-  background.lights[0].background = ShadeClass::kLit;
+  Claims background = good;
+  background.lights[0].background = LightState::kLit;
   background.lights[0].polygons.pop_back();
   std::erase_if(background.lights[0].polygons[0].fragments,
-                [](const CandidateFragment& f) { return f.shade == ShadeClass::kLit; });
+                [](const ClaimedFragment& f) { return f.state == LightState::kLit; });
   EXPECT_EQ(certified(built, background).verdict, Verdict::kIdentical);
-  background.lights[0].background = ShadeClass::kShadow;
+  background.lights[0].background = LightState::kShadow;
   EXPECT_EQ(certified(built, background).verdict, Verdict::kFailed);
 }
 
 TEST(Verdict, SwappedClassHasAWitness) {
   const BuiltScene built = table();
   const ExactAnswer answer(built.scene, built.prepared);
-  Candidate wrong = exact_candidate(answer);
-  for (CandidateFragment& fragment : wrong.lights[0].polygons[0].fragments) {
-    fragment.shade = ShadeClass::kLit;
+  Claims wrong = exact_candidate(answer);
+  for (ClaimedFragment& fragment : wrong.lights[0].polygons[0].fragments) {
+    fragment.state = LightState::kLit;
   }
   const Report report = certified(built, wrong);
   EXPECT_EQ(report.verdict, Verdict::kFailed);
   ASSERT_TRUE(report.worst.has_value());
   EXPECT_EQ(report.worst->light, "sun");
   EXPECT_EQ(report.worst->polygon, "floor");
-  EXPECT_EQ(report.worst->found, ShadeClass::kLit);
-  EXPECT_EQ(report.worst->truth, ShadeClass::kShadow);
+  EXPECT_EQ(report.worst->found, LightState::kLit);
+  EXPECT_EQ(report.worst->truth, LightState::kShadow);
   EXPECT_EQ(report.worst->caster, "quad");
   EXPECT_EQ(report.worst->text, "found lit, truly shadow behind 'quad'");
   EXPECT_EQ(report.worst->point[2], 0);
@@ -150,10 +144,10 @@ TEST(Verdict, IllConditionedIsCountedApart) {
           .sun("sun", {0, 1, 1})
           .build();
   const ExactAnswer answer(built.scene, built.prepared);
-  Candidate wrong = exact_candidate(answer);
-  for (CandidateFragment& fragment : wrong.lights[0].polygons[1].fragments) {
-    EXPECT_EQ(fragment.shade, ShadeClass::kShadow);
-    fragment.shade = ShadeClass::kLit;
+  Claims wrong = exact_candidate(answer);
+  for (ClaimedFragment& fragment : wrong.lights[0].polygons[1].fragments) {
+    EXPECT_EQ(fragment.state, LightState::kShadow);
+    fragment.state = LightState::kLit;
   }
   EXPECT_EQ(certified(built, wrong).verdict, Verdict::kFailed);
   CertifyOptions options;
@@ -168,7 +162,7 @@ TEST(Verdict, IllConditionedIsCountedApart) {
 TEST(Verdict, PointsAboveTheLimit) {
   const BuiltScene built = lattice_soup(5, 14, 4);
   const ExactAnswer answer(built.scene, built.prepared);
-  Candidate candidate = exact_candidate(answer);
+  Claims candidate = exact_candidate(answer);
   CertifyOptions options;
   options.most_pairs = 10;
   Report report = certified(built, candidate, options);
@@ -176,9 +170,9 @@ TEST(Verdict, PointsAboveTheLimit) {
   EXPECT_EQ(report.verdict, Verdict::kWithinTolerance) << report.reason;
   EXPECT_GT(report.points_checked, 100u);
   EXPECT_EQ(report.points_wrong, 0u);
-  for (CandidateLight& light : candidate.lights) {
-    for (CandidatePolygon& polygon : light.polygons) {
-      for (CandidateFragment& fragment : polygon.fragments) fragment.shade = ShadeClass::kLit;
+  for (ClaimedLight& light : candidate.lights) {
+    for (ClaimedPolygon& polygon : light.polygons) {
+      for (ClaimedFragment& fragment : polygon.fragments) fragment.state = LightState::kLit;
     }
   }
   report = certified(built, candidate, options);

@@ -27,20 +27,9 @@ class WitnessCheck : public testing::Test {
         answer_(built_.scene, built_.prepared),
         good_(exact_candidate(answer_)) {}
 
-  std::string first_finding(const Candidate& candidate) const {
-    const WitnessReport report = check_witnesses(built_.scene, built_.prepared, candidate);
-    return report.findings.empty() ? "" : report.findings[0].text;
-  }
-  CandidateFragment& fragment(Candidate& candidate, ShadeClass shade) const {
-    for (CandidateFragment& own : candidate.lights[0].polygons[0].fragments) {
-      if (own.shade == shade) return own;
-    }
-    throw std::runtime_error("none");
-  }
-
   BuiltScene built_;
   ExactAnswer answer_;
-  Candidate good_;
+  Claims good_;
 };
 
 TEST_F(WitnessCheck, RightIsAccepted) {
@@ -59,81 +48,77 @@ TEST(WitnessCheckCoplanar, ACasterInThePlaneShadowsNothing) {
                                .sun("sun", {0, 0, 1})
                                .build();
   const ExactAnswer answer(built.scene, built.prepared);
-  const Candidate good = exact_candidate(answer);
-  const auto first_finding = [&](const Candidate& candidate) {
-    const WitnessReport report = check_witnesses(built.scene, built.prepared, candidate);
-    return report.findings.empty() ? "" : report.findings[0].text;
-  };
-  EXPECT_EQ(first_finding(good), "");
-  Candidate wrong = good;
-  CandidateFragment& fragment = wrong.lights[0].polygons[1].fragments[0];
-  fragment.shade = ShadeClass::kShadow;
+  const Claims good = exact_candidate(answer);
+  EXPECT_EQ(first_finding(built, good), "");
+  Claims wrong = good;
+  ClaimedFragment& fragment = wrong.lights[0].polygons[1].fragments[0];
+  fragment.state = LightState::kShadow;
   fragment.caster = "a";
-  EXPECT_THAT(first_finding(wrong), HasSubstr("'a' does not shadow all"));
-  Candidate rounded = good;
-  for (CandidateFragment& own : rounded.lights[0].polygons[1].fragments) {
+  EXPECT_THAT(first_finding(built, wrong), HasSubstr("'a' does not shadow all"));
+  Claims rounded = good;
+  for (ClaimedFragment& own : rounded.lights[0].polygons[1].fragments) {
     own.exact = false;
-    for (ExactPoint& point : own.loop) point[2] = mpq_class(-1, mpz_class(1) << 50);
+    for (RationalPoint& point : own.loop) point[2] = mpq_class(-1, mpz_class(1) << 50);
   }
-  EXPECT_EQ(first_finding(rounded), "");
+  EXPECT_EQ(first_finding(built, rounded), "");
 }
 
 TEST_F(WitnessCheck, EveryLieIsNamed) {
-  Candidate wrong = good_;
-  fragment(wrong, ShadeClass::kShadow).caster = "upright";
-  EXPECT_THAT(first_finding(wrong), HasSubstr("'upright' does not shadow all"));
+  Claims wrong = good_;
+  fragment_of(wrong, 0, LightState::kShadow).caster = "upright";
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("'upright' does not shadow all"));
 
   wrong = good_;
-  fragment(wrong, ShadeClass::kShadow).caster = "nobody";
-  EXPECT_THAT(first_finding(wrong), HasSubstr("no caster 'nobody'"));
+  fragment_of(wrong, 0, LightState::kShadow).caster = "nobody";
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("no caster 'nobody'"));
 
   wrong = good_;
-  fragment(wrong, ShadeClass::kShadow).caster.clear();
-  EXPECT_THAT(first_finding(wrong), HasSubstr("names no caster"));
+  fragment_of(wrong, 0, LightState::kShadow).caster.clear();
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("names no caster"));
 
   wrong = good_;
-  fragment(wrong, ShadeClass::kShadow).reason = "faces-away";
-  EXPECT_THAT(first_finding(wrong), HasSubstr("'faces-away' does not hold"));
+  fragment_of(wrong, 0, LightState::kShadow).reason = "faces-away";
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("'faces-away' does not hold"));
 
   wrong = good_;
-  fragment(wrong, ShadeClass::kShadow).shade = ShadeClass::kLit;
-  EXPECT_THAT(first_finding(wrong), HasSubstr("shadowed by 'lid'"));
+  fragment_of(wrong, 0, LightState::kShadow).state = LightState::kLit;
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("shadowed by 'lid'"));
 
   wrong = good_;
-  wrong.lights[0].polygons[2].fragments[0].shade = ShadeClass::kLit;
-  EXPECT_THAT(first_finding(wrong), HasSubstr("does not face the light"));
+  wrong.lights[0].polygons[2].fragments[0].state = LightState::kLit;
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("does not face the light"));
 
   wrong = good_;
   wrong.lights[0].polygons[3].fragments[0].reason = "faces-away";
-  EXPECT_THAT(first_finding(wrong), HasSubstr("does not hold"));
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("does not hold"));
 
   wrong = good_;
   wrong.lights[0].polygons[0].lit_fraction = mpq_class(1, 3);
-  EXPECT_THAT(first_finding(wrong), HasSubstr("claimed as 1/3"));
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("claimed as 1/3"));
   wrong.lights[0].polygons[0].lit_fraction = mpq_class(1, 2);
-  EXPECT_EQ(first_finding(wrong), "");
+  EXPECT_EQ(first_finding(built_, wrong), "");
 
   wrong = good_;
-  for (ExactPoint& point : fragment(wrong, ShadeClass::kLit).loop)
+  for (RationalPoint& point : fragment_of(wrong, 0, LightState::kLit).loop)
     point[2] += mpq_class(1, 1000000);
-  EXPECT_THAT(first_finding(wrong), HasSubstr("plane"));
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("plane"));
 
   wrong = good_;
-  for (ExactPoint& point : fragment(wrong, ShadeClass::kLit).loop)
+  for (RationalPoint& point : fragment_of(wrong, 0, LightState::kLit).loop)
     point[0] += mpq_class(1, 1000000);
-  EXPECT_THAT(first_finding(wrong), HasSubstr("leaves the polygon"));
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("leaves the polygon"));
 
   wrong = good_;
   wrong.lights[0].polygons[0].fragments.push_back(wrong.lights[0].polygons[0].fragments[0]);
-  EXPECT_THAT(first_finding(wrong), HasSubstr("do not add up"));
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("do not add up"));
 
   wrong = good_;
   wrong.lights[0].polygons.pop_back();
-  EXPECT_THAT(first_finding(wrong), HasSubstr("missing"));
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("missing"));
 
   wrong = good_;
   wrong.lights[0].id = "moon";
-  EXPECT_THAT(first_finding(wrong), HasSubstr("no such light"));
+  EXPECT_THAT(first_finding(built_, wrong), HasSubstr("no such light"));
 }
 
 TEST_F(WitnessCheck, AgreesWithTheVerdictOnSoups) {
@@ -141,15 +126,15 @@ TEST_F(WitnessCheck, AgreesWithTheVerdictOnSoups) {
     const BuiltScene built = lattice_soup(seed, 12, 4);
     EXPECT_TRUE(check_prepared(built.scene, built.prepared).empty()) << seed;
     const ExactAnswer answer(built.scene, built.prepared);
-    Candidate candidate = exact_candidate(answer);
+    Claims candidate = exact_candidate(answer);
     const WitnessReport exact = check_witnesses(built.scene, built.prepared, candidate);
     EXPECT_EQ(exact.violations, 0u)
         << seed << " " << exact.findings[0].polygon << " " << exact.findings[0].text;
-    for (CandidateLight& light : candidate.lights) {
-      for (CandidatePolygon& polygon : light.polygons) {
-        for (CandidateFragment& fragment : polygon.fragments) {
+    for (ClaimedLight& light : candidate.lights) {
+      for (ClaimedPolygon& polygon : light.polygons) {
+        for (ClaimedFragment& fragment : polygon.fragments) {
           fragment.exact = false;
-          for (ExactPoint& point : fragment.loop) {
+          for (RationalPoint& point : fragment.loop) {
             for (mpq_class& coordinate : point) coordinate = coordinate.get_d();
           }
         }
@@ -161,12 +146,12 @@ TEST_F(WitnessCheck, AgreesWithTheVerdictOnSoups) {
     // One class changed: the checker and the overlay must both object.
     Random random(seed);
     for (int i = 0; i < 5; ++i) {
-      Candidate wrong = exact_candidate(answer);
-      CandidateLight& light = wrong.lights[random.next() % wrong.lights.size()];
-      CandidatePolygon& polygon = light.polygons[random.next() % light.polygons.size()];
-      CandidateFragment& fragment = polygon.fragments[random.next() % polygon.fragments.size()];
+      Claims wrong = exact_candidate(answer);
+      ClaimedLight& light = wrong.lights[random.next() % wrong.lights.size()];
+      ClaimedPolygon& polygon = light.polygons[random.next() % light.polygons.size()];
+      ClaimedFragment& fragment = polygon.fragments[random.next() % polygon.fragments.size()];
       fragment.reason.clear();
-      fragment.shade = fragment.shade == ShadeClass::kLit ? ShadeClass::kShadow : ShadeClass::kLit;
+      fragment.state = fragment.state == LightState::kLit ? LightState::kShadow : LightState::kLit;
       EXPECT_GT(check_witnesses(built.scene, built.prepared, wrong).violations, 0u) << seed;
       EXPECT_EQ(certify(answer, wrong, {})->verdict, Verdict::kFailed) << seed;
     }

@@ -11,7 +11,9 @@
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/scene/read.h"
 #include "kernel/signs/nearest_double.h"
-#include "report/sides/candidate_from_result.h"
+#include "report/facts/facing.h"
+#include "report/sides/claims_of.h"
+#include "report/sides/part_area.h"
 #include "report/sides/polygon_sides.h"
 
 namespace gnomon::report {
@@ -107,16 +109,14 @@ TEST(ResultJson, WhatIsNoNumberIsNullAndAFinding) {
 
 TEST(CandidateFromResult, LeavesOutWhatHasNoCoordinates) {
   Classified all = classify(kScene, KernelId::kDouble);
-  const auto count = [](const oracle::Candidate& candidate) {
+  const auto count = [](const Claims& candidate) {
     std::size_t fragments = 0;
     for (const auto& polygon : candidate.lights[0].polygons) fragments += polygon.fragments.size();
     return fragments;
   };
-  const std::size_t before =
-      count(candidate_from_result(all.scene, all.prepared, all.result, "double", false));
+  const std::size_t before = count(claims_of(all.scene, all.prepared, all.result, "double", false));
   all.result.lights[0].points[0][1] = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(count(candidate_from_result(all.scene, all.prepared, all.result, "double", false)),
-            before - 1);
+  EXPECT_EQ(count(claims_of(all.scene, all.prepared, all.result, "double", false)), before - 1);
 }
 
 /// The same under a panel, and a two-sided fin that reaches behind its plane.
@@ -193,20 +193,19 @@ TEST(AreaLights, WhatSeesCutsAndReachesBehind) {
 
 TEST(AreaLights, TheOracleGetsWhatWasClassified) {
   const Classified all = classify(kAreaScene);
-  const oracle::Candidate candidate =
-      candidate_from_result(all.scene, all.prepared, all.result, "plane", true);
+  const Claims candidate = claims_of(all.scene, all.prepared, all.result, "plane", true);
   ASSERT_EQ(candidate.lights.size(), 2u);
   EXPECT_TRUE(candidate.lights[0].per_caster_umbra);
   EXPECT_FALSE(candidate.lights[1].per_caster_umbra);
   std::size_t behind = 0;
-  for (const oracle::CandidatePolygon& polygon : candidate.lights[0].polygons) {
+  for (const ClaimedPolygon& polygon : candidate.lights[0].polygons) {
     EXPECT_FALSE(polygon.shadow_fraction);
     EXPECT_EQ(polygon.umbra_fraction.has_value(), polygon.id != "bent");
-    for (const oracle::CandidateFragment& fragment : polygon.fragments) {
-      EXPECT_NE(fragment.shade, oracle::ShadeClass::kShadow);
+    for (const ClaimedFragment& fragment : polygon.fragments) {
+      EXPECT_NE(fragment.state, LightState::kShadow);
       if (fragment.reason.empty()) continue;
       EXPECT_EQ(fragment.reason, polygon.id == "above" ? "faces-away" : "behind-light");
-      EXPECT_EQ(fragment.shade, oracle::ShadeClass::kUmbra);
+      EXPECT_EQ(fragment.state, LightState::kUmbra);
       ++behind;
     }
   }

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,6 +12,7 @@
 #include "gnomon/scene/write.h"
 #include "scene/base/output_file.h"
 #include "scene_testing.h"
+#include "tests/support/test_directory.h"
 
 namespace gnomon {
 namespace {
@@ -26,14 +26,7 @@ const std::string kOff = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 class Files : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "gnomon-scene-io-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    directory_ = pattern;
-  }
-  void TearDown() override { fs::remove_all(directory_); }
-
-  fs::path path(const std::string& name) const { return directory_ / name; }
+  fs::path path(const std::string& name) const { return directory_.path() / name; }
   fs::path put(const std::string& name, const std::string& text) const {
     std::ofstream(path(name), std::ios::binary) << text;
     return path(name);
@@ -42,17 +35,13 @@ class Files : public ::testing::Test {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
   }
-  std::size_t file_count() const {
-    return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
-  }
   static Error error_of_file(const fs::path& file) {
     auto result = read_scene(file);
     EXPECT_FALSE(result);
     return result ? Error() : result.error();
   }
 
-  fs::path directory_;
+  const test::TestDirectory directory_;
 };
 
 TEST_F(Files, FormatByExtensionThenByContent) {
@@ -90,7 +79,7 @@ TEST_F(Files, StandardInputIsJson) {
 TEST_F(Files, ThatCannotBeRead) {
   EXPECT_EQ(to_string(error_of_file(path("absent.json"))),
             path("absent.json").string() + ": cannot open: No such file or directory");
-  EXPECT_EQ(error_of_file(directory_).what, "is a directory");
+  EXPECT_EQ(error_of_file(directory_.path()).what, "is a directory");
   EXPECT_EQ(error_of_file("").code, ErrorCode::kFile);
   for (const char* name : {"a.json", "a.obj", "a.off", "a.ply", "a"}) {
     EXPECT_EQ(error_of_file(put(name, "")).what, "the file is empty");
@@ -111,20 +100,20 @@ TEST_F(Files, WrittenAsAWhole) {
   auto back = read_scene(path("out.json"));
   ASSERT_TRUE(back);
   expect_same_scene(back->scene, scene);
-  EXPECT_EQ(file_count(), 1u);
+  EXPECT_EQ(directory_.count(), 1u);
   {
     auto file = OutputFile::open(path("out.json"));
     ASSERT_TRUE(file);
     ASSERT_TRUE(file->write("half of"));
-    EXPECT_EQ(file_count(), 2u);
+    EXPECT_EQ(directory_.count(), 2u);
     EXPECT_EQ(content(path("out.json")), scene_to_text(scene, SceneFormat::kJson)->text);
   }
   // Not committed: all is as it was.
-  EXPECT_EQ(file_count(), 1u);
+  EXPECT_EQ(directory_.count(), 1u);
   EXPECT_EQ(content(path("out.json")), scene_to_text(scene, SceneFormat::kJson)->text);
   ASSERT_TRUE(write_file(path("out.json"), "new"));
   EXPECT_EQ(content(path("out.json")), "new");
-  EXPECT_EQ(file_count(), 1u);
+  EXPECT_EQ(directory_.count(), 1u);
 }
 
 TEST_F(Files, KeepTheirModeAndTheirLinks) {
@@ -139,13 +128,13 @@ TEST_F(Files, KeepTheirModeAndTheirLinks) {
 
 TEST_F(Files, ThatCannotBeWritten) {
   EXPECT_EQ(write_file(path("absent/out"), "x").error().code, ErrorCode::kFile);
-  EXPECT_THAT(to_string(write_file(directory_, "x").error()), HasSubstr("Is a directory"));
+  EXPECT_THAT(to_string(write_file(directory_.path(), "x").error()), HasSubstr("Is a directory"));
   EXPECT_EQ(write_file("", "x").error().code, ErrorCode::kFile);
   if (fs::exists("/dev/full")) {
     EXPECT_THAT(to_string(write_file("/dev/full", "x").error()), HasSubstr("No space left"));
   }
   EXPECT_TRUE(write_file("/dev/null", "x"));
-  EXPECT_EQ(file_count(), 0u);
+  EXPECT_EQ(directory_.count(), 0u);
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ std::string compare_with_oracle(const Case& scene, const ShadowResult& result) {
     for (const std::string& problem : report.problems) wrong += "; " + problem;
     if (report.worst) {
       wrong += fmt::format("; light '{}', polygon '{}' {}, at ({}, {}, {})", report.worst->light,
-                           report.worst->polygon, oracle::name_of(report.worst->side),
+                           report.worst->polygon, name_of(report.worst->side),
                            report.worst->point[0].get_str(), report.worst->point[1].get_str(),
                            report.worst->point[2].get_str());
     }
@@ -119,8 +119,8 @@ std::string compare_with_oracle(const Case& scene, const ShadowResult& result) {
   oracle::WitnessOptions exactly;
   exactly.tolerance = 0;
   exactly.width = 0;
-  const oracle::WitnessReport claims = oracle::check_witnesses(
-      scene.scene(), scene.prepared(), candidate_of(scene, result), exactly);
+  const oracle::WitnessReport claims =
+      oracle::check_witnesses(scene.scene(), scene.prepared(), claims_of(scene, result), exactly);
   if (claims.findings.empty()) return {};
   const oracle::WitnessFinding& finding = claims.findings.front();
   return fmt::format("{} by {}: claims, light '{}', polygon '{}': {}", result.kernel,
@@ -189,12 +189,12 @@ std::vector<ShadowOptions> variants() {
   for (const KernelId kernel : kExactKernels) {
     ShadowOptions options = options_for(kernel);
     options.jobs = kernel == KernelId::kPlane ? 2 : 1;
-    options.algorithm = kernel == KernelId::kRational ? Algorithm::kReceiver : Algorithm::kSectors;
+    options.algorithm = kernel == KernelId::kRational ? MethodId::kReceiver : MethodId::kSectors;
     all.push_back(options);
     if (kernel == KernelId::kEpeck) continue;
     options.jobs = 1;
     options.merge = false;
-    options.area_algorithm = AreaAlgorithm::kMerged;
+    options.area_algorithm = MethodId::kMerged;
     all.push_back(options);
   }
   return all;
@@ -210,7 +210,7 @@ std::string check_area_exact(const Case& scene) {
     const bool is_first = first.kernel.empty();
     std::string wrong = check_sums(scene, *result);
     if (wrong.empty() && !is_first) wrong = compare_results(scene, first, *result);
-    if (wrong.empty() && (is_first || options.area_algorithm == AreaAlgorithm::kMerged)) {
+    if (wrong.empty() && (is_first || options.area_algorithm == MethodId::kMerged)) {
       wrong = compare_with_oracle(scene, *result);
     }
     if (wrong.empty() && is_first) wrong = check_bounds(scene, *result, options);

@@ -39,10 +39,8 @@ std::string compare_with_oracle(const Case& scene, const ShadowResult& result) {
                           light_of(scene, light.light), polygon_of(scene, part));
           const bool faces = own.reason == ShadowReason::kNone;
           const bool in_plane = own.reason == ShadowReason::kLightInPlane;
-          const auto side =
-              own.side == Side::kBack ? oracle::PolygonSide::kBack : oracle::PolygonSide::kFront;
           if (faces != group.faces || in_plane != group.light_in_plane ||
-              (faces && side != entry.side)) {
+              (faces && own.side != entry.side)) {
             return place + ": faces otherwise than the oracle says";
           }
           // Coplanar parts: areas are in the ratio of any component of their area vectors.
@@ -161,8 +159,8 @@ std::string check_claims(const Case& scene, const ShadowResult& result) {
   exactly.tolerance = 0;
   exactly.width = 0;
   exactly.subset = result.lights.size() != scene.prepared().lights.size();
-  const oracle::WitnessReport report = oracle::check_witnesses(
-      scene.scene(), scene.prepared(), candidate_of(scene, result), exactly);
+  const oracle::WitnessReport report =
+      oracle::check_witnesses(scene.scene(), scene.prepared(), claims_of(scene, result), exactly);
   if (report.findings.empty()) return {};
   const oracle::WitnessFinding& finding = report.findings.front();
   return fmt::format("{}: claims, light '{}', polygon '{}': {}", name_of(result), finding.light,
@@ -177,17 +175,17 @@ std::vector<ShadowOptions> variants(const Case& scene) {
     for (std::uint32_t light = 0; light < scene.prepared().lights.size(); ++light) {
       if (!scene.is_area(light)) options.lights.push_back(light);
     }
-    options.algorithm = Algorithm::kSectors;
+    options.algorithm = MethodId::kSectors;
     options.jobs = 1;
     if (kernel == KernelId::kPlane) all.push_back(options);
     all.push_back(with_small_cells(options));
     if (kernel == KernelId::kPlane) all.back().jobs = 2;
-    options.algorithm = Algorithm::kSvbsp;
+    options.algorithm = MethodId::kSvbsp;
     options.merge = options.prefix = kernel != KernelId::kRational;
     options.seed = 1 + static_cast<std::uint64_t>(kernel);
     all.push_back(options);
     if (kernel != KernelId::kPlane) continue;
-    options.algorithm = Algorithm::kReceiver;  // as area lights are found
+    options.algorithm = MethodId::kReceiver;  // as area lights are found
     all.push_back(options);
   }
   return all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs a kernel on a scene and hands its result to the oracle as a candidate. Written for the tests
-// alone, so that they do not lean on the code that the command line uses for the same purpose.
+// Runs a kernel on a scene and hands its result to the oracle, by the translation that the command
+// uses too; claims_test.cc holds that translation against a second one.
 #ifndef GNOMON_TESTS_SUPPORT_SOLVE_H
 #define GNOMON_TESTS_SUPPORT_SOLVE_H
 
@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
+#include "fuzz/check/judged_scene.h"
 #include "gnomon/algorithms/shadows.h"
-#include "gnomon/oracle/exact_answer.h"
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
@@ -25,25 +25,27 @@ class Case {
 
   const Scene& scene() const { return scene_; }
   const PreparedScene& prepared() const { return prepared_; }
-  const oracle::ExactAnswer& answer() const { return answer_; }
+  const fuzz::JudgedScene& judged() const { return judged_; }
+  const oracle::ExactAnswer& answer() const { return judged_.answer(); }
   bool is_area(std::uint32_t light) const {
     return prepared_.lights[light].type == LightType::kArea;
   }
 
  private:
   Case(Scene scene, PreparedScene prepared)
-      : scene_(std::move(scene)), prepared_(std::move(prepared)), answer_(scene_, prepared_) {}
+      : scene_(std::move(scene)), prepared_(std::move(prepared)), judged_(scene_, prepared_) {}
 
   Scene scene_;
   PreparedScene prepared_;
-  oracle::ExactAnswer answer_;
+  fuzz::JudgedScene judged_;
 };
 
 /// Options for a comparison: exact points, and exact fractions if the kernel has them.
 ShadowOptions options_for(KernelId kernel);
 
-/// Requires: the result was computed with keep_exact_points.
-oracle::Candidate candidate_of(const Case& scene, const ShadowResult& result);
+/// What the result claims, without fractions. Requires: the result was computed with
+/// keep_exact_points.
+Claims claims_of(const Case& scene, const ShadowResult& result);
 
 /// The lights of the result certified, with one thread, without tolerance (strict) or with the
 /// default one.
@@ -51,11 +53,11 @@ oracle::Report judge(const Case& scene, const ShadowResult& result, bool strict 
 
 /// A kernel with its policies, by name: "double@1e-12" (thickness), "double+identity@0", "epick",
 /// "plane". Throws std::runtime_error for a name that is none.
-ShadowOptions options_by_name(const std::string& name, Algorithm algorithm);
+ShadowOptions options_by_name(const std::string& name, MethodId algorithm);
 
-inline constexpr std::array kAlgorithms = {Algorithm::kSectors, Algorithm::kSvbsp};
+inline constexpr std::array kAlgorithms = {MethodId::kSectors, MethodId::kSvbsp};
 /// "sectors", "svbsp"
-std::string name_of(Algorithm algorithm);
+std::string name_of(MethodId algorithm);
 /// Sectors with cells so small that few polygons make a tree and many tasks.
 ShadowOptions with_small_cells(ShadowOptions options);
 

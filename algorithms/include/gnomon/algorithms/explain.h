@@ -8,7 +8,7 @@
 #include <string>
 
 #include "gnomon/algorithms/shadows.h"
-#include "kernel/pair/kernel_pair.h"
+#include "gnomon/kernel/differing_decision.h"
 
 namespace gnomon {
 

@@ -28,7 +28,6 @@
 #include <span>
 #include <vector>
 
-#include "gnomon/algorithms/mutation.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/kernel/error.h"
 #include "gnomon/kernel/sign.h"
@@ -82,8 +81,7 @@ struct ShadingOptions {
   static constexpr double kDark = 1.0 / 32;
   double tolerance = 0;
   unsigned max_depth = 6;
-  double ambient = 0;                   // what every point receives besides; all that the umbra has
-  Mutation mutation = Mutation::kNone;  // kTVerticesLeftIn: wrong on purpose
+  double ambient = 0;  // what every point receives besides; all that the umbra has
   std::uint64_t max_faces = 4'000'000;
   std::function<void(double)> progress;  // fraction of the work done, 0..1; may be empty
   const std::atomic<bool>* interrupted = nullptr;

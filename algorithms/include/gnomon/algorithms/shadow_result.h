@@ -13,13 +13,9 @@
 
 #include "gnomon/kernel/sign.h"
 #include "gnomon/kernel/stage_counts.h"
+#include "gnomon/result/classes.h"
 
 namespace gnomon {
-
-enum class LightState : std::uint8_t { kLit, kShadow, kPenumbra, kUmbra };
-
-/// Why a whole part is in shadow without any caster.
-enum class ShadowReason : std::uint8_t { kNone, kFacesAway, kLightInPlane, kBehindLight };
 
 /// Certified bounds: the true value is in [lower, upper].
 struct Interval {
@@ -59,7 +55,7 @@ struct AreaFractions {
 struct LightResult {
   static constexpr std::uint32_t kWhole = 0xffffffffu;
   std::uint32_t light = 0;  // index into PreparedScene::lights
-  // AreaAlgorithm::kPieces: one result a piece of the light, in order of the pieces; else kWhole.
+  // MethodId::kPieces: one result a piece of the light, in order of the pieces; else kWhole.
   std::uint32_t piece = kWhole;
   // Of that piece, counter-clockwise seen from its front, scene units: if exact points are kept.
   std::vector<std::array<mpq_class, 3>> piece_loop;

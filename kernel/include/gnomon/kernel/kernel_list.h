@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The kernels by name, and what each guarantees.
+// The kernels by name, and what each guarantees; the list itself is kernels.def.
 #ifndef GNOMON_KERNEL_KERNEL_LIST_H
 #define GNOMON_KERNEL_KERNEL_LIST_H
 
-#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace gnomon {
 
 enum class KernelId : std::uint8_t {
-  kFloat,
-  kDouble,
-  kLongDouble,
-  kEpick,
-  kEpeck,
-  kRational,
-  kPlane
+#define GNOMON_KERNEL(id, ...) id,
+#include "gnomon/kernel/kernels.def"
 };
 
 struct KernelInfo {
@@ -29,7 +24,7 @@ struct KernelInfo {
 };
 
 /// In the order of docs; `exact` on the command line is an alias of kDefaultExactKernel.
-const std::array<KernelInfo, 7>& kernel_list();
+std::span<const KernelInfo> kernel_list();
 const KernelInfo& kernel_info(KernelId id);
 std::optional<KernelId> kernel_by_name(std::string_view name);
 inline constexpr KernelId kDefaultExactKernel = KernelId::kPlane;

@@ -7,9 +7,9 @@
 //  * A plane is (n, d) with value n . x - d: positive in front, zero on, negative behind.
 //  * A side of a polygon *faces* a light when the light's homogeneous point (L, 1) or (to_light, 0)
 //    has a positive value: n . L - d > 0, or n . to_light > 0.
-//  * An edge plane of a loop (a shadow plane, or the plane that cut the edge) is oriented so that
-//  the
-//    loop's interior is in *front*: inside is positive. A signed reference carries the orientation.
+//  * An edge plane of a loop (a shadow plane, or the plane that cut the edge) has the interior of
+//    the loop in *front*: inside is positive. A signed reference, PlaneRef, carries the
+//    orientation.
 //  * Light space: q(v) = L - v for a point light; for a directional light d whose largest component
 //    is d_z, q(v) = (x d_z - z d_x, y d_z - z d_y, d_z), axes permuted cyclically otherwise. For a
 //    loop that is counter-clockwise seen from the light, det(q_a, q_b, q_c) is positive for d_z > 0

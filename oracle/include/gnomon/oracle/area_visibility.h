@@ -20,13 +20,13 @@
 #include <vector>
 
 #include "gnomon/kernel/sign.h"
-#include "gnomon/oracle/candidate.h"
+#include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
 
 namespace gnomon::oracle {
 
 struct AreaPointVisibility {
-  ShadeClass shade = ShadeClass::kLit;  // kLit, kPenumbra or kUmbra
+  LightState state = LightState::kLit;  // kLit, kPenumbra or kUmbra
   bool behind_light = false;  // umbra because p is not in front of the light, or R sees none of it
   bool on_boundary = false;   // nearby the class may be another
   /// One that hides all of A_R, else one that hides most of it.
@@ -48,14 +48,14 @@ class AreaVisibility {
 
   /// `point` in scene units, on the plane of `receiver`, seen from `side`. Cost: all casters, and
   /// for `fractions` the square of those that hide something. Thread-safe.
-  AreaPointVisibility at(std::uint32_t receiver, Side side, const ExactPoint& point,
+  AreaPointVisibility at(std::uint32_t receiver, Side side, const RationalPoint& point,
                          bool fractions = true) const;
   /// Whether certainly no part of A_R is visible from any point of a convex polygon on that side:
   /// what each caster hides from all its corners it hides from all of it, and these parts together
   /// cover A_R. False says nothing. A polygon on or behind the light's plane is no answer's concern
   /// here: false. Casters that share edges count as one sheet.
   bool hides_all_from(std::uint32_t receiver, Side side,
-                      const std::vector<ExactPoint>& polygon) const;
+                      const std::vector<RationalPoint>& polygon) const;
 
  private:
   struct Data;

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/oracle/candidate.h"
 #include "gnomon/oracle/exact_answer.h"
+#include "gnomon/result/claims.h"
 
 namespace gnomon::oracle {
 
@@ -26,12 +26,12 @@ enum class ErrorKind : std::uint8_t { kNone, kOverlapping, kOutside, kUncovered,
 /// A place that shows an error: enough to look at it and to check it by hand.
 struct Witness {
   std::string light, polygon;
-  PolygonSide side = PolygonSide::kFront;
+  Side side = Side::kFront;
   ErrorKind kind = ErrorKind::kNone;
-  ExactPoint point;  // strictly inside the region of error, on the support plane
+  RationalPoint point;  // strictly inside the region of error, on the support plane
   std::array<double, 3> nearest{};
-  std::optional<ShadeClass> found;  // none: uncovered
-  std::optional<ShadeClass> truth;  // none: outside the polygon
+  std::optional<LightState> found;  // none: uncovered
+  std::optional<LightState> truth;  // none: outside the polygon
   std::string caster;               // polygon that decides, empty if none does
   Enclosure width;                  // of the region around it, scene units
   std::optional<double> clearance;  // scene units; none: no single vertex is known to change it
@@ -55,7 +55,7 @@ struct ComparisonOptions {
 /// One polygon side under one light.
 struct PolygonComparison {
   std::string polygon;
-  PolygonSide side = PolygonSide::kFront;
+  Side side = Side::kFront;
   AreaShare lit, shadow;      // the truth
   AreaShare penumbra, umbra;  // the truth under an area light
   AreaShare misclassified, uncovered, overlapping, outside;
@@ -76,8 +76,8 @@ struct PolygonComparison {
 
 /// What is claimed of one polygon side besides its fragments.
 struct ClaimedTerms {
-  std::optional<ShadeClass> background;  // class of all that no fragment covers
-  bool per_caster_umbra = false;         // CandidateLight::per_caster_umbra
+  std::optional<LightState> background;  // class of all that no fragment covers
+  bool per_caster_umbra = false;         // ClaimedLight::per_caster_umbra
 };
 
 /// `candidate` may be null: nothing was found. Requires: `entry` is one of answer.entries(light).
@@ -85,11 +85,9 @@ struct ClaimedTerms {
 /// other two classes too; else penumbra is accepted wherever lit is not true, and umbra where it is
 /// true and where no light is certified to arrive.
 PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
-                                const AnswerEntry& entry, const CandidatePolygon* candidate,
+                                const AnswerEntry& entry, const ClaimedPolygon* candidate,
                                 const ClaimedTerms& terms, const ComparisonOptions& options);
 
-const char* name_of(ShadeClass shade);
-const char* name_of(PolygonSide side);
 const char* name_of(ErrorKind kind);
 
 }  // namespace gnomon::oracle

@@ -17,9 +17,8 @@
 
 #include "gnomon/kernel/sign.h"
 #include "gnomon/oracle/area_regions.h"
+#include "gnomon/oracle/area_share.h"
 #include "gnomon/oracle/area_visibility.h"
-#include "gnomon/oracle/candidate.h"
-#include "gnomon/oracle/enclosure.h"
 #include "gnomon/oracle/point_regions.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
@@ -31,24 +30,15 @@ struct ReceiverGroup {
   std::vector<std::uint32_t> parts;
   bool faces = false;  // some light can arrive; otherwise all of it is in shadow, or umbra
   bool light_in_plane = false;
-  bool optional = false;  // of another side than the entry's: may be listed here, as shadow
-  PolygonSide side = PolygonSide::kFront;  // area lights: the entry's
+  bool optional = false;     // of another side than the entry's: may be listed here, as shadow
+  Side side = Side::kFront;  // area lights: the entry's
 };
 
 /// One polygon side that a result lists.
 struct AnswerEntry {
   std::uint32_t polygon = 0;
-  PolygonSide side = PolygonSide::kFront;
+  Side side = Side::kFront;
   std::vector<ReceiverGroup> groups;
-};
-
-/// Area as a share of the polygon and in scene units squared. `exact` is the share, where known.
-struct AreaShare {
-  Enclosure fraction;
-  Enclosure area;
-  std::optional<mpq_class> exact;
-  /// True iff no area at all: decided by the subdivision, not by the enclosure.
-  bool zero = true;
 };
 
 struct TrueFractions {
@@ -77,7 +67,7 @@ class ExactAnswer {
   const AreaVisibility& area_visibility(std::uint32_t light) const;
   /// All that is not lit on one side of a part under an area light; umbra `behind` if it sees
   /// nothing of it.
-  const AreaShade& area_shade(std::uint32_t light, std::uint32_t part, PolygonSide side) const;
+  const AreaShade& area_shade(std::uint32_t light, std::uint32_t part, Side side) const;
   /// Drops what was kept of one light, for scenes with many.
   void forget(std::uint32_t light) const;
 

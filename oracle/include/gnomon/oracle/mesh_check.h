@@ -18,20 +18,20 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/oracle/candidate.h"
+#include "gnomon/result/claims.h"
 
 namespace gnomon::oracle {
 
 struct MeshFaceClaim {
   std::string polygon;
-  PolygonSide side = PolygonSide::kFront;
+  Side side = Side::kFront;
   bool dark = false;  // umbra of every light: its shade is its own and meets no neighbour's
-  std::vector<ExactPoint> loop;  // in order, not closed; corners between collinear edges count
-  std::vector<double> shades;    // of its corners; may be empty
+  std::vector<RationalPoint> loop;  // in order, not closed; corners between collinear edges count
+  std::vector<double> shades;       // of its corners; may be empty
 };
 
 struct TVertex {
-  ExactPoint point;
+  RationalPoint point;
   std::size_t face = 0;       // on whose edge it lies, index into the faces
   std::size_t edge = 0;       // from that corner of the face to the next
   std::size_t neighbour = 0;  // a face that has it as a corner

@@ -4,8 +4,7 @@
 //
 //   identical         misclassified, uncovered, overlapping and outside are exactly 0 everywhere;
 //   within tolerance  each is at most `tolerance` of every polygon, and every region of error and
-//   every
-//                     vertex off its plane at most `width`;
+//                     every vertex off its plane is at most `width`;
 //   failed            otherwise, or if something is missing, unknown or listed twice.
 //
 // Umbra of an area light that a candidate calls penumbra is a cost, told and not judged.
@@ -23,9 +22,9 @@
 #include <vector>
 
 #include "gnomon/kernel/error.h"
-#include "gnomon/oracle/candidate.h"
 #include "gnomon/oracle/compare.h"
 #include "gnomon/oracle/exact_answer.h"
+#include "gnomon/result/claims.h"
 
 namespace gnomon::oracle {
 
@@ -95,10 +94,10 @@ struct Report {
 };
 
 /// Errors: kUsage (tolerance, width or clearance negative or NaN). An interrupted run is a report.
-Expected<Report> certify(const ExactAnswer& answer, const Candidate& candidate,
+Expected<Report> certify(const ExactAnswer& answer, const Claims& candidate,
                          const CertifyOptions& options);
-Expected<Report> certify(const Scene& scene, const PreparedScene& prepared,
-                         const Candidate& candidate, const CertifyOptions& options);
+Expected<Report> certify(const Scene& scene, const PreparedScene& prepared, const Claims& candidate,
+                         const CertifyOptions& options);
 
 const char* name_of(Verdict verdict);
 /// The diagonal of the box of all vertices of parts, scene units.

@@ -11,7 +11,7 @@
 #include <memory>
 #include <optional>
 
-#include "gnomon/oracle/candidate.h"
+#include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
 
 namespace gnomon::oracle {
@@ -36,7 +36,7 @@ class VisibilityTest {
 
   /// `point` in scene units, on `receiver`'s plane. If the receiver has no side that faces the
   /// light and receives: kShadow without a caster. Cost: all casters. Thread-safe.
-  PointVisibility at(std::uint32_t receiver, const ExactPoint& point) const;
+  PointVisibility at(std::uint32_t receiver, const RationalPoint& point) const;
 
  private:
   struct Data;

@@ -24,7 +24,7 @@
 #include <string>
 #include <vector>
 
-#include "gnomon/oracle/candidate.h"
+#include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
 
@@ -53,7 +53,7 @@ struct WitnessOptions {
 };
 
 WitnessReport check_witnesses(const Scene& scene, const PreparedScene& prepared,
-                              const Candidate& candidate, const WitnessOptions& options = {});
+                              const Claims& candidate, const WitnessOptions& options = {});
 
 }  // namespace gnomon::oracle
 

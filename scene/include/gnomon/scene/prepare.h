@@ -92,13 +92,13 @@ struct PreparedScene {
 /// Loops and holes may touch themselves and each other in vertices and along edges (a keyhole, two
 /// lobes that meet in a vertex, a hole on the border): the region is what counts, and what two
 /// rings share cancels. Crossing is an error. An ear is clipped only if its closed triangle holds
-/// no other vertex, so that touching vertices forbid it (scene/src/polygon_cut.h has the rule). Of
-/// repeated vertices the smallest index of Scene::vertices counts. Vertices that no loop names have
-/// no part in the grid. Errors: kGeometry (a loop that crosses itself or runs round an area twice,
-/// a hole that crosses or leaves its loop or overlaps another, degenerate or non-planar area light,
-/// zero to_light), kIndex. Cost: O(n log n) for n vertices, plus the square of a loop's size where
-/// it is not convex. Large scenes are worked on by all threads of the caller's task arena (oneTBB);
-/// the result, errors included, does not depend on their number.
+/// no other vertex, so that touching vertices forbid it (scene/prepare/polygon_cut.h has the rule).
+/// Of repeated vertices the smallest index of Scene::vertices counts. Vertices that no loop names
+/// have no part in the grid. Errors: kGeometry (a loop that crosses itself or runs round an area
+/// twice, a hole that crosses or leaves its loop or overlaps another, degenerate or non-planar area
+/// light, zero to_light), kIndex. Cost: O(n log n) for n vertices, plus the square of a loop's size
+/// where it is not convex. Large scenes are worked on by all threads of the caller's task arena
+/// (oneTBB); the result, errors included, does not depend on their number.
 Expected<PreparedScene> prepare(const Scene& scene);
 
 }  // namespace gnomon

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The file formats of scenes, by name and by extension.
+// The file formats of scenes, by name, by extension and by content.
 #ifndef GNOMON_SCENE_SCENE_FORMAT_H
 #define GNOMON_SCENE_SCENE_FORMAT_H
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon {
 
@@ -15,10 +17,15 @@ enum class SceneFormat : std::uint8_t { kJson, kObj, kOff, kPlyAscii, kPlyBinary
 
 /// "json", "obj", "off", "ply" (ascii), "ply-binary".
 std::string_view format_name(SceneFormat format);
+/// The names of all formats.
+std::vector<std::string> format_names();
+/// The extensions of scene files, for messages: ".json, .obj, .off or .ply".
+std::string shown_scene_extensions();
+
 std::optional<SceneFormat> format_by_name(std::string_view name);
 /// By .json, .obj, .off or .ply, in any case.
 std::optional<SceneFormat> format_by_extension(const std::filesystem::path& path);
-/// By the first bytes; nothing if they fit none.
+/// By the first bytes; nothing if they fit no format.
 std::optional<SceneFormat> format_by_content(std::string_view text);
 
 }  // namespace gnomon

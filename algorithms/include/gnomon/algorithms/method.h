@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The table of methods: every way to shadows that this library has, with its source, what it takes
+// and what it can put out. The command line, its help, the fuzzer's subjects and the benchmarks
+// read it; nothing else lists methods.
+#ifndef GNOMON_ALGORITHMS_METHOD_H
+#define GNOMON_ALGORITHMS_METHOD_H
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace gnomon {
+
+enum class MethodId : std::uint8_t {
+  kAutomatic,  // sectors and receiver, or svbsp where only that can do what is asked (`combined`)
+  kSectors,
+  kSvbsp,
+  kReceiver,
+  kMerged,
+  kPieces,
+};
+
+/// Where a method finds its regions: on the polygons themselves, or in a picture of them.
+enum class Domain : std::uint8_t { kObjectSpace, kImageSpace };
+
+/// The lights that a question is about; `point` stands for directional lights, too.
+struct LightKinds {
+  bool point = false, area = false;
+};
+
+struct Method {
+  MethodId id = MethodId::kAutomatic;
+  std::string_view name;     // on the command line and in results
+  std::string_view summary;  // a clause for help texts, in parentheses after the name
+  std::string_view source;   // paper and section
+  LightKinds lights;         // the lights that it takes
+  bool on_rounded_kernels = true, on_exact_kernels = true;
+  Domain domain = Domain::kObjectSpace;
+  bool chosen_by_name = true;  // false: an option of another method stands for it
+  // What it can put out or be asked besides classified fragments with witnesses:
+  bool combines_lights = false;   // the set of lights that reach each fragment
+  bool explains = false;          // the first decision on which a rounded kernel goes wrong
+  bool leaves_out_steps = false;  // runs without the balanced prefix, and without merging fragments
+};
+
+/// In the order of the documents; kAutomatic is no row.
+std::span<const Method> methods();
+/// Requires: not kAutomatic.
+const Method& method_info(MethodId id);
+/// The method that is chosen by this name; none for "auto".
+std::optional<MethodId> method_by_name(std::string_view name);
+/// Names of the methods that take lights of one of these kinds and are chosen by name, joined by
+/// ", ".
+std::string method_names(LightKinds lights);
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_METHOD_H

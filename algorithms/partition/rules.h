@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The choices of the definition (docs/semantics.md), each named by what is right. The defaults are
+// the definition, and every public function runs with them. Algorithms ask a rule wherever they
+// make its choice: its name finds all such places, and a test can turn one rule around and see who
+// notices (docs/bug-zoo.md).
+#ifndef GNOMON_ALGORITHMS_PARTITION_RULES_H
+#define GNOMON_ALGORITHMS_PARTITION_RULES_H
+
+#include <array>
+#include <span>
+
+namespace gnomon {
+
+/// A loop as one that only looks at its shape sees it.
+struct LoopShape {
+  std::span<const std::array<double, 3>> corners;  // rounded, in scene units
+  bool is_input = true;                            // no corner was made by a split
+};
+
+struct Rules {
+  /// All polygons of a plane are classified before any of them casts: coplanar polygons do not
+  /// shadow each other (semantics, "Lit and in shadow").
+  bool coplanar_classified_first = true;
+  /// What lies in a plane goes to the side that the definition names: a coplanar polygon is not
+  /// behind, penumbra volumes are open and umbra volumes closed ("Lit and in shadow", "Lit,
+  /// penumbra and umbra").
+  bool on_goes_to_its_own_side = true;
+  /// A light in the plane of a polygon reaches neither of its sides ("Lights").
+  bool light_in_plane_does_not_reach = true;
+  /// Of an area light on both sides of a polygon's plane only the part in front of it counts
+  /// ("Lit, penumbra and umbra": A_R and A_O).
+  bool straddling_light_is_cut = true;
+  /// A shadow volume goes on behind the volumes in its way, as far as its caster hides the light
+  /// ("Lit, penumbra and umbra": a penumbra volume depends on its caster alone).
+  bool volumes_continue_behind_others = true;
+  /// A vertex on the edge of a neighbouring face is a vertex of that face, too: its illumination
+  /// is the same from both sides (shading_mesh.h, "no T-vertices").
+  bool neighbour_vertices_are_in_the_face = true;
+  /// Which fragments stay: null for all of them, however thin they are, since fragments tile their
+  /// polygon ("A result").
+  bool (*fragment_stays)(const LoopShape&) = nullptr;
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_PARTITION_RULES_H

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What every method is given to do, and how it says that it had to stop: the one signature behind
+// the table of methods. The front door (run/compute.h) has checked the options and chosen the
+// lights.
+#ifndef GNOMON_ALGORITHMS_PARTITION_RUN_TASK_H
+#define GNOMON_ALGORITHMS_PARTITION_RUN_TASK_H
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "algorithms/partition/rules.h"
+#include "algorithms/partition/run_options.h"
+#include "gnomon/algorithms/shadow_options.h"
+#include "gnomon/algorithms/shadow_result.h"
+#include "gnomon/kernel/error.h"
+#include "gnomon/scene/prepare.h"
+
+namespace gnomon {
+
+/// Indices into PreparedScene::lights.
+using LightList = std::vector<std::uint32_t>;
+
+struct RunTask {
+  const PreparedScene& scene;
+  const ShadowOptions& options;
+  const Rules& rules;
+  const LightList& lights;    // classified one by one
+  const LightList& combined;  // classified together, besides; at most 64, most often none
+};
+
+/// A method on a kernel. Fills the lights, the combined fragments and the counts of the result.
+/// Errors: kInterrupted, kLimit.
+using MethodFunction = Expected<ShadowResult> (*)(const RunTask&);
+
+inline tl::unexpected<Error> interrupted() { return fail(ErrorCode::kInterrupted, "interrupted"); }
+inline tl::unexpected<Error> too_many_fragments(const ShadowOptions& options) {
+  return fail(ErrorCode::kLimit,
+              "more than " + std::to_string(options.max_fragments) + " fragments",
+              "a simpler scene, or a higher limit");
+}
+
+/// The number of threads for ShadowOptions::jobs: more than processors would only wait for each
+/// other.
+inline int thread_count(unsigned jobs) {
+  const unsigned most = std::max(1u, std::thread::hardware_concurrency());
+  return static_cast<int>(jobs == 0 ? most : std::min(jobs, most));
+}
+
+/// The part of the public options that one light's run is told.
+inline RunOptions run_options_of(const ShadowOptions& options) {
+  RunOptions result;
+  result.keep_points = options.keep_points;
+  result.keep_exact_points = options.keep_exact_points;
+  result.exact_fractions = options.exact_fractions;
+  result.merge = options.merge;
+  result.prefix = options.prefix;
+  result.leaf_size = options.leaf_size;
+  result.task_size = options.task_size;
+  result.jobs = options.jobs;
+  result.max_fragments = options.max_fragments;
+  result.interrupted = options.interrupted;
+  return result;
+}
+
+/// The result of a run on this kernel, before any light.
+inline ShadowResult empty_result(const ShadowOptions& options) {
+  const KernelInfo& kernel = kernel_info(options.kernel);
+  ShadowResult result;
+  result.kernel = kernel.name;
+  result.exact = kernel.exact;
+  result.identity = options.identity || kernel.exact;
+  result.thickness = kernel.exact ? 0 : options.thickness;
+  return result;
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_PARTITION_RUN_TASK_H

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The other half of the table of methods: what each runs on each kernel.
+#ifndef GNOMON_ALGORITHMS_RUN_METHODS_H
+#define GNOMON_ALGORITHMS_RUN_METHODS_H
+
+#include "algorithms/partition/run_task.h"
+#include "gnomon/algorithms/method.h"
+#include "gnomon/kernel/kernel_list.h"
+
+namespace gnomon {
+
+/// Null for a kernel that was left out of the build. Requires: not kAutomatic.
+MethodFunction method_function(MethodId method, KernelId kernel);
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_RUN_METHODS_H

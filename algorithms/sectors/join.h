@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// From cells back to polygons: pieces that the planes of cells cut apart are joined where they have
+// the same class and caster; all other pieces are put out and measured. Bodies of sector_tree.h.
+#ifndef GNOMON_ALGORITHMS_SECTORS_JOIN_H
+#define GNOMON_ALGORITHMS_SECTORS_JOIN_H
+
+#include <atomic>
+#include <cstdint>
+#include <utility>
+
+#include "algorithms/partition/fragment_stays.h"
+#include "algorithms/sectors/sector_tree.h"
+
+namespace gnomon {
+
+// Pieces of both children that have the same state are one piece of the parent; others are put out.
+template <SectorSpaceModel Space>
+void SectorTree<Space>::join(Range children) {
+  for (std::uint32_t i = children.begin; i < children.end; ++i) {
+    SectorState& parent = states_[items_[i].parent];
+    if (states_[i] == kUndecided) continue;
+    parent = parent == kUndecided || parent == states_[i] ? states_[i] : kMixed;
+  }
+  for (std::uint32_t i = children.begin; i < children.end; ++i) {
+    const SectorItem& item = items_[i];
+    if (states_[item.parent] != kMixed || states_[i] == kMixed || states_[i] == kUndecided)
+      continue;
+    emit({item.first, item.count, item.part}, states_[i]);
+  }
+}
+
+template <SectorSpaceModel Space>
+void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
+  if (!fragment_stays(space_, view(loop), context_->rules)) return;
+  if (++output_.piece_count % kPieceBatch == 0 &&
+      context_->pieces.fetch_add(kPieceBatch, std::memory_order_relaxed) + kPieceBatch >
+          context_->options.max_fragments) {
+    context_->stopped.store(true, std::memory_order_relaxed);
+  }
+  const bool lit = state == kAllLit;
+  // On an exact kernel the lit fraction gives the shadowed one.
+  if (lit || !Space::kExact) emit_area(loop, lit);
+  const RunOptions& options = context_->options;
+  if (!options.keeps_any_points()) return;
+  SectorOutput::Piece piece{loop.part, {}};
+  piece.fragment.state = lit ? LightState::kLit : LightState::kShadow;
+  piece.fragment.caster = state;
+  export_loop(space_, context_->scene.geometry, options, view(loop), piece.fragment, output_.points,
+              output_.exact_points);
+  output_.pieces.push_back(piece);
+}
+
+template <SectorSpaceModel Space>
+void SectorTree<Space>::emit_area(const LoopRange& range, bool lit) {
+  const LoopView<Vertex> loop = view(range);
+  const Ball whole = context_->areas[loop.part];
+  const Ball area = twice_area(
+      loop, [&](const auto& corner) { return planar_point(space_, context_->charts, corner); });
+  if constexpr (!Space::kExact) {
+    context_->sums.add_rounded(loop.part, lit, area.middle / whole.middle);
+  } else {
+    Ball fraction = area / whole;
+    constexpr double kWidest = PartMeasure<Space>::kWidest;
+    if constexpr (requires { space_.accurate_planar_point(loop.corner(0)); }) {
+      if (!(fraction.radius < kWidest)) {
+        fraction =
+            twice_area(loop,
+                       [&](const auto& corner) { return space_.accurate_planar_point(corner); }) /
+            whole;
+      }
+    }
+    if (context_->options.exact_fractions || !(fraction.radius < kWidest)) {
+      const Part& part = context_->scene.parts[loop.part];
+      mpq_class& exact_whole = exact_areas_[loop.part];
+      if (sgn(exact_whole) == 0) exact_whole = twice_exact_area(context_->scene, part);
+      mpq_class exact =
+          twice_exact_area(space_, chart_of(context_->scene.geometry, part.plane), loop) /
+          exact_whole;
+      const double value = exact.get_d();  // truncated: within one unit in the last place
+      fraction = Ball(value, 2 * Ball::kUnit * value + Ball::kTiny);
+      if (context_->options.exact_fractions) {
+        output_.exact_lit.emplace_back(loop.part, std::move(exact));
+      }
+    }
+    context_->sums.add_enclosure(loop.part, fraction);
+  }
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_SECTORS_JOIN_H

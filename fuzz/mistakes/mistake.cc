@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fuzz/mistakes/mistake.h"
+
+#include <array>
+
+namespace gnomon::fuzz {
+
+namespace {
+
+constexpr std::string_view kChin1989 = "Chin & Feiner 1989";
+constexpr std::string_view kChin1992 = "Chin & Feiner 1992";
+
+constexpr std::array kMistakes = {
+    MistakeInfo{Mistake::kPlanesFromFragments, "planes-from-fragments",
+                "the plane of a fragment is computed again from its own rounded vertices",
+                kChin1989},
+    MistakeInfo{Mistake::kVerticesPerSide, "vertices-per-side",
+                "the vertex where an edge is split is computed again for each side", kChin1992},
+    MistakeInfo{Mistake::kCoplanarInSequence, "coplanar-in-sequence",
+                "a polygon casts before those in its own plane have been classified", kChin1989},
+    MistakeInfo{Mistake::kLightInPlaneFaces, "light-in-plane-faces",
+                "a light in a polygon's plane counts as in front of it", kChin1989},
+    MistakeInfo{Mistake::kUnionWithoutContinuedPlanes, "union-without-continued-planes",
+                "a shadow volume is not continued behind the volumes in its way", kChin1992},
+    MistakeInfo{Mistake::kThicknessTooLarge, "thickness-too-large",
+                "planes are so thick that features of the scene vanish in them", kChin1989},
+    MistakeInfo{Mistake::kThicknessTooSmall, "thickness-too-small",
+                "planes have no thickness, although vertices are rounded", kChin1989},
+    MistakeInfo{Mistake::kTVerticesLeftIn, "t-vertices-left-in",
+                "a vertex on a neighbour's edge is left out of the neighbour", kChin1992},
+    MistakeInfo{Mistake::kStraddlingLightFaces, "straddling-light-faces",
+                "an area light on both sides of a plane counts as in front of it", kChin1992},
+    MistakeInfo{Mistake::kSliversDropped, "slivers-dropped", "thin fragments are left out",
+                kChin1989},
+    MistakeInfo{Mistake::kOnSwapped, "on-swapped", "what lies on a plane is put on its other side",
+                kChin1989},
+};
+
+}  // namespace
+
+std::span<const MistakeInfo> mistakes() { return kMistakes; }
+
+std::optional<Mistake> mistake_by_name(std::string_view name) {
+  for (const MistakeInfo& info : kMistakes) {
+    if (info.name == name) return info.mistake;
+  }
+  return std::nullopt;
+}
+
+std::string_view name_of(Mistake mistake) {
+  for (const MistakeInfo& info : kMistakes) {
+    if (info.mistake == mistake) return info.name;
+  }
+  return {};
+}
+
+namespace {
+
+bool has_thickness(KernelId kernel) {
+  return kernel == KernelId::kFloat || kernel == KernelId::kDouble ||
+         kernel == KernelId::kLongDouble;
+}
+
+/// Kernels that can go on with a polygon that the light sees edge-on, where light space has no area
+/// for it: those that keep the coordinates of their vertices.
+bool keeps_coordinates(KernelId kernel) {
+  return has_thickness(kernel) || kernel == KernelId::kRational;
+}
+
+}  // namespace
+
+bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
+  const bool svbsp = method == MethodId::kSvbsp, receiver = method == MethodId::kReceiver;
+  switch (mistake) {
+    case Mistake::kNone:
+      return true;
+    case Mistake::kPlanesFromFragments:
+      return svbsp && kernel == KernelId::kDouble;
+    case Mistake::kVerticesPerSide:
+      return kernel == KernelId::kDouble;
+    case Mistake::kCoplanarInSequence:
+      return svbsp;
+    case Mistake::kLightInPlaneFaces:
+      return receiver || (svbsp && keeps_coordinates(kernel));
+    case Mistake::kThicknessTooLarge:
+    case Mistake::kThicknessTooSmall:
+      return has_thickness(kernel);
+    case Mistake::kSliversDropped:
+      return true;
+    case Mistake::kOnSwapped:
+      return !receiver;
+    case Mistake::kUnionWithoutContinuedPlanes:
+    case Mistake::kTVerticesLeftIn:
+    case Mistake::kStraddlingLightFaces:
+      return false;
+  }
+  return false;
+}
+
+bool applies_to_area(Mistake mistake, KernelId kernel, MethodId method) {
+  if (mistake == Mistake::kNone) return true;
+  if (method == MethodId::kPieces) return false;
+  const bool merged = method == MethodId::kMerged;
+  switch (mistake) {
+    case Mistake::kVerticesPerSide:
+      return kernel == KernelId::kDouble;
+    case Mistake::kThicknessTooLarge:
+    case Mistake::kThicknessTooSmall:
+      return has_thickness(kernel);
+    case Mistake::kUnionWithoutContinuedPlanes:
+      return merged;
+    case Mistake::kStraddlingLightFaces:
+    case Mistake::kSliversDropped:
+      return true;
+    case Mistake::kOnSwapped:
+      return !merged;
+    case Mistake::kNone:
+    case Mistake::kPlanesFromFragments:
+    case Mistake::kCoplanarInSequence:
+    case Mistake::kLightInPlaneFaces:  // what holds an area light is in its plane, and behind it
+    case Mistake::kTVerticesLeftIn:
+      return false;
+  }
+  return false;
+}
+
+}  // namespace gnomon::fuzz

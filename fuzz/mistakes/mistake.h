@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The mistakes that the papers warn of, as variants of the algorithms that are wrong on purpose
+// (docs/bug-zoo.md): whoever judges results must notice each of them. One at a time. The algorithms
+// know nothing of them: a mistake is a wrong rule (algorithms/partition/rules.h), a wrong kernel
+// (mutant_space.h), or planes of a wrong thickness.
+#ifndef GNOMON_FUZZ_MISTAKES_MISTAKE_H
+#define GNOMON_FUZZ_MISTAKES_MISTAKE_H
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "algorithms/partition/rules.h"
+#include "gnomon/algorithms/method.h"
+#include "gnomon/kernel/kernel_list.h"
+
+namespace gnomon::fuzz {
+
+enum class Mistake : std::uint8_t {
+  kNone,
+  kPlanesFromFragments,          // a fragment's support plane computed again from its own vertices
+  kVerticesPerSide,              // a split edge's vertex computed again for each side
+  kCoplanarInSequence,           // a coplanar polygon inserted before its neighbours are classified
+  kLightInPlaneFaces,            // a light in a polygon's plane taken as in front of it
+  kUnionWithoutContinuedPlanes,  // a volume not continued behind those in its way (1992, fig. 6)
+  kThicknessTooLarge,            // planes so thick that features vanish in them
+  kThicknessTooSmall,            // planes of no thickness, with rounded vertices
+  kTVerticesLeftIn,              // a vertex on a neighbour's edge left out of the neighbour
+  kStraddlingLightFaces,         // an area light on both sides of a plane taken as in front of it
+  kSliversDropped,               // thin fragments left out
+  kOnSwapped,                    // what lies on a plane put on the other side
+};
+
+struct MistakeInfo {
+  Mistake mistake = Mistake::kNone;
+  std::string_view name;      // such as "coplanar-in-sequence"
+  std::string_view sentence;  // what the variant does wrong
+  std::string_view source;    // who warns of it
+};
+
+/// All but kNone, in order of the enumeration.
+std::span<const MistakeInfo> mistakes();
+std::optional<Mistake> mistake_by_name(std::string_view name);
+/// Empty for kNone.
+std::string_view name_of(Mistake mistake);
+
+/// Whether a mistake is one that this method can make on this kernel, for point and directional
+/// lights, and for area lights. Of kNone it is true. Requires: a method, not kAutomatic.
+bool applies_to(Mistake mistake, KernelId kernel, MethodId method);
+bool applies_to_area(Mistake mistake, KernelId kernel, MethodId method);
+
+/// The rules of the definition with the mistake in them; those of the definition if the mistake is
+/// in the kernel or in the thickness of its planes.
+Rules rules_of(Mistake mistake);
+
+}  // namespace gnomon::fuzz
+
+#endif  // GNOMON_FUZZ_MISTAKES_MISTAKE_H

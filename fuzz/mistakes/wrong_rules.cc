@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fuzz/mistakes/mistake.h"
+
+namespace gnomon::fuzz {
+
+namespace {
+
+/// A fragment with a made vertex and on average narrower than kSliver times the distance of its
+/// farthest vertices. In doubles: a mistake need not be exact.
+bool is_thin(const LoopShape& loop) {
+  constexpr double kSliver = 1.0 / 64;
+  double longest = 0;
+  std::array<double, 3> area{}, before{};
+  const std::array<double, 3>& first = loop.corners[0];
+  for (std::size_t i = 0; i < loop.corners.size(); ++i) {
+    const std::array<double, 3>& point = loop.corners[i];
+    std::array<double, 3> step{}, last{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      step[k] = point[k] - first[k];
+      last[k] = before[k] - first[k];
+    }
+    longest = std::max(longest, step[0] * step[0] + step[1] * step[1] + step[2] * step[2]);
+    for (std::size_t k = 0; i > 1 && k < 3; ++k) {
+      const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+      area[k] += last[u] * step[v] - last[v] * step[u];
+    }
+    before = point;
+  }
+  return !loop.is_input && std::hypot(area[0], area[1], area[2]) / 2 < kSliver * longest;
+}
+
+}  // namespace
+
+Rules rules_of(Mistake mistake) {
+  Rules rules;
+  switch (mistake) {
+    case Mistake::kNone:
+    case Mistake::kPlanesFromFragments:
+    case Mistake::kVerticesPerSide:
+    case Mistake::kThicknessTooLarge:
+    case Mistake::kThicknessTooSmall:
+      break;
+    case Mistake::kCoplanarInSequence:
+      rules.coplanar_classified_first = false;
+      break;
+    case Mistake::kLightInPlaneFaces:
+      rules.light_in_plane_does_not_reach = false;
+      break;
+    case Mistake::kUnionWithoutContinuedPlanes:
+      rules.volumes_continue_behind_others = false;
+      break;
+    case Mistake::kTVerticesLeftIn:
+      rules.neighbour_vertices_are_in_the_face = false;
+      break;
+    case Mistake::kStraddlingLightFaces:
+      rules.straddling_light_is_cut = false;
+      break;
+    case Mistake::kSliversDropped:
+      rules.fragment_stays = [](const LoopShape& loop) { return !is_thin(loop); };
+      break;
+    case Mistake::kOnSwapped:
+      rules.on_goes_to_its_own_side = false;
+      break;
+  }
+  return rules;
+}
+
+}  // namespace gnomon::fuzz

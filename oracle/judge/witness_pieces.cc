@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "oracle/judge/witness_pieces.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "gnomon/oracle/enclosure.h"
+
+namespace gnomon::oracle {
+
+using space::area_along;
+using space::cross;
+using space::dot;
+using space::HalfSpace;
+using space::minus;
+
+bool Solid::lies_in(const HalfSpace& half) const {
+  return std::ranges::all_of(loop,
+                             [&](const RationalPoint& vertex) { return half.value(vertex) == 0; });
+}
+
+bool Solid::holds(const Solid& other) const {
+  return std::ranges::all_of(other.loop, [&](const RationalPoint& vertex) {
+    return dot(normal, minus(vertex, loop[0])) == 0;
+  });
+}
+
+std::vector<Solid> solids_of(const PreparedScene& scene, const PreparedLight& light) {
+  std::vector<Solid> solids;
+  const Geometry& geometry = scene.geometry;
+  const auto in_scene = [&](const std::array<mpz_class, 3>& grid) {
+    RationalPoint point;
+    for (int k = 0; k < 3; ++k) point[k] = geometry.origin[k] + geometry.step * grid[k];
+    return point;
+  };
+  const bool directional = light.point.directional, area = light.type == LightType::kArea;
+  RationalPoint source;
+  if (area) {
+    // No single point: AreaSolids knows what the light is to each part.
+  } else if (directional) {
+    for (int k = 0; k < 3; ++k) source[k] = light.point.grid[k];
+  } else {
+    source = in_scene(light.point.grid);
+  }
+  for (const Part& part : scene.parts) {
+    Solid solid;
+    for (VertexId vertex : scene.loop(part)) {
+      solid.loop.push_back(in_scene(
+          {geometry.grid.at(vertex, 0), geometry.grid.at(vertex, 1), geometry.grid.at(vertex, 2)}));
+    }
+    const std::size_t size = solid.loop.size();
+    solid.normal = cross(minus(solid.loop[1], solid.loop[0]), minus(solid.loop[2], solid.loop[0]));
+    const mpq_class height = area          ? mpq_class(0)
+                             : directional ? dot(solid.normal, source)
+                                           : dot(solid.normal, minus(source, solid.loop[0]));
+    solid.facing = sgn(height);
+    solid.receives = solid.facing > 0 || (solid.facing < 0 && part.two_sided);
+    solid.casts = solid.receives && part.casts;
+    for (std::size_t i = 0; i < size; ++i) {
+      const RationalPoint &a = solid.loop[i], &b = solid.loop[(i + 1) % size];
+      solid.walls.emplace_back(cross(solid.normal, minus(b, a)), a);
+    }
+    if (solid.casts) {
+      RationalPoint behind = solid.normal;
+      if (solid.facing > 0) {
+        for (mpq_class& component : behind) component = -component;
+      }
+      solid.shadow.emplace_back(behind, solid.loop[0]);
+      for (std::size_t i = 0; i < size; ++i) {
+        const RationalPoint &a = solid.loop[i], &b = solid.loop[(i + 1) % size];
+        RationalPoint inward =
+            directional ? cross(source, minus(b, a)) : cross(minus(a, source), minus(b, source));
+        // Inside is where the loop's other vertices are.
+        if (dot(inward, minus(solid.loop[(i + 2) % size], a)) < 0) {
+          for (mpq_class& component : inward) component = -component;
+        }
+        solid.shadow.emplace_back(std::move(inward), a);
+      }
+    }
+    solids.push_back(std::move(solid));
+  }
+  return solids;
+}
+
+Piece::Piece(const ClaimedFragment& claimed, std::size_t number, std::uint32_t of_part,
+             const Solid& solid, bool exact)
+    : fragment(&claimed), index(number), part(of_part), loop(claimed.loop) {
+  const RationalPoint& normal = solid.normal;
+  if (!exact) {
+    const mpq_class square = dot(normal, normal);
+    for (RationalPoint& point : loop) {
+      const mpq_class height = dot(normal, minus(point, solid.loop[0])) / square;
+      for (int k = 0; k < 3; ++k) point[k] -= height * normal[k];
+    }
+  }
+  area = area_along(normal, loop);
+  if (area < 0) {
+    std::reverse(loop.begin(), loop.end());
+    area = -area;
+  }
+  for (const RationalPoint& point : loop) {
+    corners.push_back({point[0].get_d(), point[1].get_d(), point[2].get_d()});
+  }
+  low = high = corners[0];
+  for (const std::array<double, 3>& corner : corners) {
+    for (int k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], round_down(corner[k]));
+      high[k] = std::max(high[k], round_up(corner[k]));
+    }
+  }
+}
+
+bool Piece::is_convex(const RationalPoint& normal) const {
+  for (std::size_t v = 0; v < loop.size(); ++v) {
+    const RationalPoint &a = loop[v], &b = loop[(v + 1) % loop.size()];
+    const RationalPoint inward = cross(normal, minus(b, a));
+    for (const RationalPoint& point : loop) {
+      if (dot(inward, minus(point, a)) < 0) return false;
+    }
+  }
+  return true;
+}
+
+bool Piece::is_apart(const std::vector<HalfSpace>& bounds, double margin) const {
+  return std::ranges::any_of(bounds, [&](const HalfSpace& half) {
+    return std::ranges::all_of(corners, [&](const std::array<double, 3>& corner) {
+      return half.near_value(corner) < -margin;
+    });
+  });
+}
+
+const std::vector<HalfSpace>& Piece::walls_of(const RationalPoint& normal) {
+  if (!walls_.empty()) return walls_;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const RationalPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    RationalPoint inward = cross(normal, minus(b, a));
+    if (dot(inward, inward) != 0) walls_.emplace_back(std::move(inward), a);
+  }
+  return walls_;
+}
+
+}  // namespace gnomon::oracle

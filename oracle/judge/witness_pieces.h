@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the checker of claims (witness_check.h) cuts and cuts with: parts as convex solids of
+// half-spaces, and claimed fragments laid into the plane of their part. All of it is rational, in
+// scene units; doubles only put aside what is clearly apart.
+#ifndef GNOMON_ORACLE_JUDGE_WITNESS_PIECES_H
+#define GNOMON_ORACLE_JUDGE_WITNESS_PIECES_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "gnomon/result/claims.h"
+#include "gnomon/scene/prepare.h"
+#include "oracle/geometry/space_loop.h"
+
+namespace gnomon::oracle {
+
+/// A part as receiver and caster.
+struct Solid {
+  space::Loop loop;
+  RationalPoint normal;
+  std::vector<space::HalfSpace> walls;   // in its plane: inside of the part
+  std::vector<space::HalfSpace> shadow;  // behind it and inside its edges, seen from the light
+  int facing = 0;                        // 1 front, -1 back, 0 the light is in its plane
+  bool receives = false, casts = false;
+
+  /// All of the part lies in the plane of the half-space.
+  bool lies_in(const space::HalfSpace& half) const;
+  /// All of the other part lies in this one's plane: neither shadows the other.
+  bool holds(const Solid& other) const;
+};
+
+/// All parts under one light. Under an area light none receives or casts: AreaSolids knows that.
+std::vector<Solid> solids_of(const PreparedScene& scene, const PreparedLight& light);
+
+/// A claimed fragment in the plane of a part.
+struct Piece {
+  const ClaimedFragment* fragment;
+  std::size_t index;                           // of the fragment in its polygon
+  std::uint32_t part;                          // a part whose plane it lies in
+  space::Loop loop;                            // oriented like that part
+  mpq_class area;                              // along the part's normal
+  std::vector<std::array<double, 3>> corners;  // the loop in doubles
+  std::array<double, 3> low{}, high{};
+
+  /// `exact`: the fragment lies in the plane. If not, it is projected: rounded vertices are off the
+  /// plane by a hair, which must not put them behind a caster that lies in it.
+  Piece(const ClaimedFragment& claimed, std::size_t number, std::uint32_t of_part,
+        const Solid& solid, bool exact);
+
+  bool is_convex(const RationalPoint& normal) const;
+  /// By doubles: clearly outside of one of the half-spaces, and so of what they bound.
+  bool is_apart(const std::vector<space::HalfSpace>& bounds, double margin) const;
+  /// In the plane with that normal, inside of the piece; none for an edge without length. Made when
+  /// first asked for.
+  const std::vector<space::HalfSpace>& walls_of(const RationalPoint& normal);
+
+ private:
+  std::vector<space::HalfSpace> walls_;
+};
+
+}  // namespace gnomon::oracle
+
+#endif  // GNOMON_ORACLE_JUDGE_WITNESS_PIECES_H
