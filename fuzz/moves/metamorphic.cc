@@ -28,7 +28,7 @@ struct Classes {
   mpq_class lit, penumbra, umbra;
   friend bool operator==(const Classes&, const Classes&) = default;
 };
-/// Of every polygon side whose parts lie in one plane.
+/// The classes of every polygon side whose parts lie in one plane.
 using Answer = std::map<Place, Classes>;
 
 struct Solved {
