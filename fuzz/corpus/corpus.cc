@@ -177,7 +177,7 @@ Expected<std::vector<fs::path>> scene_files(const fs::path& path) {
 Expected<std::string> fixture_text(const JudgedScene& scene, const FixtureNote& note) {
   const auto lights = exact_answer_of(scene);
   if (!lights) return tl::unexpected(lights.error());
-  Scene noted = scene;
+  Scene noted = scene.scene();
   noted.extra = note_text(note, *lights);
   const auto written = scene_to_text(noted, SceneFormat::kJson);
   if (!written) return tl::unexpected(written.error());
