@@ -43,10 +43,10 @@ std::vector<std::string> names() {
 
 ShadowOptions options_for(MethodId algorithm, KernelId kernel, bool identity = false) {
   ShadowOptions options;
-  options.area_algorithm = algorithm;
-  options.kernel = kernel;
-  options.identity = identity;
-  options.jobs = 1;
+  options.method.area = algorithm;
+  options.kernel.id = kernel;
+  options.kernel.identity = identity;
+  options.tuning.jobs = 1;
   return options;
 }
 
@@ -134,8 +134,8 @@ bool measure_ratios(Extent extent, Verdicts& verdicts) {
         }
         const std::vector<Times> times = interleaved(work, extent == Extent::kLong ? 7 : 3);
         ShadowOptions exactly = options_for(algorithm.algorithm, KernelId::kPlane);
-        exactly.exact_fractions = true;
-        exactly.count_stages = true;
+        exactly.output.exact_fractions = true;
+        exactly.output.stage_counts = true;
         const ShadowResult exact = shadows_or_stop(scene, exactly);
         const ExactAnswers answers = exact_answers(exact);
         if (checksum.empty()) checksum = answers.checksum;
@@ -286,8 +286,8 @@ bool measure_figure8(Extent extent, Verdicts&) {
     const Scene scene = generated({plate.generator, plate.parameters, Coordinates::kGrid});
     const PreparedScene prepared = prepared_or_stop(scene);
     ShadowOptions options = options_for(MethodId::kReceiver, KernelId::kPlane);
-    options.keep_exact_points = true;
-    options.combined = prepared.lights.size() > 1;
+    options.output.exact_points = true;
+    options.output.combined = prepared.lights.size() > 1;
     double start = cpu_seconds();
     const ShadowResult result = shadows_or_stop(prepared, options);
     const double classification = cpu_seconds() - start;

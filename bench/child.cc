@@ -101,9 +101,9 @@ int child_main(int argc, char** argv) {
   if (argc < 5 || argc % 2 != 1) return 2;
   SceneRecipe recipe{argv[0], {}, static_cast<Coordinates>(std::atoi(argv[1]))};
   ShadowOptions options;
-  options.algorithm = static_cast<MethodId>(std::atoi(argv[2]));
-  options.area_algorithm = static_cast<MethodId>(std::atoi(argv[3]));
-  options.jobs = static_cast<unsigned>(std::atoi(argv[4]));
+  options.method.point = static_cast<MethodId>(std::atoi(argv[2]));
+  options.method.area = static_cast<MethodId>(std::atoi(argv[3]));
+  options.tuning.jobs = static_cast<unsigned>(std::atoi(argv[4]));
   for (int i = 5; i < argc; i += 2) recipe.parameters[argv[i]] = std::atoll(argv[i + 1]);
 
   const Scene scene = generated(recipe);

@@ -78,10 +78,10 @@ std::string algorithm_name(MethodId algorithm) {
 
 ShadowOptions options_of(const Runner& runner) {
   ShadowOptions options;
-  options.kernel = runner.kernel;
-  options.identity = runner.identity;
-  options.algorithm = runner.algorithm;
-  options.jobs = 1;
+  options.kernel.id = runner.kernel;
+  options.kernel.identity = runner.identity;
+  options.method.point = runner.algorithm;
+  options.tuning.jobs = 1;
   return options;
 }
 
@@ -145,7 +145,7 @@ bool report(const SceneChoice& choice, const Measured& measured, const TimeColle
   for (const Runner& runner : runners()) {
     if (!kernel_info(runner.kernel).exact || !measured.results.contains(runner.name)) continue;
     ShadowOptions options = options_of(runner);
-    options.exact_fractions = true;
+    options.output.exact_fractions = true;
     ExactAnswers own = exact_answers(shadows_or_stop(scene, options));
     if (!own.sums_to_one) {
       fmt::print("{}: lit and shadow do not add up to exactly 1\n", runner.name);
@@ -167,7 +167,7 @@ bool report(const SceneChoice& choice, const Measured& measured, const TimeColle
     std::string exact_share = "-", wrong = "-", worst = "-", answer;
     if (runner.kernel == KernelId::kPlane) {
       ShadowOptions options = options_of(runner);
-      options.count_stages = true;
+      options.output.stage_counts = true;
       const StageCounts stages = shadows_or_stop(scene, options).stages;
       exact_share = fmt::format("{:.2f}", 100.0 * static_cast<double>(stages.exact()) /
                                               static_cast<double>(stages.total()));

@@ -53,10 +53,10 @@ const std::vector<PaperRow>& paper_rows() {
 
 ShadowOptions paper_options(std::vector<std::uint32_t> lights) {
   ShadowOptions options;
-  options.algorithm = MethodId::kSvbsp;
+  options.method.point = MethodId::kSvbsp;
   options.lights = std::move(lights);
-  options.prefix = false;
-  options.merge = false;
+  options.method.prefix = false;
+  options.output.merge = false;
   return options;
 }
 
@@ -79,11 +79,12 @@ void chin_feiner(Extent extent) {
     if (row.large && extent == Extent::kShort) continue;
     const PreparedScene scene = make_scene(row.generator, row.parameters);
     ShadowOptions options = paper_options(row.lights);
-    options.combined = row.lights.size() > 1;
+    options.output.combined = row.lights.size() > 1;
     const ShadowResult result = shadows_or_stop(scene, options);
     const std::string fragments =
-        options.combined ? std::to_string(result.combined.size())
-                         : listed(result, [](const LightResult& l) { return l.fragment_total; });
+        options.output.combined
+            ? std::to_string(result.combined.size())
+            : listed(result, [](const LightResult& l) { return l.fragment_total; });
     const auto both = [](const std::string& ours, const std::string& printed) {
       return ours + " / " + printed;
     };
@@ -119,9 +120,9 @@ void slater(Extent extent) {
                             result.lights[0].facing_parts);
     };
     ShadowOptions merged = paper_options({0});
-    merged.merge = true;
+    merged.output.merge = true;
     ShadowOptions prefix = paper_options({0});
-    prefix.prefix = true;
+    prefix.method.prefix = true;
     const double start = cpu_seconds();
     const std::string plain = output(paper_options({0}));
     const double seconds = cpu_seconds() - start;

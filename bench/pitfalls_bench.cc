@@ -57,13 +57,13 @@ bool run_pitfalls(Extent extent) {
       std::vector<ShadowResult> results;
       for (std::size_t a = 0; a < algorithms().size(); ++a) {
         ShadowOptions options;
-        options.algorithm = algorithms()[a].algorithm;
-        options.jobs = 1;
+        options.method.point = algorithms()[a].algorithm;
+        options.tuning.jobs = 1;
         const double start = cpu_seconds();
         results.push_back(shadows_or_stop(scene, options));
         n[a].push_back(static_cast<double>(scene.parts.size()));
         seconds[a].push_back(cpu_seconds() - start);
-        options.count_stages = true;
+        options.output.stage_counts = true;
         const StageCounts stages = shadows_or_stop(scene, options).stages;
         const std::uint64_t fragments = total_fragments(results.back());
         std::string growth, overall;

@@ -41,10 +41,10 @@ std::vector<std::string> algorithm_names() {
 
 ShadowOptions options_for(MethodId algorithm, KernelId kernel, bool identity = false) {
   ShadowOptions options;
-  options.algorithm = algorithm;
-  options.kernel = kernel;
-  options.identity = identity;
-  options.jobs = 1;
+  options.method.point = algorithm;
+  options.kernel.id = kernel;
+  options.kernel.identity = identity;
+  options.tuning.jobs = 1;
   return options;
 }
 
@@ -101,7 +101,7 @@ void print_statistics(const PreparedScene& scene, const SceneRecipe& recipe) {
                "decisions", "fragments", "per polygon", "bytes/polygon"});
   for (const NamedAlgorithm& algorithm : algorithms()) {
     ShadowOptions options = options_for(algorithm.algorithm, KernelId::kPlane);
-    options.count_stages = true;
+    options.output.stage_counts = true;
     const ShadowResult result = shadows_or_stop(scene, options);
     const ChildReport child = run_in_child(recipe, algorithm.algorithm, 1);
     const StageCounts& stages = result.stages;
@@ -148,7 +148,7 @@ bool measure_overhead(Extent extent, Verdicts& verdicts) {
       for (const Row& row : rows) {
         ShadowOptions options = options_for(algorithm.algorithm, row.kernel, row.identity);
         contest.enter(options);
-        options.keep_points = true;
+        options.output.points = true;
         contest.enter(options);
       }
     }
@@ -234,7 +234,7 @@ bool measure_exact_kernels(Extent extent, Verdicts& verdicts) {
         std::string answer = "bounds overlap";
         if (!full) {
           ShadowOptions options = options_for(algorithms()[a].algorithm, kernels[k].second);
-          options.exact_fractions = true;
+          options.output.exact_fractions = true;
           const ExactAnswers answers = exact_answers(shadows_or_stop(scene, options));
           answer = answers.checksum;
           if (checksum.empty()) checksum = answer;
@@ -440,7 +440,7 @@ bool measure_threads(Extent extent, Verdicts& verdicts) {
   for (const NamedAlgorithm& algorithm : algorithms()) {
     ShadowOptions options = options_for(algorithm.algorithm, KernelId::kPlane);
     contest.enter(options);
-    options.jobs = 2;
+    options.tuning.jobs = 2;
     contest.enter(options);
   }
   contest.run(extent == Extent::kShort ? 3 : 7);

@@ -76,17 +76,18 @@ bool run_thickness(Extent extent) {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
       const PreparedScene scene = make_scene(family.name, family.parameters, seed);
       ShadowOptions options;
-      options.algorithm = MethodId::kSvbsp;  // the papers' method, for which a thickness was meant
-      options.exact_fractions = true;
+      options.method.point =
+          MethodId::kSvbsp;  // the papers' method, for which a thickness was meant
+      options.output.exact_fractions = true;
       const ExactAnswers exact = exact_answers(shadows_or_stop(scene, options));
       ++scenes;
       parts += exact.lit.size();
-      options.exact_fractions = false;
+      options.output.exact_fractions = false;
       for (std::size_t c = 0; c < choices.size(); ++c) {
-        options.kernel = choices[c].kernel;
-        options.identity = choices[c].identity;
+        options.kernel.id = choices[c].kernel;
+        options.kernel.identity = choices[c].identity;
         for (std::size_t t = 0; t < kThicknesses.size(); ++t) {
-          options.thickness = kThicknesses[t];
+          options.kernel.thickness = kThicknesses[t];
           const ShadowResult result = shadows_or_stop(scene, options);
           Tally& tally = tallies[c][t];
           bool wrong = false;

@@ -35,10 +35,10 @@ ErrorCode code_of(const Case& scene, const ShadowOptions& options) {
 TEST(ComputeShadows, RefusesWhatIsNoThickness) {
   const auto scene = box_on_floor();
   ShadowOptions options;
-  options.kernel = KernelId::kDouble;
+  options.kernel.id = KernelId::kDouble;
   for (const double thickness : {-1e-12, 1.0, std::numeric_limits<double>::infinity(),
                                  std::numeric_limits<double>::quiet_NaN()}) {
-    options.thickness = thickness;
+    options.kernel.thickness = thickness;
     EXPECT_EQ(code_of(*scene, options), ErrorCode::kUsage) << thickness;
   }
 }
@@ -57,7 +57,7 @@ TEST(ComputeShadows, TakesLightsOfEveryKindAndRefusesThoseThatAreNot) {
   const auto both = Case::make(scene);
   ASSERT_TRUE(both);
   ShadowOptions options;
-  options.kernel = KernelId::kRational;
+  options.kernel.id = KernelId::kRational;
   options.lights = {7};
   EXPECT_EQ(code_of(*both, options), ErrorCode::kUsage);
   options.lights = {};
@@ -82,9 +82,9 @@ TEST(ComputeShadows, StopsWhenInterrupted) {
   for (const KernelInfo& kernel : kernel_list()) {
     for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options;
-      options.kernel = kernel.id;
-      options.algorithm = algorithm;
-      options.interrupted = &stop;
+      options.kernel.id = kernel.id;
+      options.method.point = algorithm;
+      options.control.interrupted = &stop;
       EXPECT_EQ(code_of(*scene, options), ErrorCode::kInterrupted) << kernel.name;
     }
   }
@@ -94,10 +94,10 @@ TEST(ComputeShadows, ReportsProgressThatGrows) {
   const auto scene = box_on_floor();
   for (const MethodId algorithm : kAlgorithms) {
     ShadowOptions options;
-    options.algorithm = algorithm;
-    options.task_size = 1;
+    options.method.point = algorithm;
+    options.tuning.task_size = 1;
     std::vector<double> seen;
-    options.progress = [&](double done) { seen.push_back(done); };
+    options.control.progress = [&](double done) { seen.push_back(done); };
     ASSERT_TRUE(compute_shadows(scene->prepared(), options));
     ASSERT_FALSE(seen.empty());
     for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -111,8 +111,8 @@ TEST(ComputeShadows, AlgorithmIsSectorsUnlessOnlySvbspCan) {
   const auto scene = box_on_floor();
   const auto algorithm_of = [&](MethodId algorithm, bool combined) {
     ShadowOptions options;
-    options.algorithm = algorithm;
-    options.combined = combined;
+    options.method.point = algorithm;
+    options.output.combined = combined;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
     EXPECT_TRUE(result);
     return result ? result->algorithm : "";
@@ -128,15 +128,15 @@ TEST(ComputeShadows, EveryKernelSaysWhatItIs) {
   for (const KernelInfo& kernel : kernel_list()) {
     for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options;
-      options.kernel = kernel.id;
-      options.algorithm = algorithm;
-      options.keep_points = true;
+      options.kernel.id = kernel.id;
+      options.method.point = algorithm;
+      options.output.points = true;
       const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
       ASSERT_TRUE(result) << kernel.name;
       EXPECT_EQ(result->kernel, kernel.name);
       EXPECT_EQ(result->algorithm, name_of(algorithm));
       EXPECT_EQ(result->exact, kernel.exact);
-      EXPECT_EQ(result->thickness, kernel.exact ? 0 : options.thickness);
+      EXPECT_EQ(result->thickness, kernel.exact ? 0 : options.kernel.thickness);
       ASSERT_EQ(result->lights.size(), 2u);
       for (const LightResult& light : result->lights) {
         ASSERT_EQ(light.parts.size(), scene->prepared().parts.size());
@@ -164,9 +164,9 @@ TEST(ComputeShadows, FragmentsAreCountedWithoutPoints) {
   const auto scene = box_on_floor();
   for (const MethodId algorithm : kAlgorithms) {
     ShadowOptions options;
-    options.algorithm = algorithm;
+    options.method.point = algorithm;
     const Expected<ShadowResult> without = compute_shadows(scene->prepared(), options);
-    options.keep_points = true;
+    options.output.points = true;
     const Expected<ShadowResult> with = compute_shadows(scene->prepared(), options);
     ASSERT_TRUE(without && with);
     for (std::size_t i = 0; i < with->lights.size(); ++i) {
@@ -183,8 +183,8 @@ StageCounts stages_of(const std::string& family, bool count, MethodId algorithm)
     const auto scene = Case::make(family_by_name(family).make(seed));
     if (!scene) continue;
     ShadowOptions options;
-    options.count_stages = count;
-    options.algorithm = algorithm;
+    options.output.stage_counts = count;
+    options.method.point = algorithm;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
     if (result) sum += result->stages;
   }
@@ -236,23 +236,23 @@ TEST(FarLamp, ExactStageIsAsWideAsTheLampNeeds) {
       const auto prepared = prepare(*scene);
       ASSERT_TRUE(prepared) << to_string(prepared.error());
       ShadowOptions options;
-      options.exact_fractions = true;
-      options.algorithm = MethodId::kSvbsp;
-      options.kernel = KernelId::kRational;
+      options.output.exact_fractions = true;
+      options.method.point = MethodId::kSvbsp;
+      options.kernel.id = KernelId::kRational;
       const auto rational = compute_shadows(*prepared, options);
       ASSERT_TRUE(rational);
       const auto& theirs = rational->lights[0].parts;
-      options.kernel = KernelId::kPlane;
+      options.kernel.id = KernelId::kPlane;
       for (const MethodId algorithm : kAlgorithms) {
-        options.algorithm = algorithm;
-        options.leaf_size = seed % 2 == 0 ? 2 : 16;
+        options.method.point = algorithm;
+        options.tuning.leaf_size = seed % 2 == 0 ? 2 : 16;
         const auto plane = compute_shadows(*prepared, options);
         ASSERT_TRUE(plane);
         const auto& ours = plane->lights[0].parts;
-        options.exact_fractions = false;
+        options.output.exact_fractions = false;
         const auto enclosed = compute_shadows(*prepared, options);
         ASSERT_TRUE(enclosed);
-        options.exact_fractions = true;
+        options.output.exact_fractions = true;
         for (std::size_t i = 0; i < ours.size(); ++i) {
           EXPECT_EQ(ours[i].exact_lit, theirs[i].exact_lit) << "2^" << exponent << " part " << i;
           const Interval& bounds = enclosed->lights[0].parts[i].lit;

@@ -35,7 +35,7 @@ PreparedScene strip() {
 TEST(DeepUmbra, OfTwoCastersTogetherAsInFigure4f) {
   const PreparedScene scene = strip();
   ShadowOptions options;
-  options.exact_fractions = true;
+  options.output.exact_fractions = true;
   const auto shadows = compute_shadows(scene, options);
   ASSERT_TRUE(shadows);
   // By class the strip is penumbra.
@@ -168,7 +168,7 @@ TEST(DeepUmbra, BoundsHoldSamplesAndConverge) {
     const BruteView brute(scene);
     const LightVisibility visibility(scene, 0);
     ShadowOptions shadows;
-    shadows.keep_exact_points = true;
+    shadows.output.exact_points = true;
     const auto classified = compute_shadows(scene, shadows);
     ASSERT_TRUE(classified);
     std::vector<DeepUmbraBounds> bounds[2];

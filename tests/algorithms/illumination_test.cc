@@ -466,7 +466,7 @@ ExactPoint3 odd_point(const ExactPoint3* loop, std::uint32_t count) {
 void expect_classes(const PreparedScene& scene, const std::string& what,
                     std::array<std::size_t, 3>& fragments) {
   ShadowOptions options;
-  options.keep_exact_points = true;
+  options.output.exact_points = true;
   options.lights = {0};
   const auto shadows = compute_shadows(scene, options);
   ASSERT_TRUE(shadows);
@@ -709,7 +709,7 @@ TEST(Illumination, TimeOfRooms) {
 
     // At vertices of penumbra fragments many signs are exactly zero.
     ShadowOptions options;
-    options.keep_exact_points = true;
+    options.output.exact_points = true;
     const auto shadows = compute_shadows(*prepared, options);
     ASSERT_TRUE(shadows);
     const LightResult& result = shadows->lights[0];

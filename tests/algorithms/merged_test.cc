@@ -104,10 +104,10 @@ Scene figure_6() {
 
 ShadowOptions options_of(MethodId algorithm, KernelId kernel) {
   ShadowOptions options;
-  options.kernel = kernel;
-  options.area_algorithm = algorithm;
-  options.exact_fractions = true;
-  options.jobs = 1;
+  options.kernel.id = kernel;
+  options.method.area = algorithm;
+  options.output.exact_fractions = true;
+  options.tuning.jobs = 1;
   return options;
 }
 
@@ -147,8 +147,8 @@ void compare(Scene (*make)(std::uint64_t), unsigned scenes) {
         text_of(*prepared, options_of(MethodId::kReceiver, KernelId::kPlane));
     ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
     EXPECT_EQ(text_of(*prepared, options), expected) << "seed " << seed;
-    options.prefix = false;
-    options.merge = false;
+    options.method.prefix = false;
+    options.output.merge = false;
     EXPECT_EQ(text_of(*prepared, options), expected) << "without a prefix, seed " << seed;
     if (seed % 10 != 0) continue;
     options = options_of(MethodId::kMerged, KernelId::kRational);
@@ -174,7 +174,7 @@ TEST(Merged, TheOracleCatchesTheWrongUnion) {
   const auto scene = Case::make(figure_6(), &why);
   ASSERT_TRUE(scene) << why;
   ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
-  options.keep_exact_points = true;
+  options.output.exact_points = true;
   const auto right = compute_shadows(scene->prepared(), options).value();
   EXPECT_EQ(judge(*scene, right).verdict, oracle::Verdict::kIdentical);
   const auto wrong =
@@ -198,7 +198,7 @@ TEST(Merged, Figure4f) {
   const ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
   EXPECT_EQ(text_of(prepared, options), expected);
   ShadowOptions with_points = options;
-  with_points.keep_points = true;
+  with_points.output.points = true;
   const LightResult light = compute_shadows(prepared, with_points)->lights[0];
   // The point (1, 0, 0) sees no light, since the two hide it together; neither does it alone.
   bool found = false;
@@ -220,16 +220,16 @@ TEST(Merged, Figure4f) {
 TEST(Merged, StopsAtLimits) {
   const auto scene = prepare(boxes(3)).value();
   ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
-  options.max_fragments = 1;
+  options.limits.fragments = 1;
   EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kLimit);
-  options.area_algorithm = MethodId::kPieces;
+  options.method.area = MethodId::kPieces;
   EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kLimit);
-  options.max_fragments = 1000000;
-  options.combined = true;
+  options.limits.fragments = 1000000;
+  options.output.combined = true;
   EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kUsage);
-  options.combined = false;
+  options.output.combined = false;
   const std::atomic<bool> interrupted = true;
-  options.interrupted = &interrupted;
+  options.control.interrupted = &interrupted;
   EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kInterrupted);
 }
 
@@ -238,9 +238,9 @@ TEST(Merged, AnswersAlikeOnAnyNumberOfThreads) {
     const auto scene = prepare(soup(seed)).value();
     ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
     const std::string expected = text_of(scene, options);
-    options.jobs = 2;
+    options.tuning.jobs = 2;
     double last = 0;
-    options.progress = [&](double done) {
+    options.control.progress = [&](double done) {
       EXPECT_GE(done, last);
       EXPECT_LE(done, 1);
       last = done;
@@ -271,10 +271,10 @@ TEST(Merged, RoundedKernelsComeToAnEnd) {
          {KernelId::kFloat, KernelId::kDouble, KernelId::kLongDouble, KernelId::kEpick}) {
       for (const bool identity : {false, true}) {
         ShadowOptions options = options_of(MethodId::kMerged, kernel);
-        options.exact_fractions = false;
-        options.identity = identity;
-        options.thickness = seed % 2 == 0 ? 0 : kDefaultThickness;
-        options.max_fragments = 100000;
+        options.output.exact_fractions = false;
+        options.kernel.identity = identity;
+        options.kernel.thickness = seed % 2 == 0 ? 0 : kDefaultThickness;
+        options.limits.fragments = 100000;
         const auto result = compute_shadows(*scene, options);
         if (!result) {
           EXPECT_EQ(result.error().code, ErrorCode::kLimit);
@@ -309,7 +309,7 @@ TEST(Pieces, AreLights) {
     const auto prepared = prepare(scene);
     if (!prepared) continue;
     ShadowOptions options = options_of(MethodId::kPieces, KernelId::kPlane);
-    options.keep_exact_points = true;
+    options.output.exact_points = true;
     const auto result = compute_shadows(*prepared, options).value();
     EXPECT_EQ(result.algorithm, "pieces");
     for (std::uint32_t i = 0; i < result.lights.size(); ++i) {
@@ -356,7 +356,7 @@ TEST(Pieces, TileTheLightAndRationalAgrees) {
     const auto prepared = prepare(scene);
     if (!prepared) continue;
     ShadowOptions options = options_of(MethodId::kPieces, KernelId::kPlane);
-    options.keep_exact_points = true;
+    options.output.exact_points = true;
     const auto result = compute_shadows(*prepared, options).value();
     std::vector<std::array<mpq_class, 3>> whole;
     for (const Position& p : scene.lights[0].loop) {
@@ -371,7 +371,7 @@ TEST(Pieces, TileTheLightAndRationalAgrees) {
     EXPECT_EQ(sum, total);
     pieces += static_cast<unsigned>(result.lights.size());
     if (seed % 8 != 0) continue;
-    options.kernel = KernelId::kRational;
+    options.kernel.id = KernelId::kRational;
     const auto rational = compute_shadows(*prepared, options).value();
     ASSERT_EQ(rational.lights.size(), result.lights.size());
     for (std::size_t i = 0; i < result.lights.size(); ++i) {

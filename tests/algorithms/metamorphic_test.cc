@@ -65,8 +65,8 @@ class Metamorphic : public testing::TestWithParam<std::tuple<std::string, Method
   /// Sectors with small cells: so few polygons would all be in one.
   static ShadowOptions options() {
     ShadowOptions options = options_for(KernelId::kPlane);
-    options.algorithm = std::get<1>(GetParam());
-    return options.algorithm == MethodId::kSectors ? with_small_cells(options) : options;
+    options.method.point = std::get<1>(GetParam());
+    return options.method.point == MethodId::kSectors ? with_small_cells(options) : options;
   }
   static Answer answer(const Scene& scene) {
     const auto prepared = Case::make(scene);
@@ -102,12 +102,12 @@ TEST_P(Metamorphic, OptionsOfTheAlgorithm) {
     const Answer first = answer_of(*scene, options());
     for (unsigned variant = 1; variant < 8; ++variant) {
       ShadowOptions varied = options();
-      varied.merge = (variant & 1) == 0;
-      varied.prefix = (variant & 2) == 0;
-      varied.seed = variant & 4 ? 99 * variant : 1;
-      varied.count_stages = (variant & 1) != 0;
-      varied.leaf_size = variant & 1 ? 16 : variant & 2 ? 0 : 3;
-      varied.task_size = variant & 2 ? 1 : 5 * (variant & 4);
+      varied.output.merge = (variant & 1) == 0;
+      varied.method.prefix = (variant & 2) == 0;
+      varied.method.seed = variant & 4 ? 99 * variant : 1;
+      varied.output.stage_counts = (variant & 1) != 0;
+      varied.tuning.leaf_size = variant & 1 ? 16 : variant & 2 ? 0 : 3;
+      varied.tuning.task_size = variant & 2 ? 1 : 5 * (variant & 4);
       ASSERT_EQ(difference(first, answer_of(*scene, varied)), "")
           << "variant " << variant << ", seed " << seed << "\n"
           << text_of(scene->scene());
@@ -240,11 +240,11 @@ TEST_P(LargeScenes, AlgorithmPrefixAndScaleChangeNothing) {
     const auto changed = Case::make(scaled(*made, exponent));
     ASSERT_TRUE(changed);
     for (const int variant : {0, 1, 2, 3}) {
-      options.algorithm = variant < 2 ? MethodId::kSvbsp : MethodId::kSectors;
-      options.prefix = options.merge = variant != 0;
-      options.seed = variant;
-      options.leaf_size = variant == 2 ? 2 : 16;
-      options.task_size = variant == 2 ? 10 : 0;
+      options.method.point = variant < 2 ? MethodId::kSvbsp : MethodId::kSectors;
+      options.method.prefix = options.output.merge = variant != 0;
+      options.method.seed = variant;
+      options.tuning.leaf_size = variant == 2 ? 2 : 16;
+      options.tuning.task_size = variant == 2 ? 10 : 0;
       const Expected<ShadowResult> second = compute_shadows(changed->prepared(), options);
       ASSERT_TRUE(second);
       for (std::size_t l = 0; l < first->lights.size(); ++l) {
@@ -260,8 +260,8 @@ TEST_P(LargeScenes, AlgorithmPrefixAndScaleChangeNothing) {
   }
   for (const MethodId algorithm : kAlgorithms) {
     ShadowOptions exact;
-    exact.algorithm = algorithm;
-    exact.keep_exact_points = true;
+    exact.method.point = algorithm;
+    exact.output.exact_points = true;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), exact);
     ASSERT_TRUE(result);
     const oracle::Report report = judge(*scene, *result);

@@ -16,13 +16,13 @@ void expect_nearest(const Scene& scene, const std::string& what, std::size_t& co
   const Expected<PreparedScene> prepared = prepare(scene);
   if (!prepared || prepared->lights.empty()) return;
   ShadowOptions options;
-  options.keep_points = true;
+  options.output.points = true;
   for (std::uint32_t i = 0; i < prepared->lights.size(); ++i) {
     if (prepared->lights[i].type != LightType::kArea) options.lights.push_back(i);
   }
   if (options.lights.empty()) return;
   const auto fast = compute_shadows(*prepared, options);
-  options.keep_exact_points = true;
+  options.output.exact_points = true;
   const auto exact = compute_shadows(*prepared, options);
   ASSERT_TRUE(fast && exact) << what;
   for (std::size_t light = 0; light < fast->lights.size(); ++light) {

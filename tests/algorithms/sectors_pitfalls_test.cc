@@ -25,16 +25,16 @@ void expect_agreement(Scene made) {
   const auto scene = Case::make(std::move(made), &why);
   ASSERT_TRUE(scene) << why;
   ShadowOptions options = options_for(KernelId::kPlane);
-  options.keep_exact_points = false;
-  options.algorithm = MethodId::kSvbsp;
+  options.output.exact_points = false;
+  options.method.point = MethodId::kSvbsp;
   const std::vector<mpq_class> svbsp = lit_fractions(*scene, options);
-  options.algorithm = MethodId::kSectors;
+  options.method.point = MethodId::kSectors;
   for (const std::uint32_t leaf_size : {16u, 4u, 1u}) {
-    options.leaf_size = leaf_size;
-    options.task_size = leaf_size == 4 ? 1 : 0;
+    options.tuning.leaf_size = leaf_size;
+    options.tuning.task_size = leaf_size == 4 ? 1 : 0;
     ASSERT_EQ(lit_fractions(*scene, options), svbsp) << "leaves of " << leaf_size;
   }
-  options.keep_exact_points = true;
+  options.output.exact_points = true;
   const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
   ASSERT_TRUE(result);
   EXPECT_EQ(find_false_witness(*scene, *result), "");
@@ -121,8 +121,8 @@ TEST(Occlusion, ClosedRoomHidesAllThatIsOutside) {
   ASSERT_GT(scene->prepared().parts.size(), 900u);
   for (const std::uint32_t leaf_size : {16u, 1u}) {
     ShadowOptions options = options_for(KernelId::kPlane);
-    options.algorithm = MethodId::kSectors;
-    options.leaf_size = leaf_size;
+    options.method.point = MethodId::kSectors;
+    options.tuning.leaf_size = leaf_size;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
     ASSERT_TRUE(result);
     const LightResult& light = result->lights[0];
@@ -150,7 +150,7 @@ TEST(Occlusion, LampInTheInnermostOfNestedBoxes) {
   ASSERT_TRUE(scene);
   for (const MethodId algorithm : kAlgorithms) {
     ShadowOptions options = options_for(KernelId::kPlane);
-    options.algorithm = algorithm;
+    options.method.point = algorithm;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
     ASSERT_TRUE(result);
     const std::size_t n = result->lights[0].parts.size();

@@ -44,8 +44,8 @@ ShadowResult solved(const PreparedScene& scene, const ShadowOptions& options) {
 
 ShadowOptions sectors(KernelId kernel = KernelId::kPlane) {
   ShadowOptions options;
-  options.kernel = kernel;
-  options.algorithm = MethodId::kSectors;
+  options.kernel.id = kernel;
+  options.method.point = MethodId::kSectors;
   return options;
 }
 
@@ -89,11 +89,11 @@ void expect_identical(const LightResult& a, const LightResult& b) {
 void expect_independent_of_jobs(const PreparedScene& scene, ShadowOptions options) {
   // As many threads as are asked for, on however few cores.
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 8);
-  options.jobs = 1;
+  options.tuning.jobs = 1;
   const ShadowResult alone = solved(scene, options);
   ASSERT_GT(alone.lights.size(), 0u);
   for (const unsigned jobs : {2u, 3u, 7u, 0u}) {
-    options.jobs = jobs;
+    options.tuning.jobs = jobs;
     const ShadowResult together = solved(scene, options);
     ASSERT_EQ(alone.lights.size(), together.lights.size());
     for (std::size_t i = 0; i < alone.lights.size(); ++i) {
@@ -106,30 +106,30 @@ void expect_independent_of_jobs(const PreparedScene& scene, ShadowOptions option
 TEST(SectorsJobs, CityWithLampAndSun) {
   const PreparedScene scene = prepared({"city", {{"n", 300}, {"light", 2}}});
   ShadowOptions options = sectors();
-  options.keep_points = options.keep_exact_points = options.exact_fractions = true;
+  options.output.points = options.output.exact_points = options.output.exact_fractions = true;
   expect_independent_of_jobs(scene, options);
 }
 
 TEST(SectorsJobs, CityWithLampInside) {
   const PreparedScene scene = prepared({"city", {{"n", 400}, {"inside", 1}}});
   ShadowOptions options = sectors();
-  options.keep_points = options.keep_exact_points = true;
+  options.output.points = options.output.exact_points = true;
   expect_independent_of_jobs(scene, options);
 }
 
 TEST(SectorsJobs, Quads) {
   const PreparedScene scene = prepared({"quads", {{"n", 3000}, {"light", 2}}});
   ShadowOptions options = sectors();
-  options.keep_points = true;
+  options.output.points = true;
   expect_independent_of_jobs(scene, options);
 }
 
 TEST(SectorsJobs, TasksOfOnePolygon) {
   const PreparedScene scene = prepared({"crossing-sticks", {{"n", 60}, {"light", 2}}});
   ShadowOptions options = sectors();
-  options.keep_exact_points = options.exact_fractions = true;
-  options.leaf_size = 2;
-  options.task_size = 1;
+  options.output.exact_points = options.output.exact_fractions = true;
+  options.tuning.leaf_size = 2;
+  options.tuning.task_size = 1;
   expect_independent_of_jobs(scene, options);
 }
 
@@ -139,9 +139,9 @@ TEST(SectorsJobs, EveryKernel) {
   for (const KernelInfo& kernel : kernel_list()) {
     SCOPED_TRACE(std::string(kernel.name));
     ShadowOptions options = sectors(kernel.id);
-    options.keep_points = true;
+    options.output.points = true;
     for (const bool identity : {false, true}) {
-      options.identity = identity;
+      options.kernel.identity = identity;
       expect_independent_of_jobs(scene, options);
     }
   }
@@ -154,12 +154,12 @@ class SectorsAndSvbsp : public testing::TestWithParam<Generated> {
   static void compare(bool exact) {
     const PreparedScene scene = prepared(GetParam());
     ShadowOptions options;
-    options.exact_fractions = exact;
-    options.algorithm = MethodId::kSvbsp;
+    options.output.exact_fractions = exact;
+    options.method.point = MethodId::kSvbsp;
     const ShadowResult svbsp = solved(scene, options);
-    options.algorithm = MethodId::kSectors;
+    options.method.point = MethodId::kSectors;
     for (const std::uint32_t leaf_size : {16u, 3u}) {
-      options.leaf_size = leaf_size;
+      options.tuning.leaf_size = leaf_size;
       const ShadowResult result = solved(scene, options);
       ASSERT_EQ(result.lights.size(), svbsp.lights.size());
       for (std::size_t l = 0; l < result.lights.size(); ++l) {
@@ -229,7 +229,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LargeSectorsAndSvbsp,
 /// Bounds computed without exact fractions hold those, and are narrow.
 void expect_bounds(const PreparedScene& scene, ShadowOptions options) {
   const ShadowResult bounds = solved(scene, options);
-  options.exact_fractions = true;
+  options.output.exact_fractions = true;
   const ShadowResult exact = solved(scene, options);
   for (std::size_t l = 0; l < exact.lights.size(); ++l) {
     for (std::size_t i = 0; i < exact.lights[l].parts.size(); ++i) {
@@ -253,7 +253,7 @@ TEST_P(SectorBounds, HoldTheExactFractionAtEveryScale) {
       if (!scene) continue;
       for (const KernelId kernel : {KernelId::kPlane, KernelId::kRational}) {
         ShadowOptions options = sectors(kernel);
-        options.leaf_size = seed % 2 == 0 ? 1 : 16;
+        options.tuning.leaf_size = seed % 2 == 0 ? 1 : 16;
         expect_bounds(scene->prepared(), options);
         ASSERT_FALSE(HasFatalFailure()) << seed << " times 2^" << exponent;
       }
@@ -270,8 +270,8 @@ TEST(SectorBoundsOnWideGrids, HoldTheExactFraction) {
     EXPECT_GT(scene->prepared().geometry.grid.bits(), 400u);
     for (const std::uint32_t leaf_size : {0u, 1u, 2u}) {
       ShadowOptions options = sectors();
-      options.leaf_size = leaf_size;
-      options.task_size = leaf_size + 1;
+      options.tuning.leaf_size = leaf_size;
+      options.tuning.task_size = leaf_size + 1;
       expect_bounds(scene->prepared(), options);
       ASSERT_FALSE(testing::Test::HasFatalFailure()) << seed;
     }
@@ -291,15 +291,15 @@ TEST(SectorLimits, AreExact) {
   for (const PreparedScene* own : {&scene, &large}) {
     for (const unsigned jobs : {1u, 3u}) {
       ShadowOptions options = sectors();
-      options.jobs = jobs;
-      options.leaf_size = own == &scene ? 2 : 16;
-      options.task_size = own == &scene ? 3 : 0;
+      options.tuning.jobs = jobs;
+      options.tuning.leaf_size = own == &scene ? 2 : 16;
+      options.tuning.task_size = own == &scene ? 3 : 0;
       const std::uint64_t total = solved(*own, options).lights[0].fragment_total;
       ASSERT_GT(total, own->parts.size());
-      options.max_fragments = total;
+      options.limits.fragments = total;
       EXPECT_TRUE(compute_shadows(*own, options));
       for (const std::uint64_t limit : {std::uint64_t{0}, total / 2, total - 1}) {
-        options.max_fragments = limit;
+        options.limits.fragments = limit;
         const Expected<ShadowResult> result = compute_shadows(*own, options);
         ASSERT_FALSE(result) << limit << " of " << total;
         EXPECT_EQ(result.error().code, ErrorCode::kLimit);
@@ -313,13 +313,13 @@ TEST(SectorInterruption, FromAnotherThread) {
   for (const unsigned jobs : {1u, 2u, 0u}) {
     for (const std::uint32_t task_size : {0u, 1u << 30}) {  // many tasks, or one
       ShadowOptions options = sectors();
-      options.jobs = jobs;
-      options.task_size = task_size;
+      options.tuning.jobs = jobs;
+      options.tuning.task_size = task_size;
       // On a busy machine the other thread may come when all is done.
       bool interrupted = false;
       for (int attempt = 0; attempt < 50 && !interrupted; ++attempt) {
         std::atomic<bool> stop = false;
-        options.interrupted = &stop;
+        options.control.interrupted = &stop;
         std::thread other([&] {
           std::this_thread::sleep_for(std::chrono::milliseconds(2));
           stop = true;
@@ -340,8 +340,8 @@ TEST(SectorInterruption, FromTheProgressReport) {
   const PreparedScene scene = prepared({"quads", {{"n", 3000}}});
   std::atomic<bool> stop = false;
   ShadowOptions options = sectors();
-  options.interrupted = &stop;
-  options.progress = [&](double) { stop = true; };
+  options.control.interrupted = &stop;
+  options.control.progress = [&](double) { stop = true; };
   const Expected<ShadowResult> result = compute_shadows(scene, options);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kInterrupted);
@@ -357,7 +357,7 @@ TEST(SmallestScenes, NoPolygons) {
   for (const KernelInfo& kernel : kernel_list()) {
     for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options = options_for(kernel.id);
-      options.algorithm = algorithm;
+      options.method.point = algorithm;
       const ShadowResult result = solved(*scene, options);
       ASSERT_EQ(result.lights.size(), 2u);
       EXPECT_TRUE(result.lights[0].parts.empty());
@@ -373,7 +373,7 @@ TEST(SmallestScenes, NoLights) {
   ASSERT_TRUE(scene);
   for (const MethodId algorithm : kAlgorithms) {
     ShadowOptions options;
-    options.algorithm = algorithm;
+    options.method.point = algorithm;
     EXPECT_TRUE(solved(*scene, options).lights.empty());
   }
 }
@@ -387,7 +387,7 @@ TEST(SmallestScenes, NothingFacesTheLight) {
   for (const KernelInfo& kernel : kernel_list()) {
     for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options = options_for(kernel.id);
-      options.algorithm = algorithm;
+      options.method.point = algorithm;
       const ShadowResult result = solved(*scene, options);
       for (const LightResult& light : result.lights) {
         EXPECT_EQ(light.facing_parts, 0u);
@@ -411,8 +411,8 @@ TEST(SmallestScenes, OneTriangle) {
   for (const KernelInfo& kernel : kernel_list()) {
     for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options = options_for(kernel.id);
-      options.algorithm = algorithm;
-      options.keep_points = true;
+      options.method.point = algorithm;
+      options.output.points = true;
       const ShadowResult result = solved(*scene, options);
       for (const LightResult& light : result.lights) {
         EXPECT_EQ(light.parts[0].lit.lower, 1);

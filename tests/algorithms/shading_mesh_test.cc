@@ -50,8 +50,8 @@ Solved solve(const char* text, std::vector<std::uint32_t> lights) {
   EXPECT_TRUE(prepared);
   ShadowOptions options;
   options.lights = lights;
-  options.keep_exact_points = true;
-  options.combined = lights.size() > 1;
+  options.output.exact_points = true;
+  options.output.combined = lights.size() > 1;
   auto result = compute_shadows(*prepared, options);
   EXPECT_TRUE(result) << (result ? "" : to_string(result.error()));
   return {*std::move(prepared), *std::move(result)};

@@ -86,7 +86,7 @@ TEST(SharedScenes, EastWallOfCase630) {
   for (const KernelId kernel : kExactKernels) {
     for (const MethodId algorithm : kAlgorithms) {
       ShadowOptions options = options_for(kernel);
-      options.algorithm = algorithm;
+      options.method.point = algorithm;
       EXPECT_EQ(lit_fraction_of(*scene, options, first_sun, wall), mpq_class(97, 147));
     }
   }

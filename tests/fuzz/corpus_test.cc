@@ -90,12 +90,14 @@ TEST_P(CorpusKind, FractionsAreThoseRecorded) {
       ASSERT_TRUE(found) << to_string(found.error());
       EXPECT_EQ(difference(fixture.fractions, *found), "");
     };
-    options.algorithm = MethodId::kSvbsp;
-    options.area_algorithm = MethodId::kMerged;
-    for (options.seed = 1; options.seed <= 8; ++options.seed) check();  // orders of splitting
-    options.algorithm = MethodId::kSectors;
-    options.area_algorithm = MethodId::kReceiver;
-    for (options.leaf_size = 0; options.leaf_size <= 4; ++options.leaf_size) check();
+    options.method.point = MethodId::kSvbsp;
+    options.method.area = MethodId::kMerged;
+    for (options.method.seed = 1; options.method.seed <= 8; ++options.method.seed)
+      check();  // orders of splitting
+    options.method.point = MethodId::kSectors;
+    options.method.area = MethodId::kReceiver;
+    for (options.tuning.leaf_size = 0; options.tuning.leaf_size <= 4; ++options.tuning.leaf_size)
+      check();
   });
 }
 
@@ -238,8 +240,8 @@ TEST(Corpus, SlantedThroughIsSplitAtAll) {
   unsigned split = 0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     ShadowOptions options = test::options_for(KernelId::kPlane);
-    options.algorithm = MethodId::kSvbsp;
-    options.seed = seed;
+    options.method.point = MethodId::kSvbsp;
+    options.method.seed = seed;
     const Expected<ShadowResult> result = compute_shadows(scene->prepared(), options);
     ASSERT_TRUE(result);
     split += result->bsp_fragments > scene->prepared().parts.size() ? 1 : 0;

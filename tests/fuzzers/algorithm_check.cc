@@ -38,7 +38,7 @@ void check_algorithms(const Scene& scene, std::initializer_list<std::string_view
   check_subjects(scene, all, {fuzz::Property::kAgreement}, seed);
   for (const std::string_view name : rounded) {
     ShadowOptions rounded_options = fuzz::shadow_options(*fuzz::parse_subject(name));
-    rounded_options.max_fragments = 5'000;
+    rounded_options.limits.fragments = 5'000;
     const auto result = compute_shadows(*prepared, rounded_options);
     if (!result) {
       require(result.error().code == ErrorCode::kLimit,

@@ -55,10 +55,10 @@ TEST_P(Pipeline, SetsOfLightsAgreeWithEachLightAlone) {
     const auto prepared = prepare(*scene);
     ASSERT_TRUE(prepared) << to_string(prepared.error());
     ShadowOptions options;
-    options.kernel = GetParam();
-    options.exact_fractions = true;
-    options.keep_exact_points = true;
-    options.combined = true;
+    options.kernel.id = GetParam();
+    options.output.exact_fractions = true;
+    options.output.exact_points = true;
+    options.output.combined = true;
     const auto result = compute_shadows(*prepared, options);
     ASSERT_TRUE(result) << to_string(result.error());
 
@@ -110,7 +110,7 @@ TEST(PipelineLimits, TooManyFragmentsIsAnError) {
   const auto prepared = prepare(*scene);
   ASSERT_TRUE(prepared);
   ShadowOptions options;
-  options.max_fragments = 50;
+  options.limits.fragments = 50;
   const auto result = compute_shadows(*prepared, options);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().code, ErrorCode::kLimit);

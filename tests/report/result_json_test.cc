@@ -34,9 +34,9 @@ Classified classify(const std::string& text, KernelId kernel = KernelId::kPlane)
   EXPECT_TRUE(prepared) << to_string(prepared.error());
   all.prepared = std::move(*prepared);
   ShadowOptions options;
-  options.kernel = kernel;
-  options.keep_points = true;
-  options.exact_fractions = true;
+  options.kernel.id = kernel;
+  options.output.points = true;
+  options.output.exact_fractions = true;
   auto result = compute_shadows(all.prepared, options);
   EXPECT_TRUE(result);
   all.result = std::move(*result);

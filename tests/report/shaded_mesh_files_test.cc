@@ -37,7 +37,7 @@ Shaded shaded() {
   auto read = parse_scene(kTable, "table.json");
   auto prepared = prepare(read->scene);
   ShadowOptions options;
-  options.keep_exact_points = true;
+  options.output.exact_points = true;
   const auto result = compute_shadows(*prepared, options);
   EXPECT_TRUE(result) << (result ? "" : to_string(result.error()));
   ShadingOptions shading;

@@ -31,7 +31,7 @@ std::string picture(const ShadeOf& shade_of, ShadedPictureOptions options = {}, 
   const auto read = parse_scene(kSheet, "sheet.json");
   const auto prepared = prepare(read->scene);
   ShadowOptions shadows;
-  shadows.keep_exact_points = true;
+  shadows.output.exact_points = true;
   const auto result = compute_shadows(*prepared, shadows);
   const auto mesh = make_shading_mesh(
       *prepared, *result,

@@ -54,7 +54,7 @@ std::string check_sums(const Case& scene, const ShadowResult& result) {
 
 /// Bounds from doubles alone.
 std::string check_bounds(const Case& scene, const ShadowResult& exact, ShadowOptions options) {
-  options.exact_fractions = options.keep_exact_points = false;
+  options.output.exact_fractions = options.output.exact_points = false;
   const Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
   if (!result) return to_string(result.error());
   for (std::size_t l = 0; l < exact.lights.size(); ++l) {
@@ -143,7 +143,7 @@ mpq_class signed_area(const std::array<mpq_class, 3>* points, std::size_t count)
 
 /// In the pipeline of all lights, the area of what each light reaches is what it is alone.
 std::string check_combined(const Case& scene, ShadowOptions options) {
-  options.combined = true;
+  options.output.combined = true;
   const Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
   if (!result) return to_string(result.error());
   const PreparedScene& prepared = scene.prepared();
@@ -188,13 +188,13 @@ std::vector<ShadowOptions> variants() {
   std::vector<ShadowOptions> all;
   for (const KernelId kernel : kExactKernels) {
     ShadowOptions options = options_for(kernel);
-    options.jobs = kernel == KernelId::kPlane ? 2 : 1;
-    options.algorithm = kernel == KernelId::kRational ? MethodId::kReceiver : MethodId::kSectors;
+    options.tuning.jobs = kernel == KernelId::kPlane ? 2 : 1;
+    options.method.point = kernel == KernelId::kRational ? MethodId::kReceiver : MethodId::kSectors;
     all.push_back(options);
     if (kernel == KernelId::kEpeck) continue;
-    options.jobs = 1;
-    options.merge = false;
-    options.area_algorithm = MethodId::kMerged;
+    options.tuning.jobs = 1;
+    options.output.merge = false;
+    options.method.area = MethodId::kMerged;
     all.push_back(options);
   }
   return all;
@@ -210,7 +210,7 @@ std::string check_area_exact(const Case& scene) {
     const bool is_first = first.kernel.empty();
     std::string wrong = check_sums(scene, *result);
     if (wrong.empty() && !is_first) wrong = compare_results(scene, first, *result);
-    if (wrong.empty() && (is_first || options.area_algorithm == MethodId::kMerged)) {
+    if (wrong.empty() && (is_first || options.method.area == MethodId::kMerged)) {
       wrong = compare_with_oracle(scene, *result);
     }
     if (wrong.empty() && is_first) wrong = check_bounds(scene, *result, options);

@@ -103,7 +103,7 @@ std::string check_sums(const Case& scene, const ShadowResult& result) {
 /// The same without exact fractions: the bounds then come from arithmetic in doubles, and must
 /// hold.
 std::string check_bounds(const Case& scene, const ShadowResult& exact, ShadowOptions options) {
-  options.exact_fractions = options.keep_exact_points = false;
+  options.output.exact_fractions = options.output.exact_points = false;
   const Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
   if (!result) return to_string(result.error());
   for (std::size_t l = 0; l < exact.lights.size(); ++l) {
@@ -175,17 +175,17 @@ std::vector<ShadowOptions> variants(const Case& scene) {
     for (std::uint32_t light = 0; light < scene.prepared().lights.size(); ++light) {
       if (!scene.is_area(light)) options.lights.push_back(light);
     }
-    options.algorithm = MethodId::kSectors;
-    options.jobs = 1;
+    options.method.point = MethodId::kSectors;
+    options.tuning.jobs = 1;
     if (kernel == KernelId::kPlane) all.push_back(options);
     all.push_back(with_small_cells(options));
     if (kernel == KernelId::kPlane) all.back().jobs = 2;
-    options.algorithm = MethodId::kSvbsp;
-    options.merge = options.prefix = kernel != KernelId::kRational;
-    options.seed = 1 + static_cast<std::uint64_t>(kernel);
+    options.method.point = MethodId::kSvbsp;
+    options.output.merge = options.method.prefix = kernel != KernelId::kRational;
+    options.method.seed = 1 + static_cast<std::uint64_t>(kernel);
     all.push_back(options);
     if (kernel != KernelId::kPlane) continue;
-    options.algorithm = MethodId::kReceiver;  // as area lights are found
+    options.method.point = MethodId::kReceiver;  // as area lights are found
     all.push_back(options);
   }
   return all;
@@ -205,13 +205,13 @@ std::string check_exact(const Case& scene) {
     if (wrong.empty()) wrong = find_false_witness(scene, *result);
     if (wrong.empty() && is_first) wrong = compare_with_oracle(scene, *result);
     if (wrong.empty() && !is_first) wrong = compare_results(scene, first, *result);
-    if (wrong.empty() && options.kernel == KernelId::kPlane) {
+    if (wrong.empty() && options.kernel.id == KernelId::kPlane) {
       wrong = compare_fragments(scene, *result);
     }
     if (wrong.empty() && is_first) wrong = check_claims(scene, *result);
     if (!wrong.empty()) {
-      return fmt::format("leaves of {}, tasks of {}: {}", options.leaf_size, options.task_size,
-                         wrong);
+      return fmt::format("leaves of {}, tasks of {}: {}", options.tuning.leaf_size,
+                         options.tuning.task_size, wrong);
     }
     if (is_first) first = std::move(*result);
   }

@@ -23,9 +23,9 @@ std::unique_ptr<Case> Case::make(Scene scene, std::string* why) {
 
 ShadowOptions options_for(KernelId kernel) {
   ShadowOptions options;
-  options.kernel = kernel;
-  options.keep_exact_points = true;
-  options.exact_fractions = kernel_info(kernel).exact;
+  options.kernel.id = kernel;
+  options.output.exact_points = true;
+  options.output.exact_fractions = kernel_info(kernel).exact;
   return options;
 }
 
@@ -52,9 +52,9 @@ ShadowOptions options_by_name(const std::string& name, MethodId algorithm) {
   const std::optional<KernelId> id = kernel_by_name(kernel);
   if (!id) throw std::runtime_error("no kernel " + name);
   ShadowOptions options = options_for(*id);
-  options.algorithm = algorithm;
-  options.identity = identity;
-  options.thickness = at == std::string::npos ? 0 : std::stod(name.substr(at + 1));
+  options.method.point = algorithm;
+  options.kernel.identity = identity;
+  options.kernel.thickness = at == std::string::npos ? 0 : std::stod(name.substr(at + 1));
   return options;
 }
 
@@ -63,9 +63,9 @@ std::string name_of(MethodId algorithm) {
 }
 
 ShadowOptions with_small_cells(ShadowOptions options) {
-  options.algorithm = MethodId::kSectors;
-  options.leaf_size = 1;
-  options.task_size = 2;
+  options.method.point = MethodId::kSectors;
+  options.tuning.leaf_size = 1;
+  options.tuning.task_size = 2;
   return options;
 }
 
