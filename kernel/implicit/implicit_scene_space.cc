@@ -2,7 +2,6 @@
 // The decisions of kernel `plane` in space: the three kinds of vertices down the ladder of stages.
 #include "kernel/implicit/implicit_scene_space.h"
 
-
 #include "gnomon/kernel/precision_plan.h"
 #include "kernel/implicit/exact_predicates.h"
 #include "kernel/implicit/plane_provenance.h"
