@@ -55,12 +55,12 @@ void export_volume_loop(const Space& space, const RunOptions& options,
                         OutputFragment& fragment, std::vector<std::array<double, 3>>& points,
                         std::vector<std::array<mpq_class, 3>>& exact_points) {
   fragment.first =
-      static_cast<std::uint32_t>(options.keep_points ? points.size() : exact_points.size());
+      static_cast<std::uint32_t>(options.output.points ? points.size() : exact_points.size());
   fragment.count = loop.size();
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
     const auto corner = loop.corner(reversed ? loop.size() - 1 - i : i);
-    if (options.keep_points) points.push_back(space.nearest_position(corner));
-    if (options.keep_exact_points) exact_points.push_back(space.exact_position(corner));
+    if (options.output.points) points.push_back(space.nearest_position(corner));
+    if (options.output.exact_points) exact_points.push_back(space.exact_position(corner));
   }
 }
 
@@ -116,7 +116,7 @@ SideResult FragmentSink<Space>::finish(const Space& space, const Loop& whole) {
   SideResult result;
   result.part.part = part_;
   result.part.side = side_;
-  if (options_->merge && pieces_.size() > 1 &&
+  if (options_->output.merge && pieces_.size() > 1 &&
       std::all_of(pieces_.begin(), pieces_.end(),
                   [&](const Piece& piece) { return piece.state == pieces_.front().state; })) {
     // The input polygon as it was (1989, sec. 6).
@@ -163,7 +163,7 @@ void FragmentSink<Space>::measure(const Space& space, const Loop& whole, SideRes
   }
   const PlaneId plane = scene_->parts[part_].plane;
   PartMeasure<Space> part(space, chart_of(space.geometry(), plane), whole,
-                          options_->exact_fractions);
+                          options_->output.exact_fractions);
   // The class of most pieces is left out on exact kernels.
   std::size_t most = 0;
   for (std::size_t state = 1; state < 4; ++state) {
@@ -182,14 +182,14 @@ void FragmentSink<Space>::measure(const Space& space, const Loop& whole, SideRes
     if (count[state] == 0 || (Space::kExact && state == most)) continue;
     *interval[state] = sums[state].interval(Space::kExact);
     if (Space::kExact && k < 2) others[k++] = *interval[state];
-    if (options_->exact_fractions) {
+    if (options_->output.exact_fractions) {
       *exact[state] = sums[state].exact();
       rest -= *exact[state];
     }
   }
   if constexpr (Space::kExact) {
     *interval[most] = rest_of(others[0], others[1]);
-    if (options_->exact_fractions) *exact[most] = rest;
+    if (options_->output.exact_fractions) *exact[most] = rest;
   }
 }
 

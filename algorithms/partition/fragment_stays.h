@@ -14,12 +14,10 @@
 
 namespace gnomon {
 
-/// Rounded positions are made only for rules that ask for them.
+/// What the rules say of a loop's shape. Requires: they ask about it.
 template <MeasuredSpace Space>
-bool fragment_stays(const Space& space, const LoopView<typename Space::Vertex>& loop,
-                    const Rules& rules) {
-  if (rules.fragment_stays == nullptr) [[likely]]
-    return true;
+bool shape_stays(const Space& space, const LoopView<typename Space::Vertex>& loop,
+                 const Rules& rules) {
   std::vector<std::array<double, 3>> corners;
   bool is_input = true;
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
@@ -28,6 +26,15 @@ bool fragment_stays(const Space& space, const LoopView<typename Space::Vertex>& 
     is_input = is_input && loop.vertices[i].source != kMadeVertex;
   }
   return rules.fragment_stays({corners, is_input});
+}
+
+/// Costs one comparison under the rules of the definition: positions are made only for others.
+template <MeasuredSpace Space>
+bool fragment_stays(const Space& space, const LoopView<typename Space::Vertex>& loop,
+                    const Rules& rules) {
+  if (rules.fragment_stays == nullptr) [[likely]]
+    return true;
+  return shape_stays(space, loop, rules);
 }
 
 }  // namespace gnomon

@@ -123,25 +123,25 @@ void export_loop(const Space& space, const Geometry& geometry, const RunOptions&
                  std::vector<std::array<double, 3>>& points,
                  std::vector<std::array<mpq_class, 3>>& exact_points) {
   fragment.first =
-      static_cast<std::uint32_t>(options.keep_points ? points.size() : exact_points.size());
+      static_cast<std::uint32_t>(options.output.points ? points.size() : exact_points.size());
   fragment.count = loop.size();
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
     const auto corner = loop.corner(i);
     const bool input = corner.vertex.source != kMadeVertex;
     if constexpr (requires { space.nearest_position(corner); }) {
-      if (!options.keep_exact_points) {
+      if (!options.output.exact_points) {
         if (const auto nearest = space.nearest_position(corner)) {
           points.push_back(*nearest);
           continue;
         }
       }
     }
-    if (options.keep_exact_points || (!input && Space::kExact)) {
+    if (options.output.exact_points || (!input && Space::kExact)) {
       std::array<mpq_class, 3> exact = space.exact_position(corner);
-      if (options.keep_points) {
+      if (options.output.points) {
         points.push_back(input ? geometry.positions[corner.vertex.source] : nearest_doubles(exact));
       }
-      if (options.keep_exact_points) exact_points.push_back(std::move(exact));
+      if (options.output.exact_points) exact_points.push_back(std::move(exact));
     } else if (input) {
       points.push_back(geometry.positions[corner.vertex.source]);
     } else {

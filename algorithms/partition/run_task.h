@@ -38,7 +38,7 @@ using MethodFunction = Expected<ShadowResult> (*)(const RunTask&);
 inline tl::unexpected<Error> interrupted() { return fail(ErrorCode::kInterrupted, "interrupted"); }
 inline tl::unexpected<Error> too_many_fragments(const ShadowOptions& options) {
   return fail(ErrorCode::kLimit,
-              "more than " + std::to_string(options.max_fragments) + " fragments",
+              "more than " + std::to_string(options.limits.fragments) + " fragments",
               "a simpler scene, or a higher limit");
 }
 
@@ -51,28 +51,18 @@ inline int thread_count(unsigned jobs) {
 
 /// The part of the public options that one light's run is told.
 inline RunOptions run_options_of(const ShadowOptions& options) {
-  RunOptions result;
-  result.keep_points = options.keep_points;
-  result.keep_exact_points = options.keep_exact_points;
-  result.exact_fractions = options.exact_fractions;
-  result.merge = options.merge;
-  result.prefix = options.prefix;
-  result.leaf_size = options.leaf_size;
-  result.task_size = options.task_size;
-  result.jobs = options.jobs;
-  result.max_fragments = options.max_fragments;
-  result.interrupted = options.interrupted;
-  return result;
+  return {options.output, options.limits, options.tuning, options.method.prefix,
+          options.control.interrupted};
 }
 
 /// The result of a run on this kernel, before any light.
 inline ShadowResult empty_result(const ShadowOptions& options) {
-  const KernelInfo& kernel = kernel_info(options.kernel);
+  const KernelInfo& kernel = kernel_info(options.kernel.id);
   ShadowResult result;
   result.kernel = kernel.name;
   result.exact = kernel.exact;
-  result.identity = options.identity || kernel.exact;
-  result.thickness = kernel.exact ? 0 : options.thickness;
+  result.identity = options.kernel.identity || kernel.exact;
+  result.thickness = kernel.exact ? 0 : options.kernel.thickness;
   return result;
 }
 

@@ -10,8 +10,8 @@ Expected<std::vector<DeepUmbraBounds>> deep_umbra_bounds(const PreparedScene& sc
                                                          const DeepUmbraOptions& options) {
   ShadowOptions shadows;
   shadows.lights = {light};
-  shadows.keep_exact_points = true;
-  shadows.interrupted = options.interrupted;
+  shadows.output.exact_points = true;
+  shadows.control.interrupted = options.interrupted;
   const auto classified = compute_shadows(scene, shadows);
   if (!classified) return tl::unexpected(classified.error());
   return deep_umbra_bounds(scene, classified->lights[0], options);

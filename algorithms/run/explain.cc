@@ -38,9 +38,9 @@ std::string text(const std::array<double, 3>& point) {
 
 Expected<std::optional<FirstDifference>> explain(const PreparedScene& scene,
                                                  const ShadowOptions& options) {
-  if (kernel_info(options.kernel).exact) {
+  if (kernel_info(options.kernel.id).exact) {
     return fail(ErrorCode::kUsage,
-                "kernel " + std::string(kernel_info(options.kernel).name) + " is exact",
+                "kernel " + std::string(kernel_info(options.kernel.id).name) + " is exact",
                 "a rounded kernel: only those differ from the exact answer");
   }
   auto lights = select_lights(scene, options);
@@ -50,10 +50,10 @@ Expected<std::optional<FirstDifference>> explain(const PreparedScene& scene,
                 [&](std::uint32_t light) { return scene.lights[light].type == LightType::kArea; });
   if (lights->empty()) return std::nullopt;
   static constexpr auto kExplain = on_every_kernel<ExplainOn, CompiledFor::kRoundedKernels>();
-  const auto explain_on = kExplain[static_cast<std::size_t>(options.kernel)];
+  const auto explain_on = kExplain[static_cast<std::size_t>(options.kernel.id)];
   if (explain_on == nullptr) {
     return fail(ErrorCode::kUsage,
-                "kernel " + std::string(kernel_info(options.kernel).name) + " was not built",
+                "kernel " + std::string(kernel_info(options.kernel.id).name) + " was not built",
                 "another kernel, or a build with GNOMON_CGAL_KERNELS");
   }
   return explain_on({scene, options, Rules{}, *lights, {}});

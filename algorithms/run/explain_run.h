@@ -18,8 +18,8 @@ Explanation ExplainOn<Kernel>::run(const RunTask& task) {
   const ShadowOptions& options = task.options;
   LockStep lock_step;
   PairOptions kernel_options;
-  kernel_options.identity = options.identity;
-  kernel_options.thickness = options.thickness;
+  kernel_options.identity = options.kernel.identity;
+  kernel_options.thickness = options.kernel.thickness;
   kernel_options.lock_step = &lock_step;
   RunOptions run_options = run_options_of(options);
   run_options.interrupted = &lock_step.stop;
@@ -27,8 +27,8 @@ Explanation ExplainOn<Kernel>::run(const RunTask& task) {
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
   std::vector<std::uint32_t> parts(scene.parts.size());
   for (std::uint32_t i = 0; i < parts.size(); ++i) parts[i] = i;
-  const auto bsp =
-      build_scene_bsp(scene_space, scene, parts, options.seed, options.identity, &lock_step.stop);
+  const auto bsp = build_scene_bsp(scene_space, scene, parts, options.method.seed,
+                                   options.kernel.identity, &lock_step.stop);
   if (lock_step.first) return FirstDifference{*lock_step.first, std::nullopt};
   for (const std::uint32_t light : task.lights) {
     SvbspRun<Space> run(scene, run_options, task.rules, scene_space, light, kernel_options);

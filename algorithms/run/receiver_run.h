@@ -61,8 +61,8 @@ class ReceiverRun {
         run_options_(run_options_of(options)),
         rules_(rules),
         light_geometry_(make_light_geometry(scene)),
-        scene_space_(light_geometry_.geometry, {options.identity, options.thickness}),
-        space_(scene_space_, {options.identity, options.thickness}),
+        scene_space_(light_geometry_.geometry, {options.kernel.identity, options.kernel.thickness}),
+        space_(scene_space_, {options.kernel.identity, options.kernel.thickness}),
         tree_(light_geometry_.geometry, scene, casters(scene)) {}
 
   /// Lights that results are wanted of one by one, and those that fragments are combined of.
@@ -82,13 +82,14 @@ class ReceiverRun {
   template <class Body>
   bool for_each(std::size_t n, double from, double to, const Body& body);
   bool stopped() {
-    if (options_.interrupted != nullptr && options_.interrupted->load(std::memory_order_relaxed)) {
+    if (options_.control.interrupted != nullptr &&
+        options_.control.interrupted->load(std::memory_order_relaxed)) {
       stopped_.store(true, std::memory_order_relaxed);
     }
     return stopped_.load(std::memory_order_relaxed);
   }
   bool count_piece() {
-    return pieces_.fetch_add(1, std::memory_order_relaxed) < options_.max_fragments ||
+    return pieces_.fetch_add(1, std::memory_order_relaxed) < options_.limits.fragments ||
            (stopped_.store(true, std::memory_order_relaxed), false);
   }
   LightResult run_light(std::uint32_t light, double from, double to);
@@ -137,13 +138,14 @@ bool ReceiverRun<Space>::for_each(std::size_t n, double from, double to, const B
     const std::uint32_t mark = workspace->space.plane_mark();
     body(*workspace, i);
     workspace->space.release_planes(mark);
-    if (!options_.progress) return;
+    if (!options_.control.progress) return;
     const std::lock_guard lock(mutex);
     if ((++done & 15) == 0) {
-      options_.progress(from + (to - from) * static_cast<double>(done) / static_cast<double>(n));
+      options_.control.progress(from +
+                                (to - from) * static_cast<double>(done) / static_cast<double>(n));
     }
   };
-  if (Space::kParallel && options_.jobs != 1) {
+  if (Space::kParallel && options_.tuning.jobs != 1) {
     tbb::parallel_for(std::size_t{0}, n, one);
   } else {
     for (std::size_t i = 0; i < n; ++i) one(i);
@@ -183,7 +185,7 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
     if (by_trees) {
       if (!workspace.trees) {
         workspace.trees =
-            std::make_unique<VolumeTreeWorkspace<Space>>(workspace.space, options_.merge);
+            std::make_unique<VolumeTreeWorkspace<Space>>(workspace.space, options_.output.merge);
       }
       merged->cut(workspace.space, workspace.record, *workspace.trees, whole, receiving, emit);
     } else {
@@ -219,11 +221,11 @@ bool ReceiverRun<Space>::build_trees(const LightInSpace<Space>& light, double fr
   }
   using Outcome = typename PenumbraAndUmbra<Space>::Outcome;
   const Outcome outcome = trees.build(receivers, [&](double share) {
-    if (options_.progress) options_.progress(from + (to - from) * share);
+    if (options_.control.progress) options_.control.progress(from + (to - from) * share);
     return !stopped();
   });
   if (outcome == Outcome::kTooManyNodes) {
-    pieces_ = options_.max_fragments + 1;
+    pieces_ = options_.limits.fragments + 1;
     stopped_ = true;
   }
   return outcome == Outcome::kDone;
@@ -260,8 +262,8 @@ void ReceiverRun<Space>::run_pieces(std::uint32_t index, double from, double to,
   }
   LightCut<Vertex> cut;
   if (!cut_light(space_, whole.view({0, whole.size(), 0}, face.plane), planes,
-                 options_.max_fragments, cut)) {
-    pieces_ = options_.max_fragments + 1;
+                 options_.limits.fragments, cut)) {
+    pieces_ = options_.limits.fragments + 1;
     stopped_ = true;
     return;
   }
@@ -273,7 +275,7 @@ void ReceiverRun<Space>::run_pieces(std::uint32_t index, double from, double to,
     LightResult result;
     result.light = index;
     result.piece = i;
-    for (std::uint32_t k = 0; options_.keep_exact_points && k < piece.size(); ++k) {
+    for (std::uint32_t k = 0; options_.output.exact_points && k < piece.size(); ++k) {
       result.piece_loop.push_back(space_.exact_position(piece.corner(k)));
     }
     result = run_light(light, std::move(result), from + (to - from) * (i / count),
@@ -288,7 +290,7 @@ template <VolumeSpaceModel Space>
 LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, LightResult result,
                                           double from, double to) {
   std::optional<PenumbraAndUmbra<Space>> merged;
-  if (light.is_area() && options_.area_algorithm != MethodId::kReceiver) {
+  if (light.is_area() && options_.method.area != MethodId::kReceiver) {
     merged.emplace(space_, light, scene_, tree_, run_options_, rules_);
     const double middle = from + (to - from) / 2;
     if (!build_trees(light, from, middle, *merged)) return result;
@@ -326,7 +328,7 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
       }
       side.part.first_fragment = static_cast<std::uint32_t>(result.fragments.size());
       const auto base = static_cast<std::uint32_t>(
-          options_.keep_points ? result.points.size() : result.exact_points.size());
+          options_.output.points ? result.points.size() : result.exact_points.size());
       for (Fragment& fragment : side.fragments) {
         fragment.first += base;
         result.fragments.push_back(fragment);
@@ -413,9 +415,9 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
       for (std::uint32_t part = scene_.first_part[polygon]; part < scene_.first_part[polygon + 1];
            ++part) {
         Combined& own = results[part][side];
-        const auto base =
-            static_cast<std::uint32_t>(options_.keep_points ? outcome.combined_points.size()
-                                                            : outcome.combined_exact_points.size());
+        const auto base = static_cast<std::uint32_t>(options_.output.points
+                                                         ? outcome.combined_points.size()
+                                                         : outcome.combined_exact_points.size());
         for (CombinedFragment& fragment : own.fragments) {
           fragment.first += base;
           outcome.combined.push_back(fragment);
@@ -432,7 +434,7 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
 template <VolumeSpaceModel Space>
 tl::unexpected<Error> ReceiverRun<Space>::stop_reason() const {
   if (no_ieee_) return tl::unexpected<Error>(check_fp_environment().error());
-  if (pieces_ > options_.max_fragments) return too_many_fragments(options_);
+  if (pieces_ > options_.limits.fragments) return too_many_fragments(options_);
   return interrupted();
 }
 
@@ -442,7 +444,7 @@ Expected<ShadowResult> ReceiverRun<Space>::run(const LightList& lights, const Li
   const double steps = static_cast<double>(lights.size() + (combined.empty() ? 0 : 1));
   double step = 0;
   for (const std::uint32_t light : lights) {
-    if (options_.area_algorithm == MethodId::kPieces &&
+    if (options_.method.area == MethodId::kPieces &&
         scene_.lights[light].type == LightType::kArea) {
       run_pieces(light, step / steps, (step + 1) / steps, outcome.lights);
     } else {
@@ -464,9 +466,9 @@ Expected<ShadowResult> ReceiverRun<Space>::run(const LightList& lights, const Li
 /// On as many threads as asked for.
 template <class Kernel>
 Expected<ShadowResult> ByReceiver<Kernel>::run(const RunTask& task) {
-  tbb::task_arena arena(thread_count(task.options.jobs));
+  tbb::task_arena arena(thread_count(task.options.tuning.jobs));
   return arena.execute([&] {
-    return with_volume_space<Kernel>(task.options.count_stages, [&]<class Space>() {
+    return with_volume_space<Kernel>(task.options.output.stage_counts, [&]<class Space>() {
       return ReceiverRun<Space>(task.scene, task.options, task.rules)
           .run(task.lights, task.combined);
     });

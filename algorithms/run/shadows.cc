@@ -13,8 +13,8 @@
 namespace gnomon {
 
 MethodId method_of(LightType light, const ShadowOptions& options, bool together) {
-  if (light == LightType::kArea) return options.area_algorithm;
-  if (options.algorithm != MethodId::kAutomatic) return options.algorithm;
+  if (light == LightType::kArea) return options.method.area;
+  if (options.method.point != MethodId::kAutomatic) return options.method.point;
   return together ? MethodId::kSvbsp : MethodId::kSectors;
 }
 
@@ -50,9 +50,9 @@ void join(ShadowResult& result, ShadowResult by_receiver, const ShadowOptions& o
   };
   std::stable_sort(result.lights.begin(), result.lights.end(),
                    [&](const LightResult& a, const LightResult& b) { return place(a) < place(b); });
-  const std::string own(method_info(options.algorithm == MethodId::kReceiver
+  const std::string own(method_info(options.method.point == MethodId::kReceiver
                                         ? MethodId::kReceiver
-                                        : options.area_algorithm)
+                                        : options.method.area)
                             .name);
   result.algorithm =
       result.algorithm.empty() || result.algorithm == own ? own : result.algorithm + "+" + own;
@@ -82,8 +82,8 @@ Expected<LightList> select_lights(const PreparedScene& scene, const ShadowOption
                   "an index below " + std::to_string(scene.lights.size()));
     }
   }
-  if (!(options.thickness >= 0) || options.thickness >= 1) {
-    return fail(ErrorCode::kUsage, "plane thickness " + std::to_string(options.thickness),
+  if (!(options.kernel.thickness >= 0) || options.kernel.thickness >= 1) {
+    return fail(ErrorCode::kUsage, "plane thickness " + std::to_string(options.kernel.thickness),
                 "a fraction of the scene's diagonal, 0 <= thickness < 1");
   }
   return lights;
@@ -94,21 +94,21 @@ namespace {
 Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowOptions& options,
                                        const Rules& rules, const LightList& lights,
                                        MethodLookup lookup) {
-  if (!has_kernel(options.kernel)) {
+  if (!has_kernel(options.kernel.id)) {
     return fail(ErrorCode::kUsage,
-                "kernel " + std::string(kernel_info(options.kernel).name) + " was not built",
+                "kernel " + std::string(kernel_info(options.kernel.id).name) + " was not built",
                 "another kernel, or a build with GNOMON_CGAL_KERNELS");
   }
-  const LightList together = options.combined ? lights : LightList{};
+  const LightList together = options.output.combined ? lights : LightList{};
   const Ways ways = split_by_way(scene, options, lights);
   if (ways.by_receiver.empty()) {
-    const MethodId method = method_of(LightType::kPoint, options, options.combined);
-    return lookup(method, options.kernel)({scene, options, rules, lights, together});
+    const MethodId method = method_of(LightType::kPoint, options, options.output.combined);
+    return lookup(method, options.kernel.id)({scene, options, rules, lights, together});
   }
-  if (options.combined && options.area_algorithm == MethodId::kPieces) {
+  if (options.output.combined && options.method.area == MethodId::kPieces) {
     return fail(ErrorCode::kUsage, "pieces of lights have no classes together", "whole lights");
   }
-  if (options.combined && lights.size() > 64) {
+  if (options.output.combined && lights.size() > 64) {
     return fail(ErrorCode::kLimit, std::to_string(lights.size()) + " lights together",
                 "at most 64");
   }
@@ -116,23 +116,26 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
   const double share =
       static_cast<double>(ways.light_space.size()) / static_cast<double>(lights.size());
   ShadowOptions own = options;
-  if (options.progress) {
-    own.progress = [&](double done) { options.progress(share * done); };
+  if (options.control.progress) {
+    own.control.progress = [&](double done) { options.control.progress(share * done); };
   }
   ShadowResult result = empty_result(options);
   const LightList none;
   if (!ways.light_space.empty()) {
     const MethodId method = method_of(LightType::kPoint, options, false);
-    auto light_space = lookup(method, options.kernel)({scene, own, rules, ways.light_space, none});
+    auto light_space =
+        lookup(method, options.kernel.id)({scene, own, rules, ways.light_space, none});
     if (!light_space) return light_space;
     result = std::move(*light_space);
   }
-  if (options.progress) {
-    own.progress = [&](double done) { options.progress(share + (1 - share) * done); };
+  if (options.control.progress) {
+    own.control.progress = [&](double done) {
+      options.control.progress(share + (1 - share) * done);
+    };
   }
   const double start = cpu_seconds();
-  auto by_receiver = lookup(options.area_algorithm,
-                            options.kernel)({scene, own, rules, ways.by_receiver, together});
+  auto by_receiver = lookup(options.method.area,
+                            options.kernel.id)({scene, own, rules, ways.by_receiver, together});
   if (!by_receiver) return by_receiver;
   join(result, std::move(*by_receiver), options, lights);
   result.shadow_seconds += cpu_seconds() - start;

@@ -34,7 +34,7 @@ void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
   if (!fragment_stays(space_, view(loop), context_->rules)) return;
   if (++output_.piece_count % kPieceBatch == 0 &&
       context_->pieces.fetch_add(kPieceBatch, std::memory_order_relaxed) + kPieceBatch >
-          context_->options.max_fragments) {
+          context_->options.limits.fragments) {
     context_->stopped.store(true, std::memory_order_relaxed);
   }
   const bool lit = state == kAllLit;
@@ -69,7 +69,7 @@ void SectorTree<Space>::emit_area(const LoopRange& range, bool lit) {
             whole;
       }
     }
-    if (context_->options.exact_fractions || !(fraction.radius < kWidest)) {
+    if (context_->options.output.exact_fractions || !(fraction.radius < kWidest)) {
       const Part& part = context_->scene.parts[loop.part];
       mpq_class& exact_whole = exact_areas_[loop.part];
       if (sgn(exact_whole) == 0) exact_whole = twice_exact_area(context_->scene, part);
@@ -78,7 +78,7 @@ void SectorTree<Space>::emit_area(const LoopRange& range, bool lit) {
           exact_whole;
       const double value = exact.get_d();  // truncated: within one unit in the last place
       fraction = Ball(value, 2 * Ball::kUnit * value + Ball::kTiny);
-      if (context_->options.exact_fractions) {
+      if (context_->options.output.exact_fractions) {
         output_.exact_lit.emplace_back(loop.part, std::move(exact));
       }
     }

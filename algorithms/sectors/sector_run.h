@@ -39,7 +39,7 @@ class SectorRun {
         rules_(rules),
         scene_space_(scene_space),
         light_(scene.lights[light].point),
-        jobs_(Space::kParallel && options.jobs != 1 ? options.jobs : 1),
+        jobs_(Space::kParallel && options.tuning.jobs != 1 ? options.tuning.jobs : 1),
         space_(scene_space, light_, kernel_options),
         facing_(scene, space_, rules),
         charts_(charts_of(scene.geometry)),
@@ -199,8 +199,8 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run(
   planner.add_sector_planes();
   planner.loops() = std::move(loops);
   const auto total = static_cast<std::uint32_t>(items.size());
-  const std::uint32_t task_size = options_.task_size != 0
-                                      ? options_.task_size
+  const std::uint32_t task_size = options_.tuning.task_size != 0
+                                      ? options_.tuning.task_size
                                       : std::clamp(total / kTasks, kSmallestTask, kLargestTask);
   const SectorCell cell = common_cell(planner, items);
   const bool located = cell.level == SectorCell::kChart;
@@ -218,7 +218,7 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run(
   tbb::enumerable_thread_specific<std::unique_ptr<Tree>> trees;
   const auto count_rest = [&](const SectorOutput& output) {
     pieces += output.piece_count % Tree::kPieceBatch;
-    if (pieces > options_.max_fragments) stopped.store(true, std::memory_order_relaxed);
+    if (pieces > options_.limits.fragments) stopped.store(true, std::memory_order_relaxed);
   };
   const auto run_task = [&](std::size_t i) {
     if (stopped.load(std::memory_order_relaxed)) return;
@@ -247,7 +247,7 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run(
   }
   if (stopped) {
     if (no_ieee) return Outcome::kNoIeee;
-    return pieces > options_.max_fragments ? Outcome::kTooManyFragments : Outcome::kInterrupted;
+    return pieces > options_.limits.fragments ? Outcome::kTooManyFragments : Outcome::kInterrupted;
   }
   for (const auto& task : tasks) planner.set_states(task);
   const auto states = planner.finish();
@@ -260,12 +260,12 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run(
   }
   outputs_.back() = std::move(planner.output());
   count_rest(outputs_.back());
-  return pieces > options_.max_fragments ? Outcome::kTooManyFragments : Outcome::kDone;
+  return pieces > options_.limits.fragments ? Outcome::kTooManyFragments : Outcome::kDone;
 }
 
 template <SectorSpaceModel Space>
 LightResult SectorRun<Space>::finish() {
-  std::vector<FractionSum> exact(options_.exact_fractions ? scene_.parts.size() : 0);
+  std::vector<FractionSum> exact(options_.output.exact_fractions ? scene_.parts.size() : 0);
   for (SectorOutput& output : outputs_) {
     result_.fragment_total += output.piece_count;
     result_.tree_nodes += output.nodes;
@@ -285,7 +285,7 @@ LightResult SectorRun<Space>::finish() {
   std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
   for (SectorOutput& output : outputs_) {
     const auto base = static_cast<std::uint32_t>(
-        options_.keep_points ? result_.points.size() : result_.exact_points.size());
+        options_.output.points ? result_.points.size() : result_.exact_points.size());
     for (const SectorOutput::Piece& piece : output.pieces) {
       Fragment& fragment = result_.fragments[next[piece.part]++];
       fragment = piece.fragment;
@@ -317,7 +317,7 @@ LightResult SectorRun<Space>::finish() {
         part.lit = {lit, lit};
         part.shadow = {shadow, shadow};
       }
-      if (options_.exact_fractions) {
+      if (options_.output.exact_fractions) {
         part.exact_lit = exact[index].exact();
         part.exact_shadow = 1 - part.exact_lit;
       }
@@ -341,15 +341,16 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
   ShadowResult result = empty_result(options);
   result.algorithm = "sectors";
   const double start = cpu_seconds();
-  const KernelOptions kernel_options{options.identity, options.thickness};
+  const KernelOptions kernel_options{options.kernel.identity, options.kernel.thickness};
   const RunOptions run_options = run_options_of(options);
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
   for (std::size_t i = 0; i < lights.size(); ++i) {
     Run run(scene, run_options, task.rules, scene_space, lights[i], kernel_options);
     std::function<void(double)> progress;
-    if (options.progress) {
+    if (options.control.progress) {
       progress = [&](double share) {
-        options.progress((static_cast<double>(i) + share) / static_cast<double>(lights.size()));
+        options.control.progress((static_cast<double>(i) + share) /
+                                 static_cast<double>(lights.size()));
       };
     }
     switch (run.run(progress)) {
@@ -373,9 +374,9 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
 /// The same on as many threads as asked for.
 template <class Kernel>
 Expected<ShadowResult> BySectors<Kernel>::run(const RunTask& task) {
-  tbb::task_arena arena(thread_count(task.options.jobs));
+  tbb::task_arena arena(thread_count(task.options.tuning.jobs));
   return arena.execute([&] {
-    return with_light_space<Kernel>(task.options.count_stages, [&]<class Space>() {
+    return with_light_space<Kernel>(task.options.output.stage_counts, [&]<class Space>() {
       return compute_by_sectors_here<Space>(task);
     });
   });

@@ -149,7 +149,7 @@ void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* task
         stack_.pop_back();
         continue;
       }
-      if (open == 0 || (open <= context_->options.leaf_size && tasks == nullptr) ||
+      if (open == 0 || (open <= context_->options.tuning.leaf_size && tasks == nullptr) ||
           !split(frame, open_end)) {
         leaf(frame.begin, open_end, frame.located ? &frame.cell.chart : nullptr);
         stack_.pop_back();
@@ -205,7 +205,7 @@ bool SectorTree<Space>::split(Frame& frame, std::uint32_t open_end) {
     loops_.truncate(frame.loops_mark);
     space_.release_planes(frame.planes_mark);
   }
-  if (size > std::size_t{kLargeLeaf} * context_->options.leaf_size) {
+  if (size > std::size_t{kLargeLeaf} * context_->options.tuning.leaf_size) {
     const PlaneRef plane = choose_edge_plane(frame.begin, open_end);
     if (plane.valid()) {
       frame.front_cell = frame.back_cell = frame.cell;

@@ -136,7 +136,7 @@ void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end, const Light
   const auto area = [](const ChartBox& box) {
     return (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
   };
-  bool nearest_first = end - begin > kLargeLeaf * context_->options.leaf_size;
+  bool nearest_first = end - begin > kLargeLeaf * context_->options.tuning.leaf_size;
   if (nearest_first) {
     ChartBox all = items_[begin];
     float sum = 0;

@@ -41,7 +41,7 @@ class SvbspRun {
         scene_space_(scene_space),
         space_(scene_space, scene.lights[light].point, kernel_options),
         facing_(scene, space_, rules),
-        tree_(space_, options.merge, rules) {
+        tree_(space_, options.output.merge, rules) {
     result_.light = light;
     result_.facing_parts = facing_.parts.size();
     result_.facing_edges = facing_.edges;
@@ -85,8 +85,8 @@ class SvbspRun {
         if (facing.faces()) before_node(piece, facing.side);
       }
       filter_node(bsp, node);
-      if (output_.fragments.size() > options_.max_fragments ||
-          tree_.node_count() / kMostNodesAFragment > options_.max_fragments) {
+      if (output_.fragments.size() > options_.limits.fragments ||
+          tree_.node_count() / kMostNodesAFragment > options_.limits.fragments) {
         return Outcome::kTooManyFragments;
       }
     }
@@ -188,7 +188,7 @@ LightResult SvbspRun<Space>::finish() {
     part.reason = facing_.facing[index].reason;
     part.first_fragment = static_cast<std::uint32_t>(result_.fragments.size());
     std::span<ClassifiedLoop> own(sorted.data() + start[index], start[index + 1] - start[index]);
-    if (options_.merge && own.size() > 1) {
+    if (options_.output.merge && own.size() > 1) {
       const bool agree = std::all_of(own.begin(), own.end(), [&](const ClassifiedLoop& f) {
         return f.state == own[0].state && f.caster == own[0].caster;
       });
@@ -236,7 +236,7 @@ void SvbspRun<Space>::measure(PartResult& part, std::span<const ClassifiedLoop> 
   const Chart chart = chart_of(scene_.geometry, plane);
   import_part(part.part);
   const LoopView<Vertex> whole = imported_.view({0, imported_.size(), part.part}, plane);
-  PartMeasure<Space> measure_part(space_, chart, whole, options_.exact_fractions);
+  PartMeasure<Space> measure_part(space_, chart, whole, options_.output.exact_fractions);
   FractionSum lit, shadow;
   for (const ClassifiedLoop& f : fragments) {
     (f.state == LightState::kLit ? lit : shadow)
@@ -244,7 +244,7 @@ void SvbspRun<Space>::measure(PartResult& part, std::span<const ClassifiedLoop> 
   }
   part.lit = lit.interval(Space::kExact);
   part.shadow = shadow.interval(Space::kExact);
-  if (options_.exact_fractions) {
+  if (options_.output.exact_fractions) {
     part.exact_lit = lit.exact();
     part.exact_shadow = shadow.exact();
   }
@@ -260,7 +260,7 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
   result.algorithm = "svbsp";
 
   const double start = cpu_seconds();
-  const KernelOptions kernel_options{options.identity, options.thickness};
+  const KernelOptions kernel_options{options.kernel.identity, options.kernel.thickness};
   const RunOptions run_options = run_options_of(options);
   SceneSpace scene_space(scene.geometry, kernel_options);
   std::deque<SvbspRun<Space>> runs;  // never moved: a run's tree refers to its space
@@ -275,8 +275,8 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
     if (needed[i]) parts.push_back(i);
   }
   const SceneBsp<typename SceneSpace::Vertex> bsp =
-      build_scene_bsp(scene_space, scene, parts, options.seed, result.identity, options.interrupted,
-                      options.max_fragments, task.rules);
+      build_scene_bsp(scene_space, scene, parts, options.method.seed, result.identity,
+                      options.control.interrupted, options.limits.fragments, task.rules);
   if (bsp.interrupted) return interrupted();
   result.scene_bsp_seconds = cpu_seconds() - start;
   result.bsp_nodes = bsp.nodes.size();
@@ -300,7 +300,8 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
     const auto outcome = run.run(
         bsp,
         [&](std::size_t nodes) {
-          if (options.progress) options.progress((before + static_cast<double>(nodes)) / total);
+          if (options.control.progress)
+            options.control.progress((before + static_cast<double>(nodes)) / total);
         },
         [&](std::uint32_t piece, Side side) {
           if (pipeline) pipeline->filter(piece, side, i, run.tree());
@@ -338,7 +339,7 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
 
 template <class Kernel>
 Expected<ShadowResult> BySvbsp<Kernel>::run(const RunTask& task) {
-  return with_light_space<Kernel>(task.options.count_stages,
+  return with_light_space<Kernel>(task.options.output.stage_counts,
                                   [&]<class Space>() { return compute_by_svbsp<Space>(task); });
 }
 

@@ -145,9 +145,9 @@ typename PenumbraAndUmbra<Space>::Outcome PenumbraAndUmbra<Space>::build(
   Polyhedron<Vertex> box = make_box(*space_, {0, 0, 0}, {1, 1, 1});
   splitter_.clip(*space_, light_->plane(), false, box);
   const VolumeStore& store = light_->volumes();
-  const std::uint64_t most = options_->max_fragments > ~std::uint64_t{0} / kMostNodesAFragment
+  const std::uint64_t most = options_->limits.fragments > ~std::uint64_t{0} / kMostNodesAFragment
                                  ? ~std::uint64_t{0}
-                                 : kMostNodesAFragment * options_->max_fragments;
+                                 : kMostNodesAFragment * options_->limits.fragments;
   Polyhedron<Vertex> volume;
   std::size_t done = 0;
   for (const std::uint32_t i : near_first()) {

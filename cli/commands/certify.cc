@@ -14,9 +14,9 @@
 #include "cli/common/output.h"
 #include "cli/common/progress.h"
 #include "cli/common/scene_options.h"
-#include "fuzz/check/kernel_choice.h"
 #include "gnomon/algorithms/explain.h"
 #include "gnomon/algorithms/shadows.h"
+#include "gnomon/kernel/kernel_choice.h"
 #include "gnomon/oracle/prepared_check.h"
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/result/read_claims.h"
@@ -29,9 +29,6 @@
 namespace gnomon::cli {
 
 namespace {
-
-using fuzz::KernelChoice;
-using fuzz::parse_kernel_choice;
 
 /// Up to so many parts the slow exact kernels run without being asked for.
 constexpr std::size_t kSmallScene = 200;
@@ -137,7 +134,7 @@ class CertifyRun {
     progress_.set_label("kernel " + run.name);
     ShadowOptions shadow_options = options_of(kernel, algorithm);
     const auto seconds = cpu_time(shadow_options);
-    shadow_options.keep_exact_points = true;
+    shadow_options.output.exact_points = true;
     auto result = seconds ? compute_shadows(loaded_.prepared, shadow_options)
                           : Expected<ShadowResult>(tl::unexpected(seconds.error()));
     progress_.clear();
@@ -188,22 +185,22 @@ class CertifyRun {
  private:
   ShadowOptions options_of(const KernelChoice& kernel, const AlgorithmChoice& algorithm) {
     ShadowOptions shadow_options;
-    shadow_options.algorithm = algorithm.point;
-    shadow_options.area_algorithm = algorithm.area;
-    shadow_options.jobs = options_.scene.jobs;
-    shadow_options.kernel = kernel.kernel;
-    shadow_options.identity = kernel.identity;
-    shadow_options.thickness = kernel.thin ? 0 : options_.thickness;
+    shadow_options.method.point = algorithm.point;
+    shadow_options.method.area = algorithm.area;
+    shadow_options.tuning.jobs = options_.scene.jobs;
+    shadow_options.kernel.id = kernel.kernel;
+    shadow_options.kernel.identity = kernel.identity;
+    shadow_options.kernel.thickness = kernel.thin ? 0 : options_.thickness;
     shadow_options.lights = loaded_.lights;
-    shadow_options.progress = progress_.callback();
-    shadow_options.interrupted = &interrupted();
+    shadow_options.control.progress = progress_.callback();
+    shadow_options.control.interrupted = &interrupted();
     return shadow_options;
   }
 
   /// CPU seconds of the classification alone on one thread, without points for the oracle: the
   /// median of a few runs where one is short.
   Expected<double> cpu_time(ShadowOptions shadow_options) {
-    shadow_options.jobs = 1;
+    shadow_options.tuning.jobs = 1;
     constexpr std::size_t kMostRuns = 5;
     constexpr double kEnough = 0.05;
     std::vector<double> seconds;

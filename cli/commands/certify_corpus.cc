@@ -25,7 +25,7 @@ Expected<std::vector<fuzz::Subject>> chosen_subjects(const CorpusCommandOptions&
   for (const std::string& name : options.kernels) {
     // Mistakes are subjects of the fuzzer only: here such a name is no kernel's.
     if (name.find('~') != std::string::npos) {
-      return tl::unexpected(fuzz::parse_kernel_choice(name).error());
+      return tl::unexpected(parse_kernel_choice(name).error());
     }
     const auto subject = fuzz::parse_subject(name);
     if (!subject) return tl::unexpected(subject.error());

@@ -120,11 +120,11 @@ class Pictures {
 
 Expected<Claims> exact_fragments(const LoadedScene& loaded, const AlgorithmChoice& algorithm) {
   ShadowOptions options;
-  options.algorithm = algorithm.point;
-  options.area_algorithm = algorithm.area;
+  options.method.point = algorithm.point;
+  options.method.area = algorithm.area;
   options.lights = loaded.lights;
-  options.keep_points = true;
-  options.interrupted = &interrupted();
+  options.output.points = true;
+  options.control.interrupted = &interrupted();
   const auto result = compute_shadows(loaded.prepared, options);
   if (!result) return tl::unexpected(result.error());
   return report::claims_of(loaded.scene, loaded.prepared, *result, "exact", false);

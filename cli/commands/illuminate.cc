@@ -113,10 +113,11 @@ Expected<void> ask_for_illumination(const IlluminateOptions& options, const Load
       return tl::unexpected(std::move(format.error()));
     }
   }
-  if (!kernel_info(shadows.kernel).exact) {
-    return fail(ErrorCode::kUsage,
-                "--illuminate: kernel " + std::string(kernel_info(shadows.kernel).name) + " rounds",
-                "an exact kernel: plane, rational or epeck");
+  if (!kernel_info(shadows.kernel.id).exact) {
+    return fail(
+        ErrorCode::kUsage,
+        "--illuminate: kernel " + std::string(kernel_info(shadows.kernel.id).name) + " rounds",
+        "an exact kernel: plane, rational or epeck");
   }
   if (loaded.lights.size() > 64) {
     return fail(ErrorCode::kUsage,
@@ -131,14 +132,14 @@ Expected<void> ask_for_illumination(const IlluminateOptions& options, const Load
                   "a smaller one");
     }
   }
-  shadows.keep_exact_points = true;
+  shadows.output.exact_points = true;
   if (loaded.lights.size() > 1) {
     // Fragments that have one class by each light come of the pipeline alone.
     const auto choice = parse_algorithm_choice(
         algorithm, {{"--illuminate with several lights", true, &Method::combines_lights}});
     if (!choice) return tl::unexpected(choice.error());
-    if (algorithm == kAutomaticName) shadows.algorithm = MethodId::kAutomatic;
-    shadows.combined = true;
+    if (algorithm == kAutomaticName) shadows.method.point = MethodId::kAutomatic;
+    shadows.output.combined = true;
   }
   return {};
 }
@@ -148,8 +149,8 @@ Expected<ShadingMesh> classified_and_shaded(const IlluminateOptions& options,
                                             unsigned jobs) {
   ShadowOptions shadows;
   shadows.lights = loaded.lights;
-  shadows.jobs = jobs;
-  shadows.interrupted = &interrupted();
+  shadows.tuning.jobs = jobs;
+  shadows.control.interrupted = &interrupted();
   if (auto done = ask_for_illumination(options, loaded, algorithm, shadows); !done) {
     return tl::unexpected(std::move(done.error()));
   }

@@ -15,8 +15,8 @@
 #include "cli/common/progress.h"
 #include "cli/common/scene_options.h"
 #include "cli/common/statistics.h"
-#include "fuzz/check/kernel_choice.h"
 #include "gnomon/algorithms/deep_umbra.h"
+#include "gnomon/kernel/kernel_choice.h"
 #include "gnomon/scene/digest.h"
 #include "report/json/result_json.h"
 #include "report/text/number_text.h"
@@ -24,8 +24,6 @@
 namespace gnomon::cli {
 
 namespace {
-
-using fuzz::parse_kernel_choice;
 
 struct ShadowsOptions {
   SceneOptions scene;
@@ -77,22 +75,22 @@ int run_shadows(const ShadowsOptions& options) {
 
   ProgressBar progress("shadows");
   ShadowOptions shadow_options;
-  shadow_options.kernel = kernel->kernel;
-  shadow_options.algorithm = algorithm->point;
-  shadow_options.area_algorithm = algorithm->area;
-  shadow_options.jobs = options.scene.jobs;
-  shadow_options.identity = options.identity || kernel->identity;
-  shadow_options.thickness = kernel->thin ? 0 : options.thickness;
+  shadow_options.kernel.id = kernel->kernel;
+  shadow_options.method.point = algorithm->point;
+  shadow_options.method.area = algorithm->area;
+  shadow_options.tuning.jobs = options.scene.jobs;
+  shadow_options.kernel.identity = options.identity || kernel->identity;
+  shadow_options.kernel.thickness = kernel->thin ? 0 : options.thickness;
   shadow_options.lights = loaded->lights;
-  shadow_options.keep_points = options.fragments || (options.combined && !options.exact_loops);
-  shadow_options.keep_exact_points = options.exact_loops || options.deep_umbra;
-  shadow_options.exact_fractions = options.exact_fractions;
-  shadow_options.combined = options.combined;
-  shadow_options.count_stages = options.stats;
-  shadow_options.merge = !options.no_merge;
-  shadow_options.prefix = !options.no_prefix;
-  shadow_options.progress = progress.callback();
-  shadow_options.interrupted = &interrupted();
+  shadow_options.output.points = options.fragments || (options.combined && !options.exact_loops);
+  shadow_options.output.exact_points = options.exact_loops || options.deep_umbra;
+  shadow_options.output.exact_fractions = options.exact_fractions;
+  shadow_options.output.combined = options.combined;
+  shadow_options.output.stage_counts = options.stats;
+  shadow_options.output.merge = !options.no_merge;
+  shadow_options.method.prefix = !options.no_prefix;
+  shadow_options.control.progress = progress.callback();
+  shadow_options.control.interrupted = &interrupted();
   if (auto done =
           ask_for_illumination(options.illuminate, *loaded, options.algorithm, shadow_options);
       !done) {

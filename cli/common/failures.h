@@ -16,7 +16,7 @@ namespace gnomon::cli {
 /// Every kernel, rounded ones with each policy.
 std::vector<fuzz::Subject> all_subjects();
 
-/// What fails there is a bug of ours, not of a rounded kernel or of a foreign program.
+/// Is the failure a bug of ours, and not of a rounded kernel or of a foreign program?
 bool is_ours(const fuzz::Failure& failure);
 
 /// 0 if there is none, 4 if one is ours, else 1.

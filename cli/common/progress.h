@@ -40,7 +40,7 @@ class ProgressBar {
 
   /// The fraction of the work that is done, 0..1.
   void show(double done);
-  /// What is being done from here on; the clock goes on.
+  /// Names what is being done from here on. The delay does not begin again.
   void set_label(std::string what);
   /// Takes the bar off the screen.
   void clear();

@@ -87,7 +87,7 @@ struct CampaignOutcome {
   std::vector<std::string> missing_kinds;  // expected of these generators, and never made
 };
 
-/// From so many scenes on every kind that a generator promises must have been made.
+/// A campaign of so many scenes must have made every kind that its generator promises.
 inline constexpr std::uint64_t kCasesForAllKinds = 1000;
 
 /// Runs what is left of a campaign. Errors: kUsage (the database is another campaign's, or in use),

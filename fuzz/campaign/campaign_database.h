@@ -55,7 +55,7 @@ class CampaignDatabase {
 
   bool is_new() const { return is_new_; }
   CampaignState load();
-  /// In one transaction, all of it.
+  /// Writes all of it in one transaction.
   void save(const CampaignState& state);
 
  private:

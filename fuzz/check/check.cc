@@ -209,7 +209,7 @@ class SceneCheck {
   void check_subject(const Subject& subject, const std::string& name) {
     if (subject.foreign()) return check_foreign(subject, name);
     ShadowOptions options = shadow_options(subject);
-    options.max_fragments = options_.max_fragments;
+    options.limits.fragments = options_.max_fragments;
     Expected<ShadowResult> result = compute_shadows(*prepared_, options, subject.mistake);
     if (!result) return add_error(result.error(), name);
     if (report_.fragments == 0) {
@@ -407,7 +407,7 @@ class SceneCheck {
 
   void check_a_relation(const std::string& name) {
     ShadowOptions options = shadow_options(*first_exact_);
-    options.max_fragments = options_.max_fragments;
+    options.limits.fragments = options_.max_fragments;
     // Seeds of a campaign are well mixed; those of people are 1, 2, 3.
     const std::size_t relation = options_.seed % relations().size();
     const RelationInfo& info = relations()[relation];

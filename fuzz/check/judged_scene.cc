@@ -19,7 +19,7 @@ Classified JudgedScene::claim(ShadowResult result, const ShadowOptions& options,
   Classified classified;
   classified.result = std::move(result);
   classified.sides =
-      report::classified_sides(prepared_, classified.result, options.exact_fractions);
+      report::classified_sides(prepared_, classified.result, options.output.exact_fractions);
   classified.claims =
       report::claims_of(scene_, prepared_, classified.result, classified.sides, std::move(name));
   return classified;

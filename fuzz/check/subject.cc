@@ -111,14 +111,14 @@ Expected<Subject> parse_subject(std::string_view text) {
 
 ShadowOptions shadow_options(const Subject& subject) {
   ShadowOptions options;
-  options.kernel = subject.kernel.kernel;
-  options.identity = subject.kernel.identity;
-  if (subject.kernel.thin) options.thickness = 0;
-  options.algorithm = subject.algorithm;
-  options.area_algorithm = subject.area_algorithm;
-  options.jobs = 1;
-  options.keep_exact_points = true;
-  options.exact_fractions = subject.kernel.exact();
+  options.kernel.id = subject.kernel.kernel;
+  options.kernel.identity = subject.kernel.identity;
+  if (subject.kernel.thin) options.kernel.thickness = 0;
+  options.method.point = subject.algorithm;
+  options.method.area = subject.area_algorithm;
+  options.tuning.jobs = 1;
+  options.output.exact_points = true;
+  options.output.exact_fractions = subject.kernel.exact();
   return options;
 }
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "fuzz/check/kernel_choice.h"
+#include "gnomon/kernel/kernel_choice.h"
 #include "fuzz/mistakes/mistake.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/error.h"

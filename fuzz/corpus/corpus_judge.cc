@@ -64,7 +64,7 @@ class SceneJudge {
  private:
   Judgement run(const Subject& subject, const std::vector<RecordedLight>* recorded) const {
     ShadowOptions options = shadow_options(subject);
-    options.max_fragments = kMostFragments;
+    options.limits.fragments = kMostFragments;
     const Judged judged = scene_.classify_and_judge(options, name_of(subject),
                                                     certify_options(subject), subject.mistake);
     if (judged.refused) {

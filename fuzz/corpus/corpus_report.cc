@@ -56,7 +56,7 @@ std::string plural(std::uint64_t count, const std::string& one) {
   return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
 }
 
-/// By scene: a letter each, a capital where it is scored.
+/// A row for each scene: a letter for each subject, a capital where it is scored.
 std::string letter(const Fixture& fixture, bool exact, Outcome outcome) {
   constexpr std::string_view kRecorded = ".drct-", kScored = ".DRCT-";
   const bool scored = exact || fixture.expectation != Expectation::kInform;

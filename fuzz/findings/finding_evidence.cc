@@ -118,8 +118,8 @@ class EvidenceSearch {
     Subject exact;
     exact.kernel.kernel = of_plane ? KernelId::kRational : KernelId::kPlane;
     ShadowOptions options = shadow_options(exact);
-    options.exact_fractions = false;
-    options.max_fragments = finding_.check.max_fragments;
+    options.output.exact_fractions = false;
+    options.limits.fragments = finding_.check.max_fragments;
     exact_ = run(options, "exact");
     evidence_.no_candidate.clear();
   }
@@ -127,8 +127,8 @@ class EvidenceSearch {
   void run_subject() {
     if (!subject_->foreign()) {
       ShadowOptions options = shadow_options(*subject_);
-      options.exact_fractions = false;
-      options.max_fragments = finding_.check.max_fragments;
+      options.output.exact_fractions = false;
+      options.limits.fragments = finding_.check.max_fragments;
       candidate_ = run(options, finding_.failure.subject, subject_->mistake);
       return;
     }
@@ -213,8 +213,8 @@ class EvidenceSearch {
       return;
     }
     ShadowOptions options = shadow_options(*subject_);
-    options.exact_fractions = false;
-    options.algorithm = MethodId::kSvbsp;
+    options.output.exact_fractions = false;
+    options.method.point = MethodId::kSvbsp;
     options.lights = {light_};
     const auto difference = explain(prepared_, options);
     if (!difference) {

@@ -59,7 +59,7 @@ mpq_class times_power_of_two(mpq_class value, int exponent) {
   return exponent < 0 ? mpq_class(value / power) : mpq_class(value * power);
 }
 
-/// As doubles, which is enough to be looked at.
+/// The scene in doubles and stretched, good enough for pictures.
 Scene stretched_scene(Scene scene, const std::array<int, kAxes>& exponents) {
   if (exponents == std::array<int, kAxes>{}) return scene;
   scene.numbers = NumberMeaning::kDouble;

@@ -12,7 +12,7 @@ namespace gnomon::fuzz {
 
 /// verdict.json: all that read_finding() needs beside the scenes, and the numbers for people.
 std::string verdict_text(const Finding& finding, const Evidence& evidence);
-/// Of a finding without its scenes. Errors: kSyntax, kFormat, those of parse_subject().
+/// Reads a finding without its scenes. Errors: kSyntax, kFormat, those of parse_subject().
 Expected<Finding> parse_verdict(const std::string& text, const std::string& file);
 
 /// README.md; `name` is the folder's.

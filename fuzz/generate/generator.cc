@@ -86,7 +86,7 @@ Base scene_base(bool area, const std::string& name) {
   return base;
 }
 
-/// Those that are hard with few polygons, for every seed in another way.
+/// Scenes that are hard with few polygons, for every seed in another way.
 std::vector<Base> hard_scenes(bool area) {
   std::vector<Base> bases;
   for (const char* name : {"crossing-sticks", "grazing", "lattice", "near-coplanar", "needles",

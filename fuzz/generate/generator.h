@@ -55,7 +55,7 @@ class Generator {
   std::shared_ptr<const GeneratorRecipe> recipe_;
 };
 
-/// Those of bases that need nothing else: mixes, soups, families.
+/// The names of bases that need nothing else: mixes, soups, families.
 std::vector<std::string> generator_names();
 
 }  // namespace gnomon::fuzz

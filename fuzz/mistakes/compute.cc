@@ -19,15 +19,16 @@ constexpr double kTooThick = 0x1p-7;
 Expected<void> check_mistake(const PreparedScene& scene, const ShadowOptions& options,
                              const LightList& lights, Mistake mistake) {
   const std::string name = "mutation " + std::string(name_of(mistake));
-  if (options.combined) return fail(ErrorCode::kUsage, name + " of lights together", "one by one");
-  if (mistake == Mistake::kThicknessTooSmall && options.thickness == 0) {
+  if (options.output.combined)
+    return fail(ErrorCode::kUsage, name + " of lights together", "one by one");
+  if (mistake == Mistake::kThicknessTooSmall && options.kernel.thickness == 0) {
     return fail(ErrorCode::kUsage, name + " of planes that have no thickness", "a thickness");
   }
   const bool applies = std::ranges::any_of(lights, [&](std::uint32_t light) {
     const LightType type = scene.lights[light].type;
     const MethodId method = method_of(type, options, false);
-    return type == LightType::kArea ? applies_to_area(mistake, options.kernel, method)
-                                    : applies_to(mistake, options.kernel, method);
+    return type == LightType::kArea ? applies_to_area(mistake, options.kernel.id, method)
+                                    : applies_to(mistake, options.kernel.id, method);
   });
   if (applies) return {};
   return fail(ErrorCode::kUsage, name + " changes nothing",
@@ -56,8 +57,8 @@ Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowO
     return tl::unexpected(checked.error());
   }
   ShadowOptions own = options;
-  if (mistake == Mistake::kThicknessTooLarge) own.thickness = kTooThick;
-  if (mistake == Mistake::kThicknessTooSmall) own.thickness = 0;
+  if (mistake == Mistake::kThicknessTooLarge) own.kernel.thickness = kTooThick;
+  if (mistake == Mistake::kThicknessTooSmall) own.kernel.thickness = 0;
   return compute_with(scene, own, rules_of(mistake), kernels_of(mistake));
 }
 

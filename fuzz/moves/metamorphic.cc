@@ -28,7 +28,7 @@ struct Classes {
   mpq_class lit, penumbra, umbra;
   friend bool operator==(const Classes&, const Classes&) = default;
 };
-/// Of every polygon side whose parts lie in one plane.
+/// The classes of every polygon side whose parts lie in one plane.
 using Answer = std::map<Place, Classes>;
 
 struct Solved {
@@ -451,8 +451,8 @@ Expected<std::optional<BrokenRelation>> check_relation(std::size_t relation, con
                                                        std::uint64_t seed) {
   if (scene.polygons.empty()) return std::nullopt;
   ShadowOptions exact = options;
-  exact.exact_fractions = true;
-  exact.keep_points = exact.keep_exact_points = false;
+  exact.output.exact_fractions = true;
+  exact.output.points = exact.output.exact_points = false;
   Subjected on{scene, prepared, exact, Random(seed)};
   return kRelations.at(relation).check(on);
 }

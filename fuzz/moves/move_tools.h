@@ -24,22 +24,22 @@ struct Corner {
   const Vector& next() const { return loop[1]; }
   Vector at(const mpq_class& s, const mpq_class& t) const { return a + s * u + t * v; }
 };
-/// Of a random polygon, or of `loop`. The two edges are not on one line, if there is such a corner.
+/// A corner of a random polygon, or of `loop`, whose edges are not on one line if one has such.
 Corner random_corner(const Scene& scene, Random& random);
 Corner random_corner(std::vector<Vector> loop, Random& random);
 
 /// n / 2^bits for n in [low, high].
 mpq_class dyadic(Random& random, std::int64_t low, std::int64_t high, int bits);
-/// In a convex polygon's interior, on a dyadic point of one of its triangles.
+/// A dyadic point of a triangle of the polygon: in the interior, if the polygon is convex.
 Vector inner_point(const Corner& corner, Random& random);
-/// Of the corner's plane, in or about the polygon, on no particular line.
+/// A point of the corner's plane, in or about the polygon, on no particular line.
 Vector plane_point(const Corner& corner, Random& random);
-/// Between the corner and the next.
+/// A point between the corner and the next.
 Vector edge_point(const Corner& corner, Random& random);
 /// A triangle or parallelogram in the corner's plane, anywhere about the polygon.
 std::vector<Vector> patch_in_plane(const Corner& corner, Random& random);
 
-/// On a coarse lattice in and about the scene.
+/// A point of a coarse lattice in and about the scene.
 Vector free_point(const Scene& scene, Random& random);
 /// A vector of the scene's size, or some times smaller; not zero, of few bits.
 Vector free_vector(const Scene& scene, Random& random);

@@ -36,7 +36,7 @@ struct Move {
   std::string_view name() const { return kinds()[id_of(kind)].name; }
 };
 
-/// In the order in which they are applied.
+/// All moves, in the order in which they are applied.
 std::span<const Move> moves();
 const Move* move_by_name(std::string_view name);
 

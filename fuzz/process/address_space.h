@@ -11,7 +11,7 @@
 
 namespace gnomon::fuzz {
 
-/// In bytes; 0 where the system does not tell.
+/// The size in bytes; 0 where the system does not tell.
 inline std::uint64_t address_space_taken() {
   std::ifstream file("/proc/self/statm");
   std::uint64_t pages = 0;

@@ -87,7 +87,7 @@ void append_up_to(std::size_t most, std::string& text, std::string_view more) {
   text += more.substr(0, most - std::min(most, text.size()));
 }
 
-/// What a shell's exit means.
+/// Puts into the result what the exit of the shell means.
 void interpret(const ChildEnd& end, CommandResult& result) {
   if (end.signal != 0) {
     result.end = CommandEnd::kSignal;

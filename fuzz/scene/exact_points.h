@@ -46,7 +46,7 @@ struct Box {
   /// The longest side.
   mpq_class extent() const;
 };
-/// Of all polygons.
+/// The box of all polygons.
 Box box_of(const Scene& scene);
 Box box_of(const std::vector<Vector>& points);
 

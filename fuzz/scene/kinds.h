@@ -101,7 +101,7 @@ std::span<const KindInfo> kinds();
 std::optional<std::uint16_t> kind_by_name(std::string_view name);
 
 inline std::uint16_t id_of(Kind kind) { return static_cast<std::uint16_t>(kind); }
-/// Of families()[family], and of area_families()[family].
+/// The kind of families()[family], and that of area_families()[family].
 std::uint16_t kind_of_family(std::size_t family);
 std::uint16_t kind_of_area_family(std::size_t family);
 

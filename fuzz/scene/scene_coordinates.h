@@ -19,7 +19,7 @@ namespace gnomon::fuzz {
 std::vector<Position*> positions_of(Scene& scene);
 /// to_light of directional lights.
 std::vector<Position*> directions_of(Scene& scene);
-/// Both.
+/// Positions and directions.
 std::vector<Position*> points_of(Scene& scene);
 std::vector<const Position*> points_of(const Scene& scene);
 

@@ -38,7 +38,7 @@ std::uint64_t repairs_of(const PreparedScene& prepared) {
       }));
 }
 
-/// All but `repairs`, which only prepare() knows.
+/// The size without `repairs`, which only prepare() knows.
 SceneSize size_unprepared(const Scene& scene) {
   SceneSize size;
   size.polygons = scene.polygons.size();
@@ -532,7 +532,7 @@ class Shrinker {
     return result;
   }
 
-  /// Those of an axis that cost no more than `own`, the nearest first.
+  /// The numbers of an axis that cost no more than `own`, the nearest first.
   std::vector<Number> neighbours(std::size_t axis, const Number& own) {
     std::vector<Number> others = distinct_on_axis(axis);
     std::erase_if(

@@ -44,7 +44,7 @@ SceneSize size_of(const Scene& scene);
 /// 16 hexadecimal digits that tell scenes apart: of all but name and "extra" (FNV-1a of the JSON).
 std::string fingerprint_of(const Scene& scene);
 
-/// Whether a scene fails as the first one did. Must be true for the scene that comes in, and the
+/// Says whether a scene fails as the first one did: true for the scene that comes in, and the
 /// same whenever it is asked for the same scene.
 using StillFails = std::function<bool(const Scene&)>;
 

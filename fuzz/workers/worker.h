@@ -29,8 +29,8 @@ struct Limits {
 struct WorkerOptions {
   std::vector<std::string> generators;
   CheckOptions check;
-  /// Of the exact subjects all but the first take turns, one a scene, chosen by the scene's seed,
-  /// and only every eighth scene is checked at length (CheckOptions::brief).
+  /// The first exact subject runs on every scene, the others take turns: the scene's seed chooses
+  /// one. Only every eighth scene is checked at length (CheckOptions::brief).
   bool in_turn = false;
   Limits limits;
 };

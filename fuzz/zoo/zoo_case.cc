@@ -31,7 +31,7 @@ ZooCase::ZooCase(const ZooEntry& entry, const Scene& scene, PreparedScene prepar
 
 Expected<ShadowResult> ZooCase::shadows(Mistake mistake) const {
   ShadowOptions options = shadow_options(sound_);
-  options.max_fragments = kMostFragments;
+  options.limits.fragments = kMostFragments;
   return compute_shadows(prepared_, options, mistake);
 }
 
@@ -57,7 +57,7 @@ bool ZooCase::claims_hold(const Claims& candidate) const {
 
 Expected<ShadingMesh> ZooCase::mesh(std::uint32_t light, Mistake mistake) const {
   ShadowOptions options = shadow_options(sound_);
-  options.max_fragments = kMostFragments;
+  options.limits.fragments = kMostFragments;
   options.lights = {light};
   const auto result = compute_shadows(prepared_, options);
   if (!result) return tl::unexpected(result.error());

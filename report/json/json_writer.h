@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes JSON in one stable layout: what is told to stand on lines stands one element a line, what
-// is inline stays on one line, so that a result can be read, searched and compared line by line.
+// Writes JSON in one stable layout, so that people can read, search and compare it line by line: an
+// object or array of layout kLines has one element a line, one of layout kInline is on one line.
 //
 // Guarantees: doubles read back to the same value, in every locale; NaN and infinity become null;
 // the output is valid UTF-8 whatever the strings hold (a broken byte becomes U+FFFD).

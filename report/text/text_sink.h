@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where reports are written to: a string, a stream, a file. A sink remembers its first failure and
-// swallows what comes after it, so that writers need not check every line.
+// A sink is what reports are written to: a string, a stream, a file. It remembers its first failure
+// and drops what comes after that, so that writers need not check every line.
 #ifndef GNOMON_REPORT_TEXT_TEXT_SINK_H
 #define GNOMON_REPORT_TEXT_TEXT_SINK_H
 

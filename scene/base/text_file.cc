@@ -16,7 +16,7 @@ namespace gnomon {
 namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 16;
-/// Of a pipe or device, whose length nobody knows beforehand.
+/// The limit for a pipe or device, whose length is not known beforehand.
 constexpr std::size_t kMostStreamBytes = std::size_t{1} << 32;
 
 tl::unexpected<Error> file_error(const std::string& name, const std::string& what,

@@ -43,7 +43,7 @@ struct FileFormat {
   Expected<std::string> (*write)(const Scene& scene);
 };
 
-/// In the order in which messages list formats.
+/// All formats, in the order in which messages list them.
 std::span<const FileFormat> file_formats();
 const FileFormat& file_format(SceneFormat format);
 

@@ -69,7 +69,7 @@ class MeshBuilder {
   Expected<void> end_face(std::size_t offset);
 
   void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
-  /// What numbers the messages count from: 1 in OBJ.
+  /// Messages count indices from this number: 1 in OBJ.
   void count_indices_from(std::int64_t first) { first_index_ = first; }
 
   Expected<ReadResult> finish();

@@ -18,7 +18,7 @@ struct PlaneKey {
   Int offset;
   bool flipped;  // the part's front is where n . p < offset
 
-  /// Of the plane through `a` with this normal, which is the part's.
+  /// The key of the plane of a part, given by the part's normal and a point `a` of it.
   PlaneKey(Vec3<Int> normal_of_part, const Vec3<Int>& a) : normal(std::move(normal_of_part)) {
     Int common = gcd_of(gcd_of(normal.x, normal.y), normal.z);
     const Int& leading = normal.x != 0 ? normal.x : normal.y != 0 ? normal.y : normal.z;
@@ -31,7 +31,7 @@ struct PlaneKey {
     }
     offset = dot(normal, a);
   }
-  /// As sets of points.
+  /// Do both keys name the same set of points? Fronts may look opposite ways.
   bool same_plane(const PlaneKey& other) const {
     return normal.x == other.normal.x && normal.y == other.normal.y && normal.z == other.normal.z &&
            offset == other.offset;

@@ -35,7 +35,7 @@ class Chart {
   bool same_place(std::uint32_t a, std::uint32_t b) const {
     return a == b || (x(a) == x(b) && y(a) == y(b));
   }
-  /// In the closed box of a and b.
+  /// Is c in the closed box of a and b?
   bool in_box(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     return std::min(x(a), x(b)) <= x(c) && x(c) <= std::max(x(a), x(b)) &&
            std::min(y(a), y(b)) <= y(c) && y(c) <= std::max(y(a), y(b));

@@ -13,29 +13,58 @@
 
 namespace gnomon {
 
-struct ShadowOptions {
-  KernelId kernel = KernelId::kPlane;
-  MethodId algorithm = MethodId::kAutomatic;      // for point and directional lights
-  MethodId area_algorithm = MethodId::kReceiver;  // for area lights
-  unsigned jobs = 0;  // threads of the sectors algorithm; 0: all. The answer does not depend on it
+/// The kernel that decides, and what a rounded one is told besides.
+struct KernelPolicy {
+  KernelId id = KernelId::kPlane;
   bool identity = false;                 // for rounded kernels; `plane` always knows
   double thickness = kDefaultThickness;  // relative to the scene's diagonal; rounded kernels only
-  std::vector<std::uint32_t> lights;     // indices into PreparedScene::lights; empty: all
-  bool keep_points = false;              // fragments with nearest doubles
-  bool keep_exact_points = false;        // fragments with exact rationals
-  bool exact_fractions = false;          // sum exact rational fractions per part (exact kernels)
-  bool merge = true;                     // merge sibling fragments, collapse parts that agree
-  bool prefix = true;                    // balanced prefix of light space
+};
+
+/// The methods, and what changes their work but not the areas that they find.
+struct MethodChoice {
+  MethodId point = MethodId::kAutomatic;  // for point and directional lights
+  MethodId area = MethodId::kReceiver;    // for area lights
+  bool prefix = true;                     // balanced prefix of light space
+  std::uint64_t seed = 1;                 // of the root choice of the scene BSP
+};
+
+/// What the result holds besides classes and nearest fractions.
+struct ShadowOutput {
+  bool points = false;           // of fragments, nearest doubles
+  bool exact_points = false;     // of fragments, exact rationals
+  bool exact_fractions = false;  // exact rational sums for each part (exact kernels)
+  bool merge = true;             // merge sibling fragments, collapse parts that agree
+  bool combined = false;         // the set of lights that reach each fragment; at most 64 lights
+  bool stage_counts = false;     // ShadowResult::stages (kernel plane)
+};
+
+/// What ends a run with kLimit.
+struct ShadowLimits {
+  std::uint64_t fragments = 20'000'000;  // pieces of the scene BSP, and fragments of one light
+};
+
+/// How the work is shared out; no answer depends on it.
+struct ShadowTuning {
+  unsigned jobs = 0;  // threads; 0: as many as processors
   // Sectors: cells of at most leaf_size polygons are not split, those of at most task_size are one
-  // thread's (0: by the size of the scene). The areas do not depend on them.
+  // thread's (0: by the size of the scene).
   std::uint32_t leaf_size = 16, task_size = 0;
-  bool combined = false;  // also the set of lights that reach each fragment; at most 64 lights
-  std::uint64_t max_fragments =
-      20'000'000;                        // pieces of the scene BSP, and fragments a light: kLimit
-  bool count_stages = false;             // fill ShadowResult::stages (kernel plane)
-  std::uint64_t seed = 1;                // of the root choice of the scene BSP
-  std::function<void(double)> progress;  // fraction of the work done, 0..1; may be empty
+};
+
+/// How a caller watches a run and stops it.
+struct RunControl {
+  std::function<void(double)> progress;            // fraction of the work done, 0..1; may be empty
   const std::atomic<bool>* interrupted = nullptr;  // checked between polygons
+};
+
+struct ShadowOptions {
+  KernelPolicy kernel;
+  MethodChoice method;
+  std::vector<std::uint32_t> lights;  // indices into PreparedScene::lights; empty: all
+  ShadowOutput output;
+  ShadowLimits limits;
+  ShadowTuning tuning;
+  RunControl control;
 };
 
 }  // namespace gnomon

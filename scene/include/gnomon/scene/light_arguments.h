@@ -22,7 +22,7 @@ struct LightArguments {
 Expected<Light> parse_light_argument(LightType type, std::string_view text, NumberMeaning meaning,
                                      std::string id);
 
-/// With the ids point0, point1, ..., sun0, ..., area0, ...
+/// The lights get the ids point0, point1, ..., sun0, ..., area0, ...
 Expected<std::vector<Light>> lights_from_arguments(const LightArguments& arguments,
                                                    NumberMeaning meaning);
 

@@ -93,7 +93,7 @@ struct PreparedScene {
 /// lobes that meet in a vertex, a hole on the border): the region is what counts, and what two
 /// rings share cancels. Crossing is an error. An ear is clipped only if its closed triangle holds
 /// no other vertex, so that touching vertices forbid it (scene/prepare/polygon_cut.h has the rule).
-/// Of repeated vertices the smallest index of Scene::vertices counts. Vertices that no loop names
+/// The smallest index of Scene::vertices stands for repeated vertices. Vertices that no loop names
 /// have no part in the grid. Errors: kGeometry (a loop that crosses itself or runs round an area
 /// twice, a hole that crosses or leaves its loop or overlaps another, degenerate or non-planar area
 /// light, zero to_light), kIndex. Cost: O(n log n) for n vertices, plus the square of a loop's size

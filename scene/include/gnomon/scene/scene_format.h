@@ -23,9 +23,9 @@ std::vector<std::string> format_names();
 std::string shown_scene_extensions();
 
 std::optional<SceneFormat> format_by_name(std::string_view name);
-/// By .json, .obj, .off or .ply, in any case.
+/// The format of .json, .obj, .off or .ply, in upper or lower case.
 std::optional<SceneFormat> format_by_extension(const std::filesystem::path& path);
-/// By the first bytes; nothing if they fit no format.
+/// The format that the first bytes fit; nothing if they fit none.
 std::optional<SceneFormat> format_by_content(std::string_view text);
 
 }  // namespace gnomon

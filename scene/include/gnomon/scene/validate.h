@@ -11,15 +11,15 @@
 
 namespace gnomon {
 
-/// Not empty, no '#', no control character.
+/// An id is not empty and holds no '#' and no control character.
 bool is_valid_id(std::string_view id);
 
 /// The first offence, with the scene's file and the JSON pointer of the place, or nothing. Errors:
 /// kId, kIndex, kFormat (too few vertices), kGeometry (to_light = 0). Cost: O(size of the scene).
 Expected<void> validate_scene(const Scene& scene);
 
-/// The lights alone: a scene file that holds nothing else, or lights that were merged from
-/// elsewhere.
+/// Checks the lights alone: of a file that holds nothing else, or lights that were merged into a
+/// scene.
 Expected<void> validate_lights(const Scene& scene);
 
 }  // namespace gnomon

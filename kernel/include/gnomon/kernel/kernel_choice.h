@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
+// SPDX-License-Identifier: LGPL-3.0-or-later
 // A kernel as it is named on the command line: `double`, `double+identity`, `double+thin`, `exact`.
-#ifndef GNOMON_FUZZ_CHECK_KERNEL_CHOICE_H
-#define GNOMON_FUZZ_CHECK_KERNEL_CHOICE_H
+#ifndef GNOMON_KERNEL_KERNEL_CHOICE_H
+#define GNOMON_KERNEL_KERNEL_CHOICE_H
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 #include "gnomon/kernel/error.h"
 #include "gnomon/kernel/kernel_list.h"
 
-namespace gnomon::fuzz {
+namespace gnomon {
 
 struct KernelChoice {
   KernelId kernel = kDefaultExactKernel;
@@ -25,6 +25,6 @@ struct KernelChoice {
 /// Errors: kUsage, with the names that there are.
 Expected<KernelChoice> parse_kernel_choice(std::string_view text);
 
-}  // namespace gnomon::fuzz
+}  // namespace gnomon
 
-#endif  // GNOMON_FUZZ_CHECK_KERNEL_CHOICE_H
+#endif  // GNOMON_KERNEL_KERNEL_CHOICE_H

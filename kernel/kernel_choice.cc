@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "fuzz/check/kernel_choice.h"
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gnomon/kernel/kernel_choice.h"
 
-namespace gnomon::fuzz {
+namespace gnomon {
 
 namespace {
 
@@ -47,4 +47,4 @@ Expected<KernelChoice> parse_kernel_choice(std::string_view text) {
   return choice;
 }
 
-}  // namespace gnomon::fuzz
+}  // namespace gnomon
