@@ -17,7 +17,7 @@ import re
 import subprocess
 import sys
 
-KERNELS = ("long_double", "float", "double", "rational", "epick", "epeck", "plane")
+KERNELS = ("longdouble", "long_double", "float", "double", "rational", "epick", "epeck", "plane")
 
 
 def read_log(directory):
@@ -48,7 +48,9 @@ def place(output):
         return "precompiled headers", pathlib.Path(parts[2]).stem, ""
     unit = re.match(r"Unity/unity_(.*)_\d+_cxx\.cxx\.o$", inner[1])
     if unit:
-        return component, unit.group(1) or "-", ""
+        room = unit.group(1) or "-"
+        kernel = re.match(r"kernel_(\w+?)(_\d+)?$", room)
+        return (component, "run", kernel.group(1)) if kernel else (component, room, "")
     folder, _, name = inner[1].rpartition("/")
     stem = name.split(".")[0]
     kernel = next((k for k in KERNELS if re.search(rf"(^|_){k}($|_)", stem)), "")

@@ -8,7 +8,7 @@
 #   LINK_PRIVATE fmt::fmt ...                  used inside only; header-only helpers of the build are
 #                                              linked as $<BUILD_INTERFACE:gnomon_rapidjson>
 #   [ALONE room room/c.cc ...]                 rooms and sources compiled each by itself always
-#   [OPTIMISE -O1]                             in release builds, for code that need not be fast
+#   [OPTIMISE -O2]                             in release builds, for code that need not be fast
 #   [NO_INSTALL])
 #
 # Makes the target gnomon_<name>, its alias gnomon::<name>, and puts it into the exported package. A

@@ -4,6 +4,9 @@
 # Writes a source for each kernel of kernels.def that instantiates the class template <run>, which <header>
 # defines, for the kernel's struct. The lists gnomon_kernel_runs and gnomon_cgal_kernel_runs of the calling
 # directory get the sources. ROUNDED_ONLY: exact kernels are left out.
+#
+# With GNOMON_COMPILE_BY_ROOMS up to four runs of a kernel are compiled together: they read the same
+# headers and share most of the kernel's code, so that a further method costs its own code alone.
 set(gnomon_kernels_def "${PROJECT_SOURCE_DIR}/kernel/include/gnomon/kernel/kernels.def")
 
 function(gnomon_compile_on_kernels run header)
@@ -25,6 +28,11 @@ function(gnomon_compile_on_kernels run header)
     endif()
     set(source "${CMAKE_CURRENT_BINARY_DIR}/kernel_runs/${run}_${name}.cc")
     configure_file("${PROJECT_SOURCE_DIR}/algorithms/run/kernel_run.cc.in" "${source}" @ONLY)
+    get_property(run_count GLOBAL PROPERTY gnomon_runs_of_${name})
+    math(EXPR unit "0${run_count} / 4 + 1")
+    math(EXPR run_count "0${run_count} + 1")
+    set_property(GLOBAL PROPERTY gnomon_runs_of_${name} ${run_count})
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "kernel_${name}_${unit}")
     if(needs_cgal)
       list(APPEND gnomon_cgal_kernel_runs "${source}")
     else()
