@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "fuzz/text/rational_text.h"
+#include "gnomon/result/classes.h"
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/write.h"
 #include "report/json/json_writer.h"
@@ -145,10 +146,11 @@ class NoteReader {
         side == json.MemberEnd() || !side->value.IsString()
             ? std::string_view()
             : std::string_view(side->value.GetString(), side->value.GetStringLength());
-    if (name != "front" && name != "back") {
+    const auto known = side_by_name(name);
+    if (!known) {
       return wrong(pointer + "/side", "no side", "\"front\" or \"back\"");
     }
-    result.side = name == "back" ? Side::kBack : Side::kFront;
+    result.side = *known;
     mpq_class sum = 0;
     bool exact = true;
     for (const std::string_view shade : share_names(area)) {
