@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fuzz/text/rational_text.h"
+#include "gnomon/result/classes.h"
 #include "report/json/json_writer.h"
 
 namespace gnomon::fuzz {
@@ -143,10 +144,11 @@ Expected<RecordedSide> NoteReader::side(const JsonValue& json, bool area,
   if (!id) return wrong(pointer, "key \"id\" is missing or no text");
   result.polygon = *std::move(id);
   const auto name = text_of(find_member(json, "side"));
-  if (name != "front" && name != "back") {
+  const auto known = side_by_name(name);
+  if (!known) {
     return wrong(pointer + "/side", "no side", "\"front\" or \"back\"");
   }
-  result.side = name == "back" ? Side::kBack : Side::kFront;
+  result.side = *known;
   if (auto done = shares(json, area, pointer, result); !done) return tl::unexpected(done.error());
   if (auto done = parts(json, area, pointer, result); !done) return tl::unexpected(done.error());
   return result;

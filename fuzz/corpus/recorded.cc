@@ -62,13 +62,17 @@ std::vector<mpq_class> recorded_group(const PreparedScene& prepared, std::uint32
   return sums;
 }
 
+std::vector<std::string_view> names_of(bool area_light) {
+  std::vector<std::string_view> names;
+  for (const LightState state : report::light_states(area_light)) names.push_back(name_of(state));
+  return names;
+}
+
 }  // namespace
 
 std::span<const std::string_view> share_names(bool area_light) {
-  static constexpr std::array<std::string_view, 2> kPoint{"lit", "shadow"};
-  static constexpr std::array<std::string_view, 3> kArea{"lit", "penumbra", "umbra"};
-  return area_light ? std::span<const std::string_view>(kArea)
-                    : std::span<const std::string_view>(kPoint);
+  static const std::vector<std::string_view> kPoint = names_of(false), kArea = names_of(true);
+  return area_light ? kArea : kPoint;
 }
 
 Expected<std::vector<RecordedLight>> recorded_of(const Scene& scene, const PreparedScene& prepared,
