@@ -144,7 +144,7 @@ Expected<RecordedSide> NoteReader::side(const JsonValue& json, bool area,
   if (!id) return wrong(pointer, "key \"id\" is missing or no text");
   result.polygon = *std::move(id);
   const auto name = text_of(find_member(json, "side"));
-  const auto known = side_by_name(name);
+  const auto known = name ? side_by_name(*name) : std::nullopt;
   if (!known) {
     return wrong(pointer + "/side", "no side", "\"front\" or \"back\"");
   }

@@ -19,8 +19,6 @@ namespace {
 using report::Camera;
 using report::Point;
 
-constexpr std::size_t kAxes = 3;
-
 double length(const Point& a) { return std::sqrt(dot(a, a)); }
 
 /// Powers of two that bring all axes to about the same extent, where one is far shorter or longer

@@ -15,6 +15,8 @@
 
 namespace gnomon::fuzz {
 
+inline constexpr std::size_t kAxes = 3;
+
 /// Vertices, point lights and corners of area lights, in this order; directions are not positions.
 std::vector<Position*> positions_of(Scene& scene);
 /// to_light of directional lights.

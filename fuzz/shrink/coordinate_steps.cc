@@ -23,7 +23,6 @@ constexpr std::array<std::size_t, 16> kKeptBits = {1,  2,  3,  4,  5,  6,  7,  8
 constexpr std::array kSmallValues = {0, 1, 2, 3, 4, -1, -2};
 /// Other coordinates of the same axis that a coordinate is set to, the nearest first.
 constexpr std::size_t kMostNeighbours = 8;
-constexpr std::size_t kAxes = 3;
 
 NumberList axis_numbers(Scene& scene, std::size_t axis) {
   NumberList numbers;

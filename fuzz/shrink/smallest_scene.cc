@@ -15,8 +15,6 @@ namespace gnomon::fuzz {
 
 namespace {
 
-constexpr std::size_t kAxes = 3;
-
 std::uint64_t repairs_of(const PreparedScene& prepared) {
   return static_cast<std::uint64_t>(
       std::ranges::count_if(prepared.notes, [](const PreparationNote& note) {

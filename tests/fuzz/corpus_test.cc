@@ -20,6 +20,7 @@
 #include "fuzz/kinds/kind_predicates.h"
 #include "fuzz/scene/kinds.h"
 #include "gnomon/scene/read.h"
+#include "report/sides/polygon_sides.h"
 
 namespace gnomon::fuzz {
 namespace {
@@ -86,7 +87,9 @@ TEST_P(CorpusKind, FractionsAreThoseRecorded) {
     const auto check = [&] {
       const auto result = compute_shadows(scene.prepared(), options);
       ASSERT_TRUE(result) << to_string(result.error());
-      const auto found = recorded_of(scene.scene(), scene.prepared(), *result);
+      const auto found = recorded_of(
+          scene.scene(), scene.prepared(), *result,
+          report::classified_sides(scene.prepared(), *result, options.output.exact_fractions));
       ASSERT_TRUE(found) << to_string(found.error());
       EXPECT_EQ(difference(fixture.fractions, *found), "");
     };

@@ -179,7 +179,7 @@ std::vector<ShadowOptions> variants(const Case& scene) {
     options.tuning.jobs = 1;
     if (kernel == KernelId::kPlane) all.push_back(options);
     all.push_back(with_small_cells(options));
-    if (kernel == KernelId::kPlane) all.back().jobs = 2;
+    if (kernel == KernelId::kPlane) all.back().tuning.jobs = 2;
     options.method.point = MethodId::kSvbsp;
     options.output.merge = options.method.prefix = kernel != KernelId::kRational;
     options.method.seed = 1 + static_cast<std::uint64_t>(kernel);
