@@ -86,7 +86,8 @@ TEST_P(CorpusKind, FractionsAreThoseRecorded) {
     const auto check = [&] {
       const auto result = compute_shadows(scene.prepared(), options);
       ASSERT_TRUE(result) << to_string(result.error());
-      const auto found = recorded_of(scene.scene(), scene.prepared(), *result);
+      const auto found = recorded_of(scene.scene(), scene.prepared(), *result,
+                                     report::classified_sides(scene.prepared(), *result, true));
       ASSERT_TRUE(found) << to_string(found.error());
       EXPECT_EQ(difference(fixture.fractions, *found), "");
     };
