@@ -135,8 +135,17 @@ std::vector<std::string> words_of_code(const std::string& line, bool in_block) {
   return words;
 }
 
+/// Whether a README of a room may call a file by this name: a file of the room, `scene/kinds.h` of
+/// its component, an installed header of the component, or one of the component's tests.
+bool known_in_room(const Tree& tree, const std::string& folder, const std::string& word) {
+  const std::string component = folder.substr(0, folder.find('/'));
+  return tree.has(folder + "/" + word) || tree.has(component + "/" + word) ||
+         tree.has(component + "/include/gnomon/" + component + "/" + word) ||
+         tree.has("tests/" + component + "*/" + word);
+}
+
 /// The links and paths of one Markdown file that lead nowhere, one line each. In a README beside
-/// sources a bare name such as `split.h` is a file of the same folder.
+/// sources a bare name such as `split.h` is a file that the room knows.
 std::vector<std::string> broken(const Tree& tree, const std::string& file,
                                 const std::string& text) {
   static const std::regex kLink(R"(\]\(([^)\s]+)\))");
@@ -161,8 +170,9 @@ std::vector<std::string> broken(const Tree& tree, const std::string& file,
     }
     for (const std::string& word : words_of_code(line, in_block)) {
       const bool is_here = beside_sources && std::regex_match(word, kBareName);
-      if (is_here ? !tree.has(folder + "/" + word)
-                  : names_a_path(tree, word) && !path_exists(tree, word)) {
+      if (!is_here && !names_a_path(tree, word)) continue;
+      const bool exists = !is_here && path_exists(tree, word);
+      if (!exists && !(beside_sources && known_in_room(tree, folder, word))) {
         found.push_back(place + word);
       }
     }

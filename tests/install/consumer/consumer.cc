@@ -40,7 +40,7 @@ int main() {
     return 2;
   }
   gnomon::ShadowOptions options;
-  options.exact_fractions = true;
+  options.output.exact_fractions = true;
   const auto result = gnomon::compute_shadows(*prepared, options);
   if (!result) {
     std::cerr << gnomon::to_string(result.error()) << '\n';
