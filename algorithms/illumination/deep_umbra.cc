@@ -141,8 +141,7 @@ class Subdivision {
 Expected<std::vector<DeepUmbraBounds>> deep_umbra_bounds(const PreparedScene& scene,
                                                          const LightResult& classified,
                                                          const DeepUmbraOptions& options) {
-  bool fits = classified.light < scene.lights.size() &&
-              scene.lights[classified.light].type == LightType::kArea &&
+  bool fits = classified.light < scene.lights.size() && scene.lights[classified.light].has_area() &&
               classified.area_fractions.size() == classified.parts.size();
   for (const PartResult& part : classified.parts) {
     fits &= part.part < scene.parts.size();

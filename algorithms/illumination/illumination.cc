@@ -212,7 +212,7 @@ Illumination Illuminator::at(std::uint32_t part, Side side, const std::array<mpq
   Apex second;
   if (inwards != nullptr) second = Apex::from(scene.geometry, *inwards);
   const Apex* towards = inwards == nullptr ? nullptr : &second;
-  if (data_->view.light().type == LightType::kArea) {
+  if (data_->view.light().has_area()) {
     return data_->area(scene.parts[part], side, std::move(apex), unobstructed, towards);
   }
   return data_->point(scene.parts[part], side, apex, unobstructed, towards);

@@ -65,7 +65,7 @@ LightView::LightView(const PreparedScene& scene, std::uint32_t light)
     }
     light_pairs_.push_back(pairs);
   };
-  if (own.type == LightType::kArea) {
+  if (own.has_area()) {
     for (const auto& point : own.area_loop) add(point);
     make_chart();
   } else {
@@ -259,7 +259,7 @@ LightShaft LightView::shaft_of(const Apex& apex, PlaneId receiver, bool back) co
   } else {
     for (const PairPoint& point : light_pairs_) enclose_point(shaft.box, point);
   }
-  if (light().type == LightType::kArea) {
+  if (light().has_area()) {
     const std::size_t n = light_pairs_.size();
     for (std::size_t i = 0; i < n; ++i) {
       // Seen from its front the light is counter-clockwise: the rest of it is behind this plane.
@@ -268,7 +268,7 @@ LightShaft LightView::shaft_of(const Apex& apex, PlaneId receiver, bool back) co
       shaft.planes.push_back(shaft_plane(negated(normal), p, apex.reach));
     }
   }
-  if (light().type != LightType::kArea) {
+  if (!light().has_area()) {
     // Planes along the ray, each parallel to one axis, from both sides.
     std::array<double, 3> ray = rounded(light_pairs_[0]);
     if (!light().point.directional) ray = minus(ray, p);
@@ -285,7 +285,7 @@ LightShaft LightView::shaft_of(const Apex& apex, PlaneId receiver, bool back) co
 }
 
 void LightView::add_planes(LightShaft& shaft, PlaneId receiver, bool back) const {
-  if (light().type == LightType::kArea) {
+  if (light().has_area()) {
     const auto first = rounded(light_pairs_[0]);
     shaft.planes.push_back(shaft_plane(cross_product(minus(rounded(light_pairs_[1]), first),
                                                      minus(rounded(light_pairs_.back()), first)),

@@ -46,8 +46,7 @@ Expected<std::optional<FirstDifference>> explain(const PreparedScene& scene,
   auto lights = select_lights(scene, options);
   if (!lights) return tl::unexpected<Error>(lights.error());
   // Lock-step runs walk the SVBSP algorithm, which area lights have no part in.
-  std::erase_if(*lights,
-                [&](std::uint32_t light) { return scene.lights[light].type == LightType::kArea; });
+  std::erase_if(*lights, [&](std::uint32_t light) { return scene.lights[light].has_area(); });
   if (lights->empty()) return std::nullopt;
   static constexpr auto kExplain = on_every_kernel<ExplainOn, CompiledFor::kRoundedKernels>();
   const auto explain_on = kExplain[static_cast<std::size_t>(options.kernel.id)];

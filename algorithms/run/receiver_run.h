@@ -95,7 +95,7 @@ class ReceiverRun {
   LightResult run_light(std::uint32_t light, double from, double to);
   LightResult run_light(const LightInSpace<Space>& light, LightResult result, double from,
                         double to);
-  /// 1992 to the letter: the light cut by the planes of all polygons, a result for each piece.
+  /// As the 1992 paper has it: the light cut by the planes of all polygons, a result for each piece.
   void run_pieces(std::uint32_t light, double from, double to, std::vector<LightResult>& results);
   /// `merged`: may be null.
   std::vector<SideResult> run_part(Workspace& workspace, const LightInSpace<Space>& light,
@@ -177,7 +177,7 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
         merged != nullptr && merged->takes(workspace.space, workspace.record, receiving);
     if (!by_trees) light.prepare(workspace, index, side);
     const Loop whole = part_loop(workspace.space, scene_, index, workspace.whole);
-    sink.begin(index, side, light.is_area());
+    sink.begin(index, side, light.has_area());
     const auto emit = [&](const PieceClass& state, const Loop& loop) {
       sink.add(state, loop);
       return count_piece();
@@ -194,7 +194,7 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
     if (stopped_) return sides;
     sides.push_back(sink.finish(workspace.space, whole));
   }
-  if (sides.empty()) sides.push_back(dark_side(index, Side::kFront, reason, light.is_area()));
+  if (sides.empty()) sides.push_back(dark_side(index, Side::kFront, reason, light.has_area()));
   return sides;
 }
 
@@ -290,7 +290,7 @@ template <VolumeSpaceModel Space>
 LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, LightResult result,
                                           double from, double to) {
   std::optional<PenumbraAndUmbra<Space>> merged;
-  if (light.is_area() && options_.method.area != MethodId::kReceiver) {
+  if (light.has_area() && options_.method.area != MethodId::kReceiver) {
     merged.emplace(space_, light, scene_, tree_, run_options_, rules_);
     const double middle = from + (to - from) / 2;
     if (!build_trees(light, from, middle, *merged)) return result;
@@ -337,7 +337,7 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
       std::move(side.exact_points.begin(), side.exact_points.end(),
                 std::back_inserter(result.exact_points));
       result.parts.push_back(std::move(side.part));
-      if (light.is_area()) result.area_fractions.push_back(std::move(side.area));
+      if (light.has_area()) result.area_fractions.push_back(std::move(side.area));
     }
     sides = {};
   }
@@ -444,8 +444,7 @@ Expected<ShadowResult> ReceiverRun<Space>::run(const LightList& lights, const Li
   const double steps = static_cast<double>(lights.size() + (combined.empty() ? 0 : 1));
   double step = 0;
   for (const std::uint32_t light : lights) {
-    if (options_.method.area == MethodId::kPieces &&
-        scene_.lights[light].type == LightType::kArea) {
+    if (options_.method.area == MethodId::kPieces && scene_.lights[light].has_area()) {
       run_pieces(light, step / steps, (step + 1) / steps, outcome.lights);
     } else {
       outcome.lights.push_back(run_light(light, step / steps, (step + 1) / steps));

@@ -25,16 +25,16 @@ class Builder {
     const PreparedScene& scene = *result_.scene;
     for (const PreparedLight& light : scene.lights) {
       LightFace face;
-      if (light.type == LightType::kArea) {
+      if (light.has_area()) {
         for (const GridPoint& point : light.area_loop) face.loop.push_back(vertex(point));
-      } else if (light.type == LightType::kPoint) {
+      } else if (light.is_point()) {
         face.loop.push_back(vertex(light.point.grid));
       }
       result_.faces.push_back(std::move(face));
     }
     put_positions();
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-      if (scene.lights[i].type == LightType::kArea) complete(result_.faces[i]);
+      if (scene.lights[i].has_area()) complete(result_.faces[i]);
     }
     return std::move(result_);
   }

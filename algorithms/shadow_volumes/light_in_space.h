@@ -82,7 +82,7 @@ class LightInSpace {
       box_.add(grid_fraction(scene.geometry.grid, face.loop[i]));
     }
     plane_id_ = face.edges.empty() ? kNoPlane : face.plane;
-    if (is_area()) plane_ = PlaneRef(face.plane, face.flipped);
+    if (has_area()) plane_ = PlaneRef(face.plane, face.flipped);
     make_volumes(space);
   }
   /// The same for a piece of an area light, a convex loop on its plane that support planes cut out.
@@ -99,8 +99,8 @@ class LightInSpace {
     make_volumes(space);
   }
 
-  bool is_area() const { return light_->type == LightType::kArea; }
-  LightState in_shadow() const { return is_area() ? LightState::kUmbra : LightState::kShadow; }
+  bool has_area() const { return light_->has_area(); }
+  LightState in_shadow() const { return has_area() ? LightState::kUmbra : LightState::kShadow; }
   PlaneRef plane() const { return plane_; }
   std::size_t volume_count() const { return store_.size(); }
   const VolumeStore& volumes() const { return store_; }
@@ -110,7 +110,7 @@ class LightInSpace {
   }
   LightShape<Vertex> shape() const {
     return {loop_.view({0, loop_.size(), 0}, plane_id_),
-            light_->type == LightType::kDirectional ? &light_->point : nullptr, plane_};
+            light_->is_directional() ? &light_->point : nullptr, plane_};
   }
 
   /// Whether that side of a part, if it receives at all, sees some of the light.
@@ -133,7 +133,7 @@ class LightInSpace {
   void make_volumes(Space& space);
   /// The box of a corner's position is as wide as what is known of it.
   UmbraReach umbra_reach(const Space& space, const Loop& light, const Box& receiver) const {
-    if (!is_area()) return {};
+    if (!has_area()) return {};
     std::vector<std::array<double, 3>> corners;
     for (std::uint32_t i = 0; i < light.size(); ++i) {
       const std::array<Ball, 3> position = space.position(light.corner(i));
@@ -166,7 +166,7 @@ class LightInSpace {
     return box;
   }
   Shaft shaft_to(const Box& receiver, const Box& light) const {
-    if (light_->type != LightType::kDirectional) return Shaft(receiver, light);
+    if (!light_->is_directional()) return Shaft(receiver, light);
     std::array<double, 3> direction{};
     for (std::size_t k = 0; k < 3; ++k) direction[k] = light_->point.grid[k].get_d();
     return Shaft(receiver, direction);
@@ -219,7 +219,7 @@ Sight LightInSpace<Space>::sight(Workspace& workspace, std::uint32_t index, Side
     const bool in_plane = workspace.builder.holds(receiving, light);
     return {in_plane ? ShadowReason::kLightInPlane : ShadowReason::kFacesAway};
   }
-  if (is_area()) {
+  if (has_area()) {
     const Loop loop = part_loop(workspace.space, scene_, index, workspace.whole);
     const Placement placement = workspace.record.decide(workspace.space, plane_, loop);
     if (placement == Placement::kBack || placement == Placement::kOn) {
@@ -245,7 +245,7 @@ void LightInSpace<Space>::sort_by_shadow(std::uint32_t receiver,
     for (std::size_t k = 0; k < 3; ++k) sum += std::fabs(middle(a, k) - middle(b, k));
     return sum;
   };
-  const bool directional = light_->type == LightType::kDirectional;
+  const bool directional = light_->is_directional();
   std::vector<std::pair<double, std::uint32_t>> keys;
   keys.reserve(casters.size());
   for (const std::uint32_t caster : casters) {
@@ -267,7 +267,7 @@ void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Sid
   workspace.own.clear();
   workspace.volumes.clear();
   LightShape<Vertex> light = shape();
-  const bool cut = is_area() && rules_.straddling_light_is_cut &&
+  const bool cut = has_area() && rules_.straddling_light_is_cut &&
                    workspace.record.decide(space, receiving, light.loop) == Placement::kSpanning;
   if (cut) {
     workspace.light.clear();
@@ -311,7 +311,7 @@ void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Sid
   // Casters before the middle of the light are most likely to have all of the receiver in their
   // penumbra; then only umbras remain to be looked for, which reach less far.
   std::vector<std::uint32_t> asked;
-  if (is_area()) {
+  if (has_area()) {
     Box middle;
     middle.add(std::array{(light_box.low[0] + light_box.high[0]) / 2,
                           (light_box.low[1] + light_box.high[1]) / 2,
@@ -359,7 +359,7 @@ template <VolumeSpaceModel Space>
 template <class Emit>
 bool LightInSpace<Space>::cut(Workspace& workspace, const Loop& piece, const Emit& emit) const {
   const VolumeStore& store = workspace.own.size() > 0 ? workspace.own : store_;
-  if (!is_area()) {
+  if (!has_area()) {
     return workspace.cutter.cut(piece, store, workspace.volumes, in_shadow(), emit);
   }
   constexpr PieceClass kBehind{LightState::kUmbra, Fragment::kNoCaster, ShadowReason::kBehindLight};

@@ -80,7 +80,7 @@ struct LightShape {
   LoopView<Vertex> loop;
   const LightPoint* direction = nullptr;  // of a directional light
   PlaneRef plane;                         // of an area light, which emits to its front
-  bool is_area() const { return plane.valid(); }
+  bool has_area() const { return plane.valid(); }
 };
 
 template <VolumeSpaceModel Space>
@@ -97,7 +97,7 @@ class VolumeBuilder {
            VolumeStore& store) {
     penumbra_.assign(1, -side);
     umbra_.assign(1, -side);
-    if (light.is_area()) {
+    if (light.has_area()) {
       if (!make_area(caster, side, reversed, light)) return;
       store.add(caster.part, penumbra_, umbra_);
     } else {

@@ -247,9 +247,8 @@ class CertifyRun {
     progress_.set_label("explaining " + kernel.name());
     ShadowOptions shadow_options = options_of(kernel, {.point = MethodId::kSvbsp});
     // The lock-step knows the point and directional lights alone.
-    std::erase_if(shadow_options.lights, [&](std::uint32_t light) {
-      return loaded_.prepared.lights[light].type == LightType::kArea;
-    });
+    std::erase_if(shadow_options.lights,
+                  [&](std::uint32_t light) { return loaded_.prepared.lights[light].has_area(); });
     if (shadow_options.lights.empty())
       return "not looked for: it is explained for point and directional lights alone";
     const auto difference = explain(loaded_.prepared, shadow_options);

@@ -120,7 +120,7 @@ int run_shadows(const ShadowsOptions& options) {
   if (options.deep_umbra) {
     for (const LightResult& light : result->lights) {
       auto& bounds = json_options.deep_umbra.emplace_back();
-      if (loaded->prepared.lights[light.light].type != LightType::kArea) continue;
+      if (!loaded->prepared.lights[light.light].has_area()) continue;
       DeepUmbraOptions deep_options;
       deep_options.tolerance = options.deep_umbra_tolerance;
       deep_options.interrupted = &interrupted();

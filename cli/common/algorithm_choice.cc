@@ -46,7 +46,7 @@ std::string AlgorithmChoice::name(const LoadedScene& loaded) const {
   std::string name;
   const auto has = [&](bool area) {
     return std::ranges::any_of(loaded.lights, [&](std::uint32_t light) {
-      return (loaded.scene.lights[light].type == LightType::kArea) == area;
+      return loaded.scene.lights[light].has_area() == area;
     });
   };
   if (has(false)) name = method_info(point).name;

@@ -117,8 +117,8 @@ class SceneCheck {
   CaseReport run() {
     report_.polygons = static_cast<std::uint32_t>(scene_.polygons.size());
     report_.lights = static_cast<std::uint32_t>(scene_.lights.size());
-    report_.area_lights = static_cast<std::uint64_t>(std::ranges::count_if(
-        scene_.lights, [](const Light& light) { return light.type == LightType::kArea; }));
+    report_.area_lights = static_cast<std::uint64_t>(
+        std::ranges::count_if(scene_.lights, [](const Light& light) { return light.has_area(); }));
     guarded("prepare", "preparation", [&] { check_preparation(); });
     if (!prepared_ || scene_.lights.empty()) return std::move(report_);
     judged_.emplace(scene_, *prepared_);

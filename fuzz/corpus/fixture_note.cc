@@ -117,7 +117,7 @@ Expected<std::vector<RecordedLight>> NoteReader::fractions(const Scene& scene) c
     }
     RecordedLight& recorded = lights.emplace_back();
     recorded.id = light.id;
-    recorded.area = light.type == LightType::kArea;
+    recorded.area = light.has_area();
     for (rapidjson::SizeType i = 0; i < own->Size(); ++i) {
       auto one = side((*own)[i], recorded.area, fmt::format("{}/{}", pointer, i));
       if (!one) return tl::unexpected(one.error());

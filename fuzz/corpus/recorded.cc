@@ -83,7 +83,7 @@ Expected<std::vector<RecordedLight>> recorded_of(const Scene& scene, const Prepa
     const LightResult& light = result.lights[l];
     RecordedLight& own = lights.emplace_back();
     own.id = scene.lights[prepared.lights[light.light].light].id;
-    own.area = prepared.lights[light.light].type == LightType::kArea;
+    own.area = prepared.lights[light.light].has_area();
     const auto states = report::light_states(own.area);
     for (const report::ClassifiedSide& side : sides[l]) {
       RecordedSide& one = own.sides.emplace_back();

@@ -205,7 +205,7 @@ class EvidenceSearch {
       return;
     }
     if (prepared_.lights.empty()) return;
-    if (prepared_.lights[light_].type == LightType::kArea) {
+    if (prepared_.lights[light_].has_area()) {
       note = fmt::format(
           "Decisions are compared for point and directional lights; this failure is under "
           "the area light '{}', and the place below is what there is.",

@@ -29,7 +29,7 @@ bool are_collinear(const std::array<Position, 3>& p) {
 std::optional<Light> triangle_panel(const Scene& scene, Random& random) {
   std::vector<Position> pool = scene.vertices;
   for (const Light& light : scene.lights) {
-    if (light.type != LightType::kPoint) continue;
+    if (!light.is_point()) continue;
     // As likely as a vertex of a polygon.
     for (int i = 0; i < 3; ++i) pool.push_back(light.position);
   }

@@ -171,7 +171,7 @@ Scene cut_from(const FileScene& file, bool area, Random& random) {
   }
   std::vector<const Light*> lights;
   for (const Light& light : whole.lights) {
-    if ((light.type == LightType::kArea) == area) lights.push_back(&light);
+    if (light.has_area() == area) lights.push_back(&light);
   }
   if (!lights.empty() && random.chance(1, 2)) {
     scene.lights.push_back(*lights[random.below(lights.size())]);
@@ -181,10 +181,10 @@ Scene cut_from(const FileScene& file, bool area, Random& random) {
 
 /// A light where there is none of the kind wanted. False if it did not fit.
 bool complete_lights(Scene& scene, bool area, Random& random) {
-  const bool has = std::ranges::any_of(
-      scene.lights, [&](const Light& l) { return (l.type == LightType::kArea) == area; });
+  const bool has =
+      std::ranges::any_of(scene.lights, [&](const Light& l) { return l.has_area() == area; });
   if (has) return true;
-  if (!area) std::erase_if(scene.lights, [](const Light& l) { return l.type == LightType::kArea; });
+  if (!area) std::erase_if(scene.lights, [](const Light& l) { return l.has_area(); });
   for (int i = 0; i < 8; ++i) {
     const Vector at = free_point(scene, random);
     if (area ? set_panel(scene, random, completed(scene, random, {at}))

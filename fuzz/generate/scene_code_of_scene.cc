@@ -103,12 +103,12 @@ class Encoder {
   }
 
   bool light(const Light& light) {
-    if (light.type == LightType::kArea) {
+    if (light.has_area()) {
       put(Step::kExactPanel);
       return count(light.loop.size()) && std::all_of(light.loop.begin(), light.loop.end(),
                                                      [&](const Position& p) { return point(p); });
     }
-    const bool sun = light.type == LightType::kDirectional;
+    const bool sun = light.is_directional();
     if (is_lattice(light.position)) {
       lattice(sun ? Step::kSun : Step::kPointLight, light.position);
       return true;

@@ -41,7 +41,7 @@ CommonGrid grid_of(const Scene& scene) {
     for (const VertexId v : polygon.loop) grid.add(scene.vertices[v]);
   }
   for (const Light& light : scene.lights) {
-    if (light.type == LightType::kPoint) grid.add(light.position);
+    if (light.is_point()) grid.add(light.position);
     for (const Position& corner : light.loop) grid.add(corner);
   }
   grid.build(scene.numbers);
@@ -66,13 +66,13 @@ SceneView::SceneView(const Scene& of) : scene(of) {
     faces.push_back(face_of(std::move(loop), !polygon.holes.empty()));
   }
   for (const Light& light : of.lights) {
-    if (light.type == LightType::kPoint) apexes.push_back({grid.take(), 1});
-    if (light.type == LightType::kArea) {
+    if (light.is_point()) apexes.push_back({grid.take(), 1});
+    if (light.has_area()) {
       panels.push_back(face_of(grid.take(light.loop.size()), false));
     }
   }
   for (const Light& light : of.lights) {
-    if (light.type != LightType::kDirectional) continue;
+    if (!light.is_directional()) continue;
     apexes.push_back(apex_at_infinity(light, of.numbers));
   }
   if (!corners.empty()) extent = extent_of(corners);

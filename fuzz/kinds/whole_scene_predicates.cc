@@ -43,7 +43,7 @@ std::vector<const Position*> positions(const Scene& scene, Points which) {
   }
   if (which == Points::kOfPolygons) return all;
   for (const Light& light : scene.lights) {
-    if (light.type == LightType::kPoint) all.push_back(&light.position);
+    if (light.is_point()) all.push_back(&light.position);
     for (const Position& corner : light.loop) all.push_back(&corner);
   }
   return all;

@@ -131,7 +131,7 @@ Number sum(const Number& a, const Number& b) {
 void for_each_position(Scene& scene, const std::function<void(Position&)>& change) {
   for (Position& vertex : scene.vertices) change(vertex);
   for (Light& light : scene.lights) {
-    if (light.type != LightType::kArea) change(light.position);
+    if (!light.has_area()) change(light.position);
     for (Position& corner : light.loop) change(corner);
   }
 }
@@ -246,7 +246,7 @@ Outcome translation(Subjected& on) {
     };
     for (Position& vertex : scene.vertices) move(vertex);
     for (Light& light : scene.lights) {
-      if (light.type == LightType::kPoint) move(light.position);
+      if (light.is_point()) move(light.position);
       for (Position& corner : light.loop) move(corner);
     }
   });

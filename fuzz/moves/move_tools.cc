@@ -210,10 +210,10 @@ bool add_rounded_triangle(Scene& scene, Random& random, const std::vector<Vector
 namespace {
 
 void put_light(Scene& scene, Random& random, Light light) {
-  const bool area = light.type == LightType::kArea;
+  const bool area = light.has_area();
   std::vector<std::size_t> alike;
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-    if ((scene.lights[i].type == LightType::kArea) == area) alike.push_back(i);
+    if (scene.lights[i].has_area() == area) alike.push_back(i);
   }
   // A second light of a kind now and then; area lights are dear, and drive other lights out.
   if (!alike.empty() && (alike.size() > 1 || !random.chance(1, area ? 6 : 3))) {

@@ -120,7 +120,7 @@ struct Eye {
 std::optional<Eye> eye_of(Scene& scene, Random& random) {
   std::vector<const Light*> lights;
   for (const Light& light : scene.lights) {
-    if (light.type != LightType::kArea) lights.push_back(&light);
+    if (!light.has_area()) lights.push_back(&light);
   }
   if (lights.empty()) {
     const Vector at = free_point(scene, random);
@@ -128,7 +128,7 @@ std::optional<Eye> eye_of(Scene& scene, Random& random) {
     return Eye{at, true};
   }
   const Light& light = *lights[random.below(lights.size())];
-  Eye eye{exact(light.position), light.type == LightType::kPoint};
+  Eye eye{exact(light.position), light.is_point()};
   if (!eye.finite) {  // to the scene's size
     mpq_class largest = 0;
     for (const mpq_class& c : eye.p) {

@@ -174,8 +174,7 @@ bool nextafter(Scene& scene, Random& random) {
   if (!add(which == 0 ? corner.loop[2] : free_point(scene, random))) return false;
   // The whole polygon again, a neighbour at an edge, or at a vertex; or the light at a vertex.
   if (random.chance(1, 6)) {
-    return std::ranges::none_of(scene.lights,
-                                [](const Light& l) { return l.type == LightType::kArea; }) &&
+    return std::ranges::none_of(scene.lights, [](const Light& l) { return l.has_area(); }) &&
            set_light(scene, random, LightType::kPoint, nudged(loop[0], random));
   }
   loop[0] = nudged(loop[0], random);

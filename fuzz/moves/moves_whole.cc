@@ -39,7 +39,7 @@ bool straighten(Scene& scene) {
     if (is_zero(area_vector(loop_of(scene, polygon)))) return false;
   }
   for (Light& light : scene.lights) {
-    if (light.type != LightType::kArea) continue;
+    if (!light.has_area()) continue;
     if (!is_flat(loop_of(light))) light.loop.resize(3);
     if (is_zero(area_vector(loop_of(light)))) return false;
   }

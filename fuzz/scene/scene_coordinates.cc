@@ -14,7 +14,7 @@ template <class Place, class AnyScene>
 void add_positions(AnyScene& scene, std::vector<Place>& result) {
   for (auto& vertex : scene.vertices) result.push_back(&vertex);
   for (auto& light : scene.lights) {
-    if (light.type == LightType::kPoint) result.push_back(&light.position);
+    if (light.is_point()) result.push_back(&light.position);
     for (auto& corner : light.loop) result.push_back(&corner);
   }
 }
@@ -22,7 +22,7 @@ void add_positions(AnyScene& scene, std::vector<Place>& result) {
 template <class Place, class AnyScene>
 void add_directions(AnyScene& scene, std::vector<Place>& result) {
   for (auto& light : scene.lights) {
-    if (light.type == LightType::kDirectional) result.push_back(&light.position);
+    if (light.is_directional()) result.push_back(&light.position);
   }
 }
 

@@ -99,7 +99,7 @@ void drop_corners(SmallestScene& search) {
     }
   }
   for (std::size_t i = 0; i < search.best().lights.size(); ++i) {
-    if (search.best().lights[i].type != LightType::kArea) continue;
+    if (!search.best().lights[i].has_area()) continue;
     drop_corners_of(
         search, [i](auto& scene) -> auto& { return scene.lights[i].loop; });
   }

@@ -37,7 +37,7 @@ const Scene& ExactAnswer::scene() const { return data_->scene; }
 const PreparedScene& ExactAnswer::prepared() const { return data_->prepared; }
 
 bool ExactAnswer::is_area(std::uint32_t light) const {
-  return data_->prepared.lights[light].type == LightType::kArea;
+  return data_->prepared.lights[light].has_area();
 }
 
 const PointRegions& ExactAnswer::regions(std::uint32_t light) const {

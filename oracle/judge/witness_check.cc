@@ -575,7 +575,7 @@ WitnessReport WitnessChecker::run() {
     }
     solids_ = solids_of(prepared_, *own);
     area_.reset();
-    if (own->type == LightType::kArea) {
+    if (own->has_area()) {
       std::vector<const Loop*> loops;
       for (const Solid& solid : solids_) loops.push_back(&solid.loop);
       area_.emplace(prepared_, *own, loops);

@@ -33,7 +33,7 @@ std::vector<Solid> solids_of(const PreparedScene& scene, const PreparedLight& li
     for (int k = 0; k < 3; ++k) point[k] = geometry.origin[k] + geometry.step * grid[k];
     return point;
   };
-  const bool directional = light.point.directional, area = light.type == LightType::kArea;
+  const bool directional = light.point.directional, area = light.has_area();
   RationalPoint source;
   if (area) {
     // No single point: AreaSolids knows what the light is to each part.

@@ -97,8 +97,7 @@ void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals, bool
 }
 
 bool has_area_light(const Scene& scene) {
-  return std::ranges::any_of(scene.lights,
-                             [](const Light& light) { return light.type == LightType::kArea; });
+  return std::ranges::any_of(scene.lights, [](const Light& light) { return light.has_area(); });
 }
 
 bool is_wrong(const oracle::PolygonComparison& polygon) {
@@ -109,9 +108,8 @@ bool is_wrong(const oracle::PolygonComparison& polygon) {
 /// The polygon sides that are not exactly right; all others are.
 void write_wrong_polygons(JsonWriter& json, const Scene& scene, const oracle::Report& report) {
   const auto is_area = [&](const std::string& id) {
-    return std::ranges::any_of(scene.lights, [&](const Light& light) {
-      return light.id == id && light.type == LightType::kArea;
-    });
+    return std::ranges::any_of(
+        scene.lights, [&](const Light& light) { return light.id == id && light.has_area(); });
   };
   json.key("wrong");
   json.begin_array();

@@ -95,7 +95,7 @@ double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>&
     std::size_t sides = 0;
     for (const std::uint32_t index : lights) {
       const PreparedLight& light = scene.lights[index];
-      if (light.type == LightType::kArea) {
+      if (light.has_area()) {
         for (const Side side : {Side::kFront, Side::kBack}) {
           sides += sees_area_light(scene, part, side, light) ? 1 : 0;
         }

@@ -138,10 +138,10 @@ SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared) {
     one.type = source.type;
     one.position = source.position;
     one.corners = source.loop.size();
-    facts.has_point = facts.has_point || source.type == LightType::kPoint;
-    facts.has_directional = facts.has_directional || source.type == LightType::kDirectional;
-    facts.has_area = facts.has_area || source.type == LightType::kArea;
-    if (source.type == LightType::kArea) {
+    facts.has_point = facts.has_point || source.is_point();
+    facts.has_directional = facts.has_directional || source.is_directional();
+    facts.has_area = facts.has_area || source.has_area();
+    if (source.has_area()) {
       count_area_light(prepared, light, one);
     } else {
       one.facing = facing_of(prepared, light.point);

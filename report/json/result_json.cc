@@ -123,9 +123,7 @@ class ResultWriter {
     return light.piece == LightResult::kWhole ? id : id + "/" + std::to_string(light.piece);
   }
 
-  bool is_area(const LightResult& light) const {
-    return prepared_.lights[light.light].type == LightType::kArea;
-  }
+  bool is_area(const LightResult& light) const { return prepared_.lights[light.light].has_area(); }
 
   void write_light(const LightResult& light) {
     json_.begin_object();

@@ -105,7 +105,7 @@ class Painter {
       : scene_(scene),
         prepared_(prepared),
         light_(prepared.lights[light].point),
-        area_light_(prepared.lights[light].type == LightType::kArea),
+        area_light_(prepared.lights[light].has_area()),
         options_(options),
         svg_(svg) {
     const auto [low, high] = bounding_box(prepared);
@@ -426,7 +426,7 @@ SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared,
   LegendLights lights;
   for (const Panel& panel : panels) {
     const PreparedLight& light = prepared.lights[panel.light];
-    (light.type == LightType::kArea ? lights.area : lights.point) = true;
+    (light.has_area() ? lights.area : lights.point) = true;
     const std::string& id = scene.lights[light.light].id;
     if (std::ranges::find(lights.ids, id) == lights.ids.end()) lights.ids.push_back(id);
     captions = captions || !panel.caption.empty();

@@ -69,7 +69,7 @@ ClaimedLight claims_of_light(const Scene& scene, const PreparedScene& prepared,
                              const std::vector<ClassifiedSide>& sides) {
   ClaimedLight claimed;
   claimed.id = scene.lights[prepared.lights[light.light].light].id;
-  claimed.per_caster_umbra = prepared.lights[light.light].type == LightType::kArea;
+  claimed.per_caster_umbra = prepared.lights[light.light].has_area();
   for (const ClassifiedSide& side : sides) {
     ClaimedPolygon& polygon = claimed.polygons.emplace_back();
     polygon.id = scene.polygons[side.polygon].id;

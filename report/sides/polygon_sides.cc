@@ -170,7 +170,7 @@ mpq_class exact_share(const PartSide& part, LightState state) {
 std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const LightResult& light,
                                           std::uint32_t polygon, bool exact) {
   const std::uint32_t first = scene.first_part[polygon], last = scene.first_part[polygon + 1];
-  const bool area_light = scene.lights[light.light].type == LightType::kArea;
+  const bool area_light = scene.lights[light.light].has_area();
   std::vector<ClassifiedSide> sides;
   if (first == last) return sides;
   for (const Side side : {Side::kFront, Side::kBack}) {

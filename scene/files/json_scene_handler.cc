@@ -465,9 +465,9 @@ bool SceneHandler::end_light() {
   Light& light = scene_.lights.back();
   const std::size_t place = scene_.lights.size() - 1;
   const std::string pointer = "/lights/" + std::to_string(place);
-  const std::uint32_t own = light.type == LightType::kPoint         ? kPosition
-                            : light.type == LightType::kDirectional ? kToLight
-                                                                    : kLoopKey;
+  const std::uint32_t own = light.is_point()         ? kPosition
+                            : light.is_directional() ? kToLight
+                                                     : kLoopKey;
   const std::uint32_t geometric = kPosition | kToLight | kLoopKey;
   if (!require(element_seen_, kType, pointer) || !require(element_seen_, own, pointer))
     return false;

@@ -103,12 +103,12 @@ Expected<void> validate_lights(const Scene& scene) {
     const Light& light = scene.lights[i];
     const std::string pointer = "/lights/" + std::to_string(i);
     const Position& to_light = light.position;
-    if (light.type == LightType::kDirectional && to_light[0].is_zero() && to_light[1].is_zero() &&
+    if (light.is_directional() && to_light[0].is_zero() && to_light[1].is_zero() &&
         to_light[2].is_zero()) {
       return offence(scene, ErrorCode::kGeometry, "the direction to the light is (0, 0, 0)",
                      "a vector that is not 0", pointer + "/to_light");
     }
-    if (light.type == LightType::kArea && light.loop.size() < kFewestLoopVertices) {
+    if (light.has_area() && light.loop.size() < kFewestLoopVertices) {
       return offence(scene, ErrorCode::kFormat,
                      "a loop of " + std::to_string(light.loop.size()) + " points",
                      "at least 3 points", pointer + "/loop");

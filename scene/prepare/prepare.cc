@@ -154,8 +154,8 @@ Expected<PreparedScene> prepare(const Scene& scene) {
     }
     const std::size_t inputs = points.size();
     for (const Light& light : scene.lights) {
-      if (light.type == LightType::kPoint) points.push_back(&light.position);
-      if (light.type == LightType::kArea) {
+      if (light.is_point()) points.push_back(&light.position);
+      if (light.has_area()) {
         for (const Position& position : light.loop) points.push_back(&position);
       }
     }

@@ -543,7 +543,7 @@ TEST(VisibleLight, OfRealScenesHasTheFractionsOfTheOracle) {
     const auto prepared = prepare(read->scene);
     ASSERT_TRUE(prepared);
     for (std::uint32_t light = 0; light < prepared->lights.size(); ++light) {
-      if (prepared->lights[light].type != LightType::kArea) continue;
+      if (!prepared->lights[light].has_area()) continue;
       const BruteView brute(*prepared);
       const LightVisibility visibility(*prepared, light);
       const oracle::AreaVisibility oracle(*prepared, prepared->lights[light]);

@@ -289,7 +289,7 @@ TEST(Merged, RoundedKernelsComeToAnEnd) {
   RecordProperty("findings", std::to_string(findings));
 }
 
-// --- Pieces: 1992 to the letter ---
+// --- Pieces: the light cut first, as in 1992 ---
 
 TEST(Pieces, OfALightThatNothingCutsIsTheLight) {
   const auto scene = prepare(figure_6()).value();

@@ -18,7 +18,7 @@ void expect_nearest(const Scene& scene, const std::string& what, std::size_t& co
   ShadowOptions options;
   options.output.points = true;
   for (std::uint32_t i = 0; i < prepared->lights.size(); ++i) {
-    if (prepared->lights[i].type != LightType::kArea) options.lights.push_back(i);
+    if (!prepared->lights[i].has_area()) options.lights.push_back(i);
   }
   if (options.lights.empty()) return;
   const auto fast = compute_shadows(*prepared, options);

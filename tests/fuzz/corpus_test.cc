@@ -68,7 +68,7 @@ class CorpusKind : public testing::TestWithParam<std::string> {
 
 bool has_area_light(const Fixture& fixture) {
   return std::ranges::any_of(fixture.scene.lights,
-                             [](const Light& light) { return light.type == LightType::kArea; });
+                             [](const Light& light) { return light.has_area(); });
 }
 
 TEST_P(CorpusKind, ExactKernelsAndOracleAgree) {

@@ -102,8 +102,8 @@ TEST(Generator, CutsFilesAndLargeScenesDown) {
         EXPECT_TRUE(prepare(made.scene)) << seed;
         EXPECT_LE(made.scene.polygons.size(), 20u) << seed;
         EXPECT_EQ(text_of(made_by->make(seed).scene), text_of(made.scene));
-        const bool area = std::ranges::any_of(
-            made.scene.lights, [](const Light& light) { return light.type == LightType::kArea; });
+        const bool area = std::ranges::any_of(made.scene.lights,
+                                              [](const Light& light) { return light.has_area(); });
         EXPECT_EQ(area, !prefix.empty()) << seed << " " << made.recipe;
       }
     }

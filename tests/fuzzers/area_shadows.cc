@@ -10,7 +10,7 @@
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace gnomon;
   Scene scene = fuzz::scene_from_code({data, size}, {.vertices = 40, .polygons = 5, .lights = 1});
-  std::erase_if(scene.lights, [](const Light& light) { return light.type != LightType::kArea; });
+  std::erase_if(scene.lights, [](const Light& light) { return !light.has_area(); });
   fuzzers::check_code(scene);
   fuzzers::check_algorithms(scene, {"plane", "plane/sectors/merged", "rational"},
                             {"double", "double+thin/sectors/merged", "float"},

@@ -27,9 +27,7 @@ class Case {
   const PreparedScene& prepared() const { return prepared_; }
   const fuzz::JudgedScene& judged() const { return judged_; }
   const oracle::ExactAnswer& answer() const { return judged_.answer(); }
-  bool is_area(std::uint32_t light) const {
-    return prepared_.lights[light].type == LightType::kArea;
-  }
+  bool is_area(std::uint32_t light) const { return prepared_.lights[light].has_area(); }
 
  private:
   Case(Scene scene, PreparedScene prepared)

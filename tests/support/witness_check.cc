@@ -120,7 +120,7 @@ std::string find_false_witness(const Case& scene, const ShadowResult& result) {
     const Light& own = scene.scene().lights[prepared.lights[light.light].light];
     Homogeneous source;
     for (int k = 0; k < 3; ++k) source.x[k] = own.position[k].exact();
-    source.w = own.type == LightType::kPoint ? 1 : 0;
+    source.w = own.is_point() ? 1 : 0;
     for (const PartResult& part : light.parts) {
       const std::vector<Vec> loop = loop_of(prepared, part.part);
       const Vec normal = area_vector(loop);

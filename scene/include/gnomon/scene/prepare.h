@@ -39,6 +39,10 @@ struct PreparedLight {
   LightType type = LightType::kPoint;
   LightPoint point;                                 // point and directional
   std::vector<std::array<mpz_class, 3>> area_loop;  // area: on the scene's grid
+
+  bool is_point() const { return type == LightType::kPoint; }
+  bool is_directional() const { return type == LightType::kDirectional; }
+  bool has_area() const { return type == LightType::kArea; }
 };
 
 /// What was done to an input polygon that was not convex and planar as it stood.

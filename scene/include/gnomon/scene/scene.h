@@ -34,6 +34,10 @@ struct Light {
   Position position;           // point: position; directional: to_light
   std::vector<Position> loop;  // area
   Number intensity{1.0};
+
+  bool is_point() const { return type == LightType::kPoint; }
+  bool is_directional() const { return type == LightType::kDirectional; }
+  bool has_area() const { return type == LightType::kArea; }
 };
 
 struct Scene {
