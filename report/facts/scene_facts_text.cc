@@ -163,7 +163,7 @@ std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_not
   if (facts.lights.empty()) text += "  none\n";
   for (const LightFacts& light : facts.lights) {
     std::string line = light.id + ": " + std::string(light_type_name(light.type));
-    if (light.has_area()) {
+    if (light.type == LightType::kArea) {
       line += ", " + area_light_text(light);
     } else {
       line += " " + position_text(light.position) + "; " + facing_text(light.facing);
@@ -240,7 +240,7 @@ void write_facts_json(TextSink& sink, const Scene& scene, const SceneFacts& fact
     json.member("away", light.facing.away);
     json.member("light_in_plane", light.facing.in_plane);
     json.member("away_share", light.facing.away_share());
-    if (light.has_area()) {
+    if (light.type == LightType::kArea) {
       json.member("corners", light.corners);
       json.member("cut_by_planes_of", light.cutting);
       json.member("reaching_behind", light.reaching_behind);
