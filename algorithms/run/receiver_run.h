@@ -95,7 +95,8 @@ class ReceiverRun {
   LightResult run_light(std::uint32_t light, double from, double to);
   LightResult run_light(const LightInSpace<Space>& light, LightResult result, double from,
                         double to);
-  /// As the 1992 paper has it: the light cut by the planes of all polygons, a result for each piece.
+  /// As the 1992 paper has it: the light cut by the planes of all polygons, a result for each
+  /// piece.
   void run_pieces(std::uint32_t light, double from, double to, std::vector<LightResult>& results);
   /// `merged`: may be null.
   std::vector<SideResult> run_part(Workspace& workspace, const LightInSpace<Space>& light,

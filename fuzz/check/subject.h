@@ -8,10 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "gnomon/kernel/kernel_choice.h"
 #include "fuzz/mistakes/mistake.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/error.h"
+#include "gnomon/kernel/kernel_choice.h"
 
 namespace gnomon::fuzz {
 

@@ -148,6 +148,15 @@ TEST_F(AlgorithmOptions, CertifyJudgesEachAlgorithm) {
       runs, testing::ElementsAre("plane sectors", "double sectors", "plane svbsp", "double svbsp"));
 }
 
+TEST_F(AlgorithmOptions, AllRunsEveryMethodThatTakesTheLights) {
+  const RunResult done = run("certify", {"--kernel", "plane", "--algorithm", "all"});
+  EXPECT_EQ(done.status, 0) << done.err;
+  for (const char* method : {"sectors", "svbsp", "receiver"}) {
+    EXPECT_THAT(done.out, HasSubstr(method));
+  }
+  EXPECT_THAT(done.out, Not(HasSubstr("failed")));
+}
+
 TEST_F(AlgorithmOptions, RenderShowsTheFragmentsOfBoth) {
   const RunResult both = run("render", {"--algorithm", "both", "--fragments"});
   EXPECT_EQ(both.status, 0) << both.err;

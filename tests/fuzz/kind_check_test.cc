@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/kinds/kind_predicates.h"
 #include "fuzz/generate/scene_pen.h"
 #include "fuzz/generate/soups.h"
+#include "fuzz/kinds/kind_predicates.h"
 #include "fuzz/moves/moves.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
