@@ -283,11 +283,12 @@ int run_certify(const CertifyCommandOptions& options) {
   if (options.scene.scene.empty()) {
     return report_usage("neither a scene nor a corpus", "SCENE, or --corpus DIR");
   }
-  const auto algorithms = chosen_algorithms(options);
+  auto algorithms = chosen_algorithms(options);
   if (!algorithms) return report_error(algorithms.error());
   const ThreadLimit threads(options.scene.jobs);
   auto loaded = load_scene(options.scene, true);
   if (!loaded) return report_error(loaded.error());
+  drop_repeats(*algorithms, *loaded);
   const auto kernels = chosen_kernels(options, loaded->prepared.parts.size());
   if (!kernels) return report_error(kernels.error());
 

@@ -140,11 +140,12 @@ Expected<void> render_illuminated(const RenderOptions& options, const LoadedScen
 }
 
 Expected<void> render(const RenderOptions& options) {
-  const auto algorithms = chosen_algorithms(options);
+  auto algorithms = chosen_algorithms(options);
   if (!algorithms) return tl::unexpected(algorithms.error());
   const ThreadLimit threads(options.scene.jobs);
   auto loaded = load_scene(options.scene, true);
   if (!loaded) return tl::unexpected(loaded.error());
+  drop_repeats(*algorithms, *loaded);
   const auto camera = camera_of(options, loaded->prepared);
   if (!camera) return tl::unexpected(camera.error());
   if (options.illuminate.illuminate) return render_illuminated(options, *loaded, *camera);

@@ -90,18 +90,30 @@ std::vector<AlgorithmChoice> several_algorithms(std::string_view name) {
             {.point = MethodId::kSvbsp, .area = MethodId::kMerged}};
   }
   if (name != kAllName) return {};
-  // Pairs of a method for point lights and one for area lights, until each has been in a pair.
-  std::vector<MethodId> point, area;
+  // Each method for point lights beside one for area lights, itself where it takes them, until
+  // every method has been in a pair.
+  std::vector<MethodId> area;
   for (const Method& method : methods()) {
-    if (method.chosen_by_name && method.lights.point) point.push_back(method.id);
     if (method.chosen_by_name && method.lights.area) area.push_back(method.id);
   }
   std::vector<AlgorithmChoice> choices;
-  for (std::size_t i = 0; i < std::max(point.size(), area.size()); ++i) {
-    choices.push_back({.point = point[std::min(i, point.size() - 1)],
-                       .area = area[std::min(i, area.size() - 1)]});
+  for (const Method& method : methods()) {
+    if (!method.chosen_by_name || !method.lights.point) continue;
+    const std::size_t next = std::min(choices.size(), area.size() - 1);
+    choices.push_back({.point = method.id, .area = method.lights.area ? method.id : area[next]});
   }
+  for (std::size_t i = choices.size(); i < area.size(); ++i) choices.push_back({.area = area[i]});
   return choices;
+}
+
+void drop_repeats(std::vector<AlgorithmChoice>& choices, const LoadedScene& loaded) {
+  std::vector<std::string> names;
+  std::erase_if(choices, [&](const AlgorithmChoice& choice) {
+    const std::string name = choice.name(loaded);
+    if (std::ranges::count(names, name) > 0) return true;
+    names.push_back(name);
+    return false;
+  });
 }
 
 }  // namespace gnomon::cli

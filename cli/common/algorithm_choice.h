@@ -55,6 +55,9 @@ Expected<AlgorithmChoice> parse_algorithm_choice(std::string_view name,
 /// that takes lights of the scene) stands for; none if `name` is neither.
 std::vector<AlgorithmChoice> several_algorithms(std::string_view name);
 
+/// Leaves out choices that are the same methods as one before for the lights that there are.
+void drop_repeats(std::vector<AlgorithmChoice>& choices, const LoadedScene& loaded);
+
 }  // namespace gnomon::cli
 
 #endif  // GNOMON_CLI_COMMON_ALGORITHM_CHOICE_H
