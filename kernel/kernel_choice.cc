@@ -33,7 +33,7 @@ Expected<KernelChoice> parse_kernel_choice(std::string_view text) {
     choice.thin |= thin;
     more = identity || thin;
   }
-  const auto kernel = name == "exact" ? kDefaultExactKernel : kernel_by_name(name);
+  const auto kernel = kernel_by_name(name);
   if (!kernel) {
     std::string names;
     for (const KernelInfo& info : kernel_list()) names += std::string(info.name) + ' ';
@@ -43,7 +43,7 @@ Expected<KernelChoice> parse_kernel_choice(std::string_view text) {
   choice.kernel = *kernel;
   // An exact kernel answers the same with and without.
   if (choice.exact()) choice.identity = false;
-  if (choice.exact() || choice.kernel == KernelId::kEpick) choice.thin = false;
+  if (!kernel_info(choice.kernel).has_thickness) choice.thin = false;
   return choice;
 }
 

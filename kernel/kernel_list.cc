@@ -9,8 +9,8 @@ namespace gnomon {
 
 std::span<const KernelInfo> kernel_list() {
   static constexpr std::array kList{
-#define GNOMON_KERNEL(id, name, kernel, header, exact, points, decisions) \
-  KernelInfo{KernelId::id, name, exact, points, decisions},
+#define GNOMON_KERNEL(id, name, kernel, header, exact, has_thickness, points, decisions) \
+  KernelInfo{KernelId::id, name, exact, has_thickness, points, decisions},
 #include "gnomon/kernel/kernels.def"
   };
   return kList;

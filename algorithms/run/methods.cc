@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The table of methods. A new method is a room, a row here with its function, and a line of
+// The table of methods. A new method is a room, a row and a case here, and a line of
 // gnomon_compile_on_kernels() in algorithms/CMakeLists.txt.
 #include "algorithms/run/methods.h"
 
@@ -16,8 +16,7 @@ namespace gnomon {
 
 namespace {
 
-using OnKernels = std::array<MethodFunction, kKernelCount>;
-
+/// The first of the rows that can do what is asked is what the command line's `auto` takes.
 constexpr std::array kMethods = {
     Method{.id = MethodId::kSectors,
            .name = "sectors",
@@ -52,13 +51,10 @@ constexpr std::array kMethods = {
            .chosen_by_name = false},
 };
 
-/// In the order of kMethods.
-const std::array<OnKernels, kMethods.size()>& functions() {
-  static constexpr OnKernels kByReceiver = on_every_kernel<ByReceiver>();
-  static constexpr std::array<OnKernels, kMethods.size()> kFunctions = {
-      on_every_kernel<BySectors>(), on_every_kernel<BySvbsp>(), kByReceiver, kByReceiver,
-      kByReceiver};
-  return kFunctions;
+template <template <class> class Run>
+MethodFunction on_kernel(KernelId kernel) {
+  static constexpr std::array kFunctions = on_every_kernel<Run>();
+  return kFunctions[static_cast<std::size_t>(kernel)];
 }
 
 }  // namespace
@@ -85,8 +81,19 @@ std::string method_names(LightKinds lights) {
 }
 
 MethodFunction method_function(MethodId method, KernelId kernel) {
-  const auto row = std::ranges::find(kMethods, method, &Method::id) - kMethods.begin();
-  return functions()[static_cast<std::size_t>(row)][static_cast<std::size_t>(kernel)];
+  switch (method) {
+    case MethodId::kSectors:
+      return on_kernel<BySectors>(kernel);
+    case MethodId::kSvbsp:
+      return on_kernel<BySvbsp>(kernel);
+    case MethodId::kReceiver:
+    case MethodId::kMerged:
+    case MethodId::kPieces:
+      return on_kernel<ByReceiver>(kernel);
+    case MethodId::kAutomatic:
+      break;
+  }
+  return nullptr;
 }
 
 }  // namespace gnomon

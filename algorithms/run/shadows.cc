@@ -41,8 +41,15 @@ Ways split_by_way(const PreparedScene& scene, const ShadowOptions& options,
   return result;
 }
 
-/// Adds what was found receiver by receiver to the result of the other lights, in order.
-void join(ShadowResult& result, ShadowResult by_receiver, const ShadowOptions& options,
+/// Names a method in the result, after those that are named there.
+void add_name(ShadowResult& result, MethodId method) {
+  const std::string own(method_info(method).name);
+  if (result.algorithm == own) return;
+  result.algorithm += (result.algorithm.empty() ? "" : "+") + own;
+}
+
+/// Adds what `method` found receiver by receiver to the result of the other lights, in order.
+void join(ShadowResult& result, ShadowResult by_receiver, MethodId method,
           const LightList& lights) {
   for (LightResult& light : by_receiver.lights) result.lights.push_back(std::move(light));
   const auto place = [&](const LightResult& light) {
@@ -50,18 +57,20 @@ void join(ShadowResult& result, ShadowResult by_receiver, const ShadowOptions& o
   };
   std::stable_sort(result.lights.begin(), result.lights.end(),
                    [&](const LightResult& a, const LightResult& b) { return place(a) < place(b); });
-  const std::string own(method_info(options.method.point == MethodId::kReceiver
-                                        ? MethodId::kReceiver
-                                        : options.method.area)
-                            .name);
-  result.algorithm =
-      result.algorithm.empty() || result.algorithm == own ? own : result.algorithm + "+" + own;
+  add_name(result, method);
   if (!by_receiver.combined.empty()) {
     result.combined = std::move(by_receiver.combined);
     result.combined_points = std::move(by_receiver.combined_points);
     result.combined_exact_points = std::move(by_receiver.combined_exact_points);
   }
   result.stages += by_receiver.stages;
+}
+
+/// A method's result bears the name that its row has.
+Expected<ShadowResult> run_method(MethodId method, MethodLookup lookup, const RunTask& task) {
+  Expected<ShadowResult> result = lookup(method, task.options.kernel.id)(task);
+  if (result) result->algorithm = method_info(method).name;
+  return result;
 }
 
 }  // namespace
@@ -103,7 +112,7 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
   const Ways ways = split_by_way(scene, options, lights);
   if (ways.by_receiver.empty()) {
     const MethodId method = method_of(LightType::kPoint, options, options.output.combined);
-    return lookup(method, options.kernel.id)({scene, options, rules, lights, together});
+    return run_method(method, lookup, {scene, options, rules, lights, together});
   }
   if (options.output.combined && options.method.area == MethodId::kPieces) {
     return fail(ErrorCode::kUsage, "pieces of lights have no classes together", "whole lights");
@@ -123,8 +132,7 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
   const LightList none;
   if (!ways.light_space.empty()) {
     const MethodId method = method_of(LightType::kPoint, options, false);
-    auto light_space =
-        lookup(method, options.kernel.id)({scene, own, rules, ways.light_space, none});
+    auto light_space = run_method(method, lookup, {scene, own, rules, ways.light_space, none});
     if (!light_space) return light_space;
     result = std::move(*light_space);
   }
@@ -137,7 +145,13 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
   auto by_receiver = lookup(options.method.area,
                             options.kernel.id)({scene, own, rules, ways.by_receiver, together});
   if (!by_receiver) return by_receiver;
-  join(result, std::move(*by_receiver), options, lights);
+  const bool has_point = std::ranges::any_of(
+      ways.by_receiver, [&](std::uint32_t light) { return !scene.lights[light].has_area(); });
+  const bool has_area = std::ranges::any_of(
+      ways.by_receiver, [&](std::uint32_t light) { return scene.lights[light].has_area(); });
+  if (has_point) add_name(result, options.method.point);
+  join(result, std::move(*by_receiver), has_area ? options.method.area : options.method.point,
+       lights);
   result.shadow_seconds += cpu_seconds() - start;
   return result;
 }

@@ -339,7 +339,6 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
   const ShadowOptions& options = task.options;
   const LightList& lights = task.lights;
   ShadowResult result = empty_result(options);
-  result.algorithm = "sectors";
   const double start = cpu_seconds();
   const KernelOptions kernel_options{options.kernel.identity, options.kernel.thickness};
   const RunOptions run_options = run_options_of(options);

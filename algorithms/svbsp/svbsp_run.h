@@ -257,7 +257,6 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
   const ShadowOptions& options = task.options;
   const LightList& lights = task.lights;
   ShadowResult result = empty_result(options);
-  result.algorithm = "svbsp";
 
   const double start = cpu_seconds();
   const KernelOptions kernel_options{options.kernel.identity, options.kernel.thickness};

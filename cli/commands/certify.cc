@@ -128,7 +128,7 @@ class CertifyRun {
     run.name = full_name ? run.kernel + '/' + run.algorithm : run.kernel;
     run.exact = kernel.exact();
     run.identity = kernel.identity;
-    run.exact_decisions = kernel.exact() || kernel.kernel == KernelId::kEpick;
+    run.exact_decisions = !kernel_info(kernel.kernel).has_thickness;
     run.thickness = run.exact_decisions || kernel.thin ? 0 : options_.thickness;
 
     progress_.set_label("kernel " + run.name);

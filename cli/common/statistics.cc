@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include "gnomon/kernel/precision_plan.h"
+#include "report/sides/polygon_sides.h"
 #include "report/text/number_text.h"
 
 namespace gnomon::cli {
@@ -57,8 +58,7 @@ std::string statistics_text(const LoadedScene& loaded, const ShadowResult& resul
             grouped(result.bsp_nodes) + " nodes, depth " + grouped(result.bsp_depth) + '\n';
   }
   for (const LightResult& light : result.lights) {
-    text += "light " + loaded.scene.lights[loaded.prepared.lights[light.light].light].id +
-            (light.piece == LightResult::kWhole ? "" : "/" + std::to_string(light.piece)) + ": " +
+    text += "light " + report::light_name(loaded.scene, loaded.prepared, light) + ": " +
             grouped(light.facing_parts) + " parts and " + grouped(light.facing_edges) +
             " edges face it, " + grouped(light.tree_nodes) +
             (has_bsp ? " tree nodes, " : " cells, ") + grouped(light.fragment_total) +

@@ -56,10 +56,7 @@ std::string_view name_of(Mistake mistake) {
 
 namespace {
 
-bool has_thickness(KernelId kernel) {
-  return kernel == KernelId::kFloat || kernel == KernelId::kDouble ||
-         kernel == KernelId::kLongDouble;
-}
+bool has_thickness(KernelId kernel) { return kernel_info(kernel).has_thickness; }
 
 /// Kernels that can go on with a polygon that the light sees edge-on, where light space has no area
 /// for it: those that keep the coordinates of their vertices.

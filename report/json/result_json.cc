@@ -117,10 +117,8 @@ class ResultWriter {
     json_.end_array();
   }
 
-  /// A piece of a light is named by its number: "panel/0".
   std::string light_id(const LightResult& light) const {
-    const std::string& id = scene_.lights[prepared_.lights[light.light].light].id;
-    return light.piece == LightResult::kWhole ? id : id + "/" + std::to_string(light.piece);
+    return light_name(scene_, prepared_, light);
   }
 
   bool is_area(const LightResult& light) const { return prepared_.lights[light.light].has_area(); }

@@ -255,6 +255,12 @@ Interval deep_umbra_share(const PreparedScene& scene, const LightResult& light,
   return {std::max(share.lower, 0.0), std::min(share.upper, 1.0)};
 }
 
+std::string light_name(const Scene& scene, const PreparedScene& prepared,
+                       const LightResult& light) {
+  const std::string& id = scene.lights[prepared.lights[light.light].light].id;
+  return light.piece == LightResult::kWhole ? id : id + "/" + std::to_string(light.piece);
+}
+
 FacingShare facing_share(const PreparedScene& scene, const LightResult& light) {
   FacingShare share;
   for (std::size_t polygon = 0; polygon + 1 < scene.first_part.size(); ++polygon) {

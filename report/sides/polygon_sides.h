@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "gnomon/algorithms/deep_umbra.h"
@@ -78,6 +79,9 @@ mpq_class exact_share(const PartSide& part, LightState state);
 /// parts of the same LightResult, one for each.
 Interval deep_umbra_share(const PreparedScene& scene, const LightResult& light,
                           const ClassifiedSide& side, std::span<const DeepUmbraBounds> bounds);
+
+/// The id of a result's light; a piece of a light is named by its number: "panel/0".
+std::string light_name(const Scene& scene, const PreparedScene& prepared, const LightResult& light);
 
 /// How many polygons have a side that faces the light, or sees an area light, of those that were
 /// not dropped.

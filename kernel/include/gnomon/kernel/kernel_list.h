@@ -19,6 +19,7 @@ struct KernelInfo {
   KernelId id;
   std::string_view name;       // as on the command line
   bool exact;                  // every answer equals the definition
+  bool has_thickness;          // a vertex near a plane is on it (`--thickness`)
   std::string_view points;     // the vertices that algorithms make
   std::string_view decisions;  // how a side of a plane is found
 };
