@@ -10,7 +10,8 @@ namespace gnomon {
 
 /// - `LightSpace`: the scene seen from a point or directional light;
 /// - `VolumeSpace`: the scene in three dimensions, with planes through any three points;
-/// - `CountedLightSpace`, `CountedVolumeSpace` (optional): the same spaces, which count each decision
+/// - `CountedLightSpace`, `CountedVolumeSpace` (optional): the same spaces, which count each
+/// decision
 ///   by the stage that made it. A kernel without stages has no such types.
 template <class Kernel>
 concept KernelModel =
