@@ -10,9 +10,8 @@ namespace gnomon {
 
 /// - `LightSpace`: the scene seen from a point or directional light;
 /// - `VolumeSpace`: the scene in three dimensions, with planes through any three points;
-/// - `CountedLightSpace`, `CountedVolumeSpace` (optional): the same spaces, which count each
-/// decision
-///   by the stage that made it. A kernel without stages has no such types.
+/// - `CountedLightSpace`, `CountedVolumeSpace` (optional): the same spaces with a count of
+///   decisions for each stage that makes them. A kernel without stages has no such types.
 template <class Kernel>
 concept KernelModel =
     LightSpaceModel<typename Kernel::LightSpace> && VolumeSpaceModel<typename Kernel::VolumeSpace>;
