@@ -9,24 +9,11 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "scene/base/text_hash.h"
 #include "scenes.h"
 
 namespace gnomon::bench {
 namespace {
-
-class Fnv1a {
- public:
-  void add(std::string_view text) {
-    for (const char c : text) {
-      hash_ ^= static_cast<unsigned char>(c);
-      hash_ *= 0x100000001b3u;
-    }
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
 
 bool overlap(const Interval& a, const Interval& b) {
   return a.lower <= b.upper && b.lower <= a.upper;
@@ -36,7 +23,7 @@ bool overlap(const Interval& a, const Interval& b) {
 
 ExactAnswers exact_answers(const ShadowResult& result) {
   ExactAnswers answers;
-  Fnv1a hash;
+  TextHash hash;
   for (const LightResult& light : result.lights) {
     for (std::size_t i = 0; i < light.parts.size(); ++i) {
       const PartResult& part = light.parts[i];

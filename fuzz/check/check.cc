@@ -25,25 +25,11 @@
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/write.h"
 #include "report/json/result_json.h"
+#include "scene/base/text_hash.h"
 
 namespace gnomon::fuzz {
 
 namespace {
-
-/// 64 bits over the text of all exact fractions (FNV-1a): equal answers have equal digests.
-class Digest {
- public:
-  void add(std::string_view text) {
-    for (const char c : text) {
-      hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    }
-    hash_ = (hash_ ^ 0xffu) * 0x100000001b3u;
-  }
-  std::string text() const { return fmt::format("{:016x}", hash_); }
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325u;
-};
 
 bool same_light(const Light& a, const Light& b) {
   return a.id == b.id && a.type == b.type && a.position == b.position && a.loop == b.loop &&
@@ -325,19 +311,25 @@ class SceneCheck {
     add(std::move(failure));
   }
 
+  /// Over the texts of all exact fractions: equal answers have equal digests.
   void digest(const ShadowResult& result) {
-    Digest sum;
+    TextHash sum;
+    const auto add = [&](const mpq_class& fraction) {
+      constexpr unsigned char kEnd = 0xff;
+      sum.add(fraction.get_str());
+      sum.add(kEnd);
+    };
     for (const LightResult& light : result.lights) {
       for (std::size_t i = 0; i < light.parts.size(); ++i) {
         const PartResult& part = light.parts[i];
-        sum.add(part.exact_lit.get_str());
-        sum.add(part.exact_shadow.get_str());
+        add(part.exact_lit);
+        add(part.exact_shadow);
         if (light.area_fractions.empty()) continue;
-        sum.add(light.area_fractions[i].exact_penumbra.get_str());
-        sum.add(light.area_fractions[i].exact_umbra.get_str());
+        add(light.area_fractions[i].exact_penumbra);
+        add(light.area_fractions[i].exact_umbra);
       }
     }
-    report_.digest = sum.text();
+    report_.digest = fmt::format("{:016x}", sum.value());
   }
 
   void compare_with_first(const ShadowResult& result, const std::string& name) {

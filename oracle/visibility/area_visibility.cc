@@ -6,25 +6,20 @@
 #include <map>
 #include <numeric>
 
+#include "oracle/geometry/space_loop.h"
+
 namespace gnomon::oracle {
 
 namespace {
 
+using space::area_along;
+using space::cross;
+using space::dot;
+using space::Loop;
+using space::minus;
+using space::negated;
+
 using Vector = RationalPoint;
-using Loop = std::vector<Vector>;
-
-Vector minus(const Vector& a, const Vector& b) {
-  return {mpq_class(a[0] - b[0]), mpq_class(a[1] - b[1]), mpq_class(a[2] - b[2])};
-}
-
-mpq_class dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {mpq_class(a[1] * b[2] - a[2] * b[1]), mpq_class(a[2] * b[0] - a[0] * b[2]),
-          mpq_class(a[0] * b[1] - a[1] * b[0])};
-}
-
-Vector negated(const Vector& a) { return {mpq_class(-a[0]), mpq_class(-a[1]), mpq_class(-a[2])}; }
 
 /// normal . (x - base) >= 0.
 struct HalfSpace {
@@ -52,14 +47,6 @@ Loop closed_part(const Loop& loop, const HalfSpace& half) {
     result.push_back(std::move(crossing));
   }
   return result;
-}
-
-mpq_class area_along(const Vector& normal, const Loop& loop) {
-  mpq_class sum;
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    sum += dot(normal, cross(minus(loop[i], loop[0]), minus(loop[i + 1], loop[0])));
-  }
-  return sum / 2;
 }
 
 struct Polygon3 {

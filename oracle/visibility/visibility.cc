@@ -4,22 +4,17 @@
 #include <array>
 #include <vector>
 
+#include "oracle/geometry/space_loop.h"
+
 namespace gnomon::oracle {
 
 namespace {
 
-using Vector = std::array<mpq_class, 3>;
+using space::cross;
+using space::dot;
+using space::minus;
 
-Vector minus(const Vector& a, const Vector& b) {
-  return {mpq_class(a[0] - b[0]), mpq_class(a[1] - b[1]), mpq_class(a[2] - b[2])};
-}
-
-mpq_class dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {mpq_class(a[1] * b[2] - a[2] * b[1]), mpq_class(a[2] * b[0] - a[0] * b[2]),
-          mpq_class(a[0] * b[1] - a[1] * b[0])};
-}
+using Vector = RationalPoint;
 
 enum class Place { kOutside, kBoundary, kInside };
 
