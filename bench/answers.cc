@@ -19,6 +19,17 @@ bool overlap(const Interval& a, const Interval& b) {
   return a.lower <= b.upper && b.lower <= a.upper;
 }
 
+/// The methods that are chosen by name and whose lights are wanted, in the order of the table.
+std::vector<NamedAlgorithm> named_methods(bool (*wanted)(LightKinds)) {
+  std::vector<NamedAlgorithm> found;
+  for (const Method& method : methods()) {
+    if (method.chosen_by_name && wanted(method.lights)) {
+      found.push_back({std::string(method.name), method.id});
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 ExactAnswers exact_answers(const ShadowResult& result) {
@@ -87,28 +98,14 @@ double lit_area(const LightResult& light, const std::vector<double>& areas) {
 }
 
 const std::vector<NamedAlgorithm>& algorithms() {
-  static const std::vector<NamedAlgorithm> kAlgorithms = [] {
-    std::vector<NamedAlgorithm> found;
-    for (const Method& method : methods()) {
-      if (method.lights.point && !method.lights.area) {
-        found.push_back({std::string(method.name), method.id});
-      }
-    }
-    return found;
-  }();
+  static const std::vector<NamedAlgorithm> kAlgorithms =
+      named_methods([](LightKinds lights) { return lights.point && !lights.area; });
   return kAlgorithms;
 }
 
 const std::vector<NamedAlgorithm>& area_algorithms() {
-  static const std::vector<NamedAlgorithm> kAlgorithms = [] {
-    std::vector<NamedAlgorithm> found;
-    for (const Method& method : methods()) {
-      if (method.lights.area && method.chosen_by_name) {
-        found.push_back({std::string(method.name), method.id});
-      }
-    }
-    return found;
-  }();
+  static const std::vector<NamedAlgorithm> kAlgorithms =
+      named_methods([](LightKinds lights) { return lights.area; });
   return kAlgorithms;
 }
 

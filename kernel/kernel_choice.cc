@@ -35,10 +35,8 @@ Expected<KernelChoice> parse_kernel_choice(std::string_view text) {
   }
   const auto kernel = kernel_by_name(name);
   if (!kernel) {
-    std::string names;
-    for (const KernelInfo& info : kernel_list()) names += std::string(info.name) + ' ';
     return fail(ErrorCode::kUsage, "--kernel " + std::string(text) + ": no such kernel",
-                "one of: " + names + "exact, rounded ones also with +identity, +thin");
+                "one of: " + kernel_names(" ") + " exact, rounded ones also with +identity, +thin");
   }
   choice.kernel = *kernel;
   // An exact kernel answers the same with and without.

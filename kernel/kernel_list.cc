@@ -26,4 +26,13 @@ std::optional<KernelId> kernel_by_name(std::string_view name) {
   return std::nullopt;
 }
 
+std::string kernel_names(std::string_view between) {
+  std::string names;
+  for (const KernelInfo& info : kernel_list()) {
+    if (!names.empty()) names += between;
+    names += info.name;
+  }
+  return names;
+}
+
 }  // namespace gnomon

@@ -35,11 +35,22 @@ struct RunTask {
 /// Errors: kInterrupted, kLimit.
 using MethodFunction = Expected<ShadowResult> (*)(const RunTask&);
 
-inline tl::unexpected<Error> interrupted() { return fail(ErrorCode::kInterrupted, "interrupted"); }
-inline tl::unexpected<Error> too_many_fragments(const ShadowOptions& options) {
-  return fail(ErrorCode::kLimit,
-              "more than " + std::to_string(options.limits.fragments) + " fragments",
-              "a simpler scene, or a higher limit");
+/// How the run of one light ended.
+enum class RunOutcome : std::uint8_t { kDone, kInterrupted, kTooManyFragments, kNoIeee };
+
+/// Why there is no result. Requires: the run was not done.
+inline tl::unexpected<Error> stopped_by(RunOutcome outcome, const ShadowOptions& options) {
+  if (outcome == RunOutcome::kTooManyFragments) {
+    return fail(ErrorCode::kLimit,
+                "more than " + std::to_string(options.limits.fragments) + " fragments",
+                "a simpler scene, or a higher limit");
+  }
+  if (outcome == RunOutcome::kNoIeee) {
+    // The thread that called has been checked before the run (select_lights).
+    return fail(ErrorCode::kUsage, "a thread of the run does not compute as IEEE 754 has it",
+                "rounding to nearest, and subnormal numbers, in every thread");
+  }
+  return fail(ErrorCode::kInterrupted, "interrupted");
 }
 
 /// The number of threads for ShadowOptions::jobs: more than processors would only wait for each

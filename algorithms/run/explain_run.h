@@ -17,10 +17,7 @@ Explanation ExplainOn<Kernel>::run(const RunTask& task) {
   const PreparedScene& scene = task.scene;
   const ShadowOptions& options = task.options;
   LockStep lock_step;
-  PairOptions kernel_options;
-  kernel_options.identity = options.kernel.identity;
-  kernel_options.thickness = options.kernel.thickness;
-  kernel_options.lock_step = &lock_step;
+  const PairOptions kernel_options{options.kernel.options(), &lock_step};
   RunOptions run_options = run_options_of(options);
   run_options.interrupted = &lock_step.stop;
 

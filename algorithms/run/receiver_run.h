@@ -15,7 +15,6 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -32,12 +31,6 @@
 #include "kernel/signs/fp_environment.h"
 
 namespace gnomon {
-
-/// Side `side` of part `part` as one receiver.
-struct Receiver {
-  std::uint32_t part = 0;
-  Side side = Side::kFront;
-};
 
 /// What a thread needs for one receiver after another, by either algorithm.
 template <VolumeSpaceModel Space>
@@ -61,8 +54,8 @@ class ReceiverRun {
         run_options_(run_options_of(options)),
         rules_(rules),
         light_geometry_(make_light_geometry(scene)),
-        scene_space_(light_geometry_.geometry, {options.kernel.identity, options.kernel.thickness}),
-        space_(scene_space_, {options.kernel.identity, options.kernel.thickness}),
+        scene_space_(light_geometry_.geometry, options.kernel.options()),
+        space_(scene_space_, options.kernel.options()),
         tree_(light_geometry_.geometry, scene, casters(scene)) {}
 
   /// Lights that results are wanted of one by one, and those that fragments are combined of.
@@ -104,7 +97,7 @@ class ReceiverRun {
   bool build_trees(const LightInSpace<Space>& light, double from, double to,
                    PenumbraAndUmbra<Space>& trees);
   void combine(const LightList& lights, double from, double to, ShadowResult& outcome);
-  tl::unexpected<Error> stop_reason() const;
+  RunOutcome stop_reason() const;
 
   const PreparedScene& scene_;
   const ShadowOptions& options_;
@@ -433,10 +426,10 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
 }
 
 template <VolumeSpaceModel Space>
-tl::unexpected<Error> ReceiverRun<Space>::stop_reason() const {
-  if (no_ieee_) return tl::unexpected<Error>(check_fp_environment().error());
-  if (pieces_ > options_.limits.fragments) return too_many_fragments(options_);
-  return interrupted();
+RunOutcome ReceiverRun<Space>::stop_reason() const {
+  if (no_ieee_) return RunOutcome::kNoIeee;
+  return pieces_ > options_.limits.fragments ? RunOutcome::kTooManyFragments
+                                             : RunOutcome::kInterrupted;
 }
 
 template <VolumeSpaceModel Space>
@@ -450,12 +443,12 @@ Expected<ShadowResult> ReceiverRun<Space>::run(const LightList& lights, const Li
     } else {
       outcome.lights.push_back(run_light(light, step / steps, (step + 1) / steps));
     }
-    if (stopped_) return stop_reason();
+    if (stopped_) return stopped_by(stop_reason(), options_);
     ++step;
   }
   if (!combined.empty()) {
     combine(combined, step / steps, 1, outcome);
-    if (stopped_) return stop_reason();
+    if (stopped_) return stopped_by(stop_reason(), options_);
   }
   outcome.stages += stages_;
   outcome.stages += space_.stage_counts();

@@ -48,16 +48,14 @@ void add_name(ShadowResult& result, MethodId method) {
   result.algorithm += (result.algorithm.empty() ? "" : "+") + own;
 }
 
-/// Adds what `method` found receiver by receiver to the result of the other lights, in order.
-void join(ShadowResult& result, ShadowResult by_receiver, MethodId method,
-          const LightList& lights) {
+/// Adds what was found receiver by receiver to the result of the other lights, in order.
+void join(ShadowResult& result, ShadowResult by_receiver, const LightList& lights) {
   for (LightResult& light : by_receiver.lights) result.lights.push_back(std::move(light));
   const auto place = [&](const LightResult& light) {
     return std::find(lights.begin(), lights.end(), light.light) - lights.begin();
   };
   std::stable_sort(result.lights.begin(), result.lights.end(),
                    [&](const LightResult& a, const LightResult& b) { return place(a) < place(b); });
-  add_name(result, method);
   if (!by_receiver.combined.empty()) {
     result.combined = std::move(by_receiver.combined);
     result.combined_points = std::move(by_receiver.combined_points);
@@ -145,13 +143,13 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
   auto by_receiver = lookup(options.method.area,
                             options.kernel.id)({scene, own, rules, ways.by_receiver, together});
   if (!by_receiver) return by_receiver;
-  const bool has_point = std::ranges::any_of(
-      ways.by_receiver, [&](std::uint32_t light) { return !scene.lights[light].has_area(); });
-  const bool has_area = std::ranges::any_of(
-      ways.by_receiver, [&](std::uint32_t light) { return scene.lights[light].has_area(); });
-  if (has_point) add_name(result, options.method.point);
-  join(result, std::move(*by_receiver), has_area ? options.method.area : options.method.point,
-       lights);
+  for (const bool area : {false, true}) {
+    const bool is_there = std::ranges::any_of(ways.by_receiver, [&](std::uint32_t light) {
+      return scene.lights[light].has_area() == area;
+    });
+    if (is_there) add_name(result, area ? options.method.area : options.method.point);
+  }
+  join(result, std::move(*by_receiver), lights);
   result.shadow_seconds += cpu_seconds() - start;
   return result;
 }

@@ -29,7 +29,6 @@ class SectorRun {
   using SceneSpace = typename Space::SceneSpace;
   using Vertex = typename Space::Vertex;
   using Tree = SectorTree<Space>;
-  enum class Outcome : std::uint8_t { kDone, kInterrupted, kTooManyFragments, kNoIeee };
 
   /// Call everything in an arena of `jobs` threads.
   SectorRun(const PreparedScene& scene, const RunOptions& options, const Rules& rules,
@@ -51,7 +50,7 @@ class SectorRun {
   }
 
   /// `progress` gets the share of the work that is done, from one thread at a time.
-  Outcome run(const std::function<void(double)>& progress);
+  RunOutcome run(const std::function<void(double)>& progress);
   LightResult finish();
   StageCounts stage_counts() const { return stages_; }
 
@@ -185,8 +184,7 @@ SectorCell SectorRun<Space>::common_cell(Tree& planner, std::span<const SectorIt
 }
 
 template <SectorSpaceModel Space>
-typename SectorRun<Space>::Outcome SectorRun<Space>::run(
-    const std::function<void(double)>& progress) {
+RunOutcome SectorRun<Space>::run(const std::function<void(double)>& progress) {
   // Cells of this size are worked off by one thread; the same whatever the number of threads.
   constexpr std::uint32_t kSmallestTask = 256, kLargestTask = 16384, kTasks = 128;
   std::atomic<std::uint64_t> pieces = 0;
@@ -246,8 +244,9 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run(
     tbb::parallel_for(std::size_t{0}, tasks.size(), run_task);
   }
   if (stopped) {
-    if (no_ieee) return Outcome::kNoIeee;
-    return pieces > options_.limits.fragments ? Outcome::kTooManyFragments : Outcome::kInterrupted;
+    if (no_ieee) return RunOutcome::kNoIeee;
+    return pieces > options_.limits.fragments ? RunOutcome::kTooManyFragments
+                                              : RunOutcome::kInterrupted;
   }
   for (const auto& task : tasks) planner.set_states(task);
   const auto states = planner.finish();
@@ -260,7 +259,7 @@ typename SectorRun<Space>::Outcome SectorRun<Space>::run(
   }
   outputs_.back() = std::move(planner.output());
   count_rest(outputs_.back());
-  return pieces > options_.limits.fragments ? Outcome::kTooManyFragments : Outcome::kDone;
+  return pieces > options_.limits.fragments ? RunOutcome::kTooManyFragments : RunOutcome::kDone;
 }
 
 template <SectorSpaceModel Space>
@@ -334,17 +333,16 @@ LightResult SectorRun<Space>::finish() {
 /// Every light by the sectors algorithm, one after another.
 template <SectorSpaceModel Space>
 Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
-  using Run = SectorRun<Space>;
   const PreparedScene& scene = task.scene;
   const ShadowOptions& options = task.options;
   const LightList& lights = task.lights;
   ShadowResult result = empty_result(options);
   const double start = cpu_seconds();
-  const KernelOptions kernel_options{options.kernel.identity, options.kernel.thickness};
+  const KernelOptions kernel_options = options.kernel.options();
   const RunOptions run_options = run_options_of(options);
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    Run run(scene, run_options, task.rules, scene_space, lights[i], kernel_options);
+    SectorRun<Space> run(scene, run_options, task.rules, scene_space, lights[i], kernel_options);
     std::function<void(double)> progress;
     if (options.control.progress) {
       progress = [&](double share) {
@@ -352,16 +350,8 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
                                  static_cast<double>(lights.size()));
       };
     }
-    switch (run.run(progress)) {
-      case Run::Outcome::kDone:
-        break;
-      case Run::Outcome::kInterrupted:
-        return interrupted();
-      case Run::Outcome::kTooManyFragments:
-        return too_many_fragments(options);
-      case Run::Outcome::kNoIeee:
-        return tl::unexpected<Error>(check_fp_environment().error());
-    }
+    const RunOutcome outcome = run.run(progress);
+    if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
     result.stages += run.stage_counts();
     result.lights.push_back(run.finish());
   }

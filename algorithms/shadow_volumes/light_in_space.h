@@ -102,7 +102,6 @@ class LightInSpace {
   bool has_area() const { return light_->has_area(); }
   LightState in_shadow() const { return has_area() ? LightState::kUmbra : LightState::kShadow; }
   PlaneRef plane() const { return plane_; }
-  std::size_t volume_count() const { return store_.size(); }
   const VolumeStore& volumes() const { return store_; }
   /// The volumes of a part's sides, by index: two for a two-sided part whose plane cuts the light.
   std::pair<std::uint32_t, std::uint32_t> volumes_of(std::uint32_t part) const {

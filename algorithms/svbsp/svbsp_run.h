@@ -56,13 +56,12 @@ class SvbspRun {
   static constexpr bool kFragmentPlanes = requires(const Space& space, LoopView<SceneVertex> loop) {
     space.light_side_of_fragment(loop);
   };
-  enum class Outcome : std::uint8_t { kDone, kInterrupted, kTooManyFragments };
 
   /// `progress(done)` gets the number of nodes done; `before_node(piece, side)` is called for each
   /// facing piece of a node before any piece of that node is inserted.
   template <class Progress, class BeforeNode>
-  Outcome run(const SceneBsp<SceneVertex>& bsp, const Progress& progress,
-              const BeforeNode& before_node) {
+  RunOutcome run(const SceneBsp<SceneVertex>& bsp, const Progress& progress,
+                 const BeforeNode& before_node) {
     if (options_.prefix) {
       tree_.plant(plan_prefix(scene_, scene_.lights[result_.light].point, facing_.parts));
     }
@@ -74,7 +73,7 @@ class SvbspRun {
       if ((i & 63) == 0) {
         if (options_.interrupted != nullptr &&
             options_.interrupted->load(std::memory_order_relaxed)) {
-          return Outcome::kInterrupted;
+          return RunOutcome::kInterrupted;
         }
         progress(i);
       }
@@ -87,12 +86,12 @@ class SvbspRun {
       filter_node(bsp, node);
       if (output_.fragments.size() > options_.limits.fragments ||
           tree_.node_count() / kMostNodesAFragment > options_.limits.fragments) {
-        return Outcome::kTooManyFragments;
+        return RunOutcome::kTooManyFragments;
       }
     }
     result_.tree_nodes = tree_.node_count();
     result_.dropped_slivers = tree_.vanished() + bsp.vanished;
-    return Outcome::kDone;
+    return RunOutcome::kDone;
   }
 
   /// Groups fragments by part, collapses parts that agree, measures and exports.
@@ -259,7 +258,7 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
   ShadowResult result = empty_result(options);
 
   const double start = cpu_seconds();
-  const KernelOptions kernel_options{options.kernel.identity, options.kernel.thickness};
+  const KernelOptions kernel_options = options.kernel.options();
   const RunOptions run_options = run_options_of(options);
   SceneSpace scene_space(scene.geometry, kernel_options);
   std::deque<SvbspRun<Space>> runs;  // never moved: a run's tree refers to its space
@@ -276,13 +275,13 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
   const SceneBsp<typename SceneSpace::Vertex> bsp =
       build_scene_bsp(scene_space, scene, parts, options.method.seed, result.identity,
                       options.control.interrupted, options.limits.fragments, task.rules);
-  if (bsp.interrupted) return interrupted();
+  if (bsp.interrupted) return stopped_by(RunOutcome::kInterrupted, options);
   result.scene_bsp_seconds = cpu_seconds() - start;
   result.bsp_nodes = bsp.nodes.size();
   result.bsp_depth = bsp.depth;
   for (const BspNode& node : bsp.nodes) result.bsp_fragments += node.count;
 
-  if (bsp.too_many) return too_many_fragments(options);
+  if (bsp.too_many) return stopped_by(RunOutcome::kTooManyFragments, options);
   std::optional<Pipeline<Space>> pipeline;
   if (!task.combined.empty()) {
     if (runs.size() > 64) {
@@ -305,14 +304,7 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
         [&](std::uint32_t piece, Side side) {
           if (pipeline) pipeline->filter(piece, side, i, run.tree());
         });
-    switch (outcome) {
-      case SvbspRun<Space>::Outcome::kDone:
-        break;
-      case SvbspRun<Space>::Outcome::kInterrupted:
-        return interrupted();
-      case SvbspRun<Space>::Outcome::kTooManyFragments:
-        return too_many_fragments(options);
-    }
+    if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
     result.stages += run.stage_counts();
     result.lights.push_back(run.finish());
   }

@@ -42,15 +42,6 @@ struct ShadowsOptions {
   std::string output;
 };
 
-/// "float, double, ...": every kernel.
-std::string kernel_names() {
-  std::string names;
-  for (const KernelInfo& kernel : kernel_list()) {
-    names += (names.empty() ? "" : ", ") + std::string(kernel.name);
-  }
-  return names;
-}
-
 int run_shadows(const ShadowsOptions& options) {
   auto kernel = parse_kernel_choice(options.kernel);
   if (!kernel) return report_error(kernel.error());
@@ -167,7 +158,7 @@ void add_shadows_command(CLI::App& app, Action& action) {
   add_scene_options(command, options->scene);
   command
       .add_option("--kernel", options->kernel,
-                  kernel_names() +
+                  kernel_names(", ") +
                       ", or exact (= " + std::string(kernel_info(kDefaultExactKernel).name) + ")")
       ->type_name("K")
       ->capture_default_str();

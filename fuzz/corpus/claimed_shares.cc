@@ -2,7 +2,6 @@
 #include "fuzz/corpus/claimed_shares.h"
 
 #include <fmt/format.h>
-#include <rapidjson/document.h>
 #include <rapidjson/error/en.h>
 
 #include <cmath>
@@ -12,12 +11,11 @@
 #include "fuzz/text/rational_text.h"
 #include "gnomon/result/classes.h"
 #include "report/sides/part_area.h"
+#include "scene/json/json_value.h"
 
 namespace gnomon::fuzz {
 
 namespace {
-
-using Json = rapidjson::Value;
 
 tl::unexpected<Error> wrong(const std::string& pointer, std::string what,
                             std::string expected = {}) {
@@ -32,20 +30,18 @@ Expected<void> parse(std::string_view text, rapidjson::Document& document) {
               "a result in JSON");
 }
 
-std::string_view text_of(const Json& object, const char* key) {
-  const auto place = object.FindMember(key);
-  if (place == object.MemberEnd() || !place->value.IsString()) return {};
-  return {place->value.GetString(), place->value.GetStringLength()};
+/// Empty if there is no such text.
+std::string member_text(const JsonValue& object, std::string_view key) {
+  return text_of(find_member(object, key)).value_or("");
 }
 
 /// The polygons of a light, or null.
-const Json* list_of(const Json& object, const char* key) {
-  if (!object.IsObject()) return nullptr;
-  const auto place = object.FindMember(key);
-  return place == object.MemberEnd() || !place->value.IsArray() ? nullptr : &place->value;
+const JsonValue* list_of(const JsonValue& object, std::string_view key) {
+  const JsonValue* list = object.IsObject() ? find_member(object, key) : nullptr;
+  return list != nullptr && list->IsArray() ? list : nullptr;
 }
 
-std::optional<double> fraction_of(const Json& value) {
+std::optional<double> fraction_of(const JsonValue& value) {
   if (value.IsNumber()) return value.GetDouble();
   if (!value.IsString()) return std::nullopt;
   const auto exact = parse_fraction({value.GetString(), value.GetStringLength()});
@@ -53,11 +49,11 @@ std::optional<double> fraction_of(const Json& value) {
 }
 
 /// The share of one class; `area` is the polygon's.
-Expected<std::optional<double>> share_of(const Json& polygon, std::string_view shade,
+Expected<std::optional<double>> share_of(const JsonValue& polygon, std::string_view shade,
                                          const mpq_class& area, const std::string& pointer) {
-  const auto place = polygon.FindMember(std::string(shade).c_str());
-  if (place == polygon.MemberEnd()) return std::optional<double>();
-  const Json& value = place->value;
+  const JsonValue* member = find_member(polygon, shade);
+  if (member == nullptr) return std::optional<double>();
+  const JsonValue& value = *member;
   std::optional<double> share;
   if (!value.IsObject()) {
     share = fraction_of(value);
@@ -77,15 +73,16 @@ class Comparison {
   Comparison(const Scene& scene, const PreparedScene& prepared, double tolerance)
       : scene_(scene), prepared_(prepared), tolerance_(tolerance) {}
 
-  Expected<std::string> compare(const Json& light, const std::string& pointer, bool per_caster,
+  Expected<std::string> compare(const JsonValue& light, const std::string& pointer, bool per_caster,
                                 const RecordedLight& recorded) const {
-    const Json* polygons = list_of(light, "polygons");
+    const JsonValue* polygons = list_of(light, "polygons");
     if (polygons == nullptr) return wrong(pointer, "no list \"polygons\"");
     for (const RecordedSide& side : recorded.sides) {
       rapidjson::SizeType found = polygons->Size();
       for (rapidjson::SizeType i = 0; i < polygons->Size(); ++i) {
-        const Json& one = (*polygons)[i];
-        if (one.IsObject() && text_of(one, "id") == side.polygon && is_side(one, side, recorded)) {
+        const JsonValue& one = (*polygons)[i];
+        if (one.IsObject() && member_text(one, "id") == side.polygon &&
+            is_side(one, side, recorded)) {
           found = i;
           break;
         }
@@ -103,8 +100,8 @@ class Comparison {
 
  private:
   /// A side that is not named is the only one that there is.
-  static bool is_side(const Json& one, const RecordedSide& side, const RecordedLight& light) {
-    const std::string_view name = text_of(one, "side");
+  static bool is_side(const JsonValue& one, const RecordedSide& side, const RecordedLight& light) {
+    const std::string name = member_text(one, "side");
     if (!name.empty()) return name == name_of(side.side);
     for (const RecordedSide& other : light.sides) {
       if (other.polygon == side.polygon && other.side != side.side)
@@ -113,7 +110,7 @@ class Comparison {
     return true;
   }
 
-  Expected<std::string> compare_side(const Json& polygon, const std::string& pointer, bool all,
+  Expected<std::string> compare_side(const JsonValue& polygon, const std::string& pointer, bool all,
                                      bool area_light, const RecordedSide& side) const {
     mpq_class area = 0;
     for (std::uint32_t i = 0; i < scene_.polygons.size(); ++i) {
@@ -153,13 +150,13 @@ class Comparison {
 Expected<bool> has_shares_alone(std::string_view result_json) {
   rapidjson::Document document;
   if (auto done = parse(result_json, document); !done) return tl::unexpected(done.error());
-  const Json* lights = list_of(document, "lights");
+  const JsonValue* lights = list_of(document, "lights");
   if (lights == nullptr) return false;
   bool any = false;
-  for (const Json& light : lights->GetArray()) {
-    const Json* polygons = list_of(light, "polygons");
+  for (const JsonValue& light : lights->GetArray()) {
+    const JsonValue* polygons = list_of(light, "polygons");
     if (polygons == nullptr) continue;
-    for (const Json& polygon : polygons->GetArray()) {
+    for (const JsonValue& polygon : polygons->GetArray()) {
       if (list_of(polygon, "fragments") != nullptr) return false;
       any = true;
     }
@@ -172,17 +169,17 @@ Expected<std::string> compare_shares(std::string_view result_json, const Scene& 
                                      const std::vector<RecordedLight>& recorded, double tolerance) {
   rapidjson::Document document;
   if (auto done = parse(result_json, document); !done) return tl::unexpected(done.error());
-  const Json* lights = list_of(document, "lights");
+  const JsonValue* lights = list_of(document, "lights");
   if (lights == nullptr) return wrong("", "no list \"lights\"", "a result");
-  const bool for_all = text_of(document, "umbra") == "per-caster";
+  const bool for_all = member_text(document, "umbra") == "per-caster";
   const Comparison comparison(scene, prepared, tolerance);
   for (const RecordedLight& light : recorded) {
     bool found = false;
     for (rapidjson::SizeType i = 0; i < lights->Size() && !found; ++i) {
-      const Json& one = (*lights)[i];
-      if (!one.IsObject() || text_of(one, "id") != light.id) continue;
+      const JsonValue& one = (*lights)[i];
+      if (!one.IsObject() || member_text(one, "id") != light.id) continue;
       found = true;
-      const bool per_caster = for_all || text_of(one, "umbra") == "per-caster";
+      const bool per_caster = for_all || member_text(one, "umbra") == "per-caster";
       auto differs = comparison.compare(one, fmt::format("/lights/{}", i), per_caster, light);
       if (!differs || !differs->empty()) return differs;
     }

@@ -14,7 +14,7 @@ bool shares_part_of_edge(const SceneView& view) {
   return view.any_panel_and_face(share_part_of_edge);
 }
 
-bool is_in_plane(const SceneView& view) {
+bool is_panel_in_plane(const SceneView& view) {
   return view.any_panel_and_face(
       [](const Face& panel, const Face& face) { return face.coplanar_with(panel); });
 }
@@ -25,13 +25,15 @@ bool all_inside(const Face& a, const Face& b) {
   return std::ranges::all_of(a.loop, [&](const Integers& p) { return b.holds_inside(p); });
 }
 
-bool is_inside(const SceneView& view) {
+bool is_panel_inside(const SceneView& view) {
   return view.any_panel_and_face([](const Face& panel, const Face& face) {
     return all_inside(panel, face) || all_inside(face, panel);
   });
 }
 
-bool has_vertex_in_face(const SceneView& view) { return view.any_panel_and_face(vertex_in_face); }
+bool has_panel_vertex_in_face(const SceneView& view) {
+  return view.any_panel_and_face(vertex_in_face);
+}
 
 bool is_touched(const SceneView& view) {
   return view.any_panel_and_face(
@@ -77,7 +79,7 @@ bool has_parallel_edge(const SceneView& view) {
       [](const Face& panel, const Face& face) { return any_edges(panel, face, are_parallel); });
 }
 
-bool is_grazing(const SceneView& view) {
+bool is_panel_grazing(const SceneView& view) {
   return view.any_panel_and_face([](const Face& panel, const Face& face) {
     return any_corner(panel,
                       [&](const Integers& p) { return grazes(face, minus(p, face.loop[0])); });
@@ -106,17 +108,17 @@ std::span<const KindPredicate> area_light_predicates() {
       {Kind::kAreaVertex, shares_vertex},
       {Kind::kAreaEdge, shares_edge},
       {Kind::kAreaEdgeOverlap, shares_part_of_edge},
-      {Kind::kAreaInPlane, is_in_plane},
+      {Kind::kAreaInPlane, is_panel_in_plane},
       {Kind::kAreaOnCaster, is_on_caster},
-      {Kind::kAreaInside, is_inside},
-      {Kind::kAreaVertexInFace, has_vertex_in_face},
+      {Kind::kAreaInside, is_panel_inside},
+      {Kind::kAreaVertexInFace, has_panel_vertex_in_face},
       {Kind::kAreaTouched, is_touched},
       {Kind::kAreaStraddled, is_straddled},
       {Kind::kAreaCut, is_cut},
       {Kind::kAreaVertexInPlane, has_vertex_in_plane},
       {Kind::kAreaEdgeInPlane, has_edge_in_plane},
       {Kind::kAreaParallelEdge, has_parallel_edge},
-      {Kind::kAreaGrazing, is_grazing},
+      {Kind::kAreaGrazing, is_panel_grazing},
       {Kind::kAreaSliver, is_sliver},
       {Kind::kAreaSmall, is_small},
       {Kind::kAreaHuge, is_huge},

@@ -65,7 +65,6 @@ class MeshBuilder {
   void expect_vertices(std::uint64_t count) { expected_vertices_ = count; }
   /// One index of the face under construction, counted from 0.
   Expected<void> add_index(std::int64_t index, std::size_t offset);
-  std::size_t index_count() const { return indices_.size(); }
   Expected<void> end_face(std::size_t offset);
 
   void warn(std::string warning) { warnings_.push_back(std::move(warning)); }

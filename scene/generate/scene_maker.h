@@ -82,7 +82,6 @@ class SceneMaker {
 
   void set_two_sided(bool two_sided) { scene_.two_sided = two_sided; }
   void shuffle_polygons(Random& random) { random.shuffle(std::span(scene_.polygons)); }
-  std::size_t polygon_count() const { return scene_.polygons.size(); }
   Scene take() { return std::move(scene_); }
 
  private:

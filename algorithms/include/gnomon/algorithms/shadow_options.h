@@ -10,6 +10,7 @@
 
 #include "gnomon/algorithms/method.h"
 #include "gnomon/kernel/kernel_list.h"
+#include "gnomon/kernel/kernel_options.h"
 
 namespace gnomon {
 
@@ -18,6 +19,8 @@ struct KernelPolicy {
   KernelId id = KernelId::kPlane;
   bool identity = false;                 // for rounded kernels; `plane` always knows
   double thickness = kDefaultThickness;  // relative to the scene's diagonal; rounded kernels only
+
+  KernelOptions options() const { return {identity, thickness}; }
 };
 
 /// The methods, and what changes their work but not the areas that they find.

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace gnomon {
@@ -28,6 +29,8 @@ struct KernelInfo {
 std::span<const KernelInfo> kernel_list();
 const KernelInfo& kernel_info(KernelId id);
 std::optional<KernelId> kernel_by_name(std::string_view name);
+/// The names of all kernels with `between` between them.
+std::string kernel_names(std::string_view between);
 inline constexpr KernelId kDefaultExactKernel = KernelId::kPlane;
 
 /// Relative plane thickness of the rounded kernels unless told otherwise (docs/exactness.md says
