@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "algorithms/partition/classified_loop.h"
 #include "algorithms/partition/loop_store.h"
 #include "algorithms/partition/split.h"
 #include "kernel/concept/kernel_concept.h"
@@ -52,20 +53,6 @@ inline std::int32_t descend(TreePlace& at, const NodeAt& node_at, const Placemen
   }
 }
 
-/// FilteredLoops holds loops, each in a cell of a tree. `CellLoop` has a range `loop` of `loops`,
-/// and `is_like(other)`: whether the cells of two loops are of one class, so that the loops may be
-/// merged.
-template <class Vertex, class CellLoop>
-struct FilteredLoops {
-  LoopStore<Vertex> loops;
-  std::vector<CellLoop> fragments;
-
-  void clear() {
-    loops.clear();
-    fragments.clear();
-  }
-};
-
 /// PlaneTreeFilter does the walk, and keeps its workspace.
 template <DecisionSpace Space>
 class PlaneTreeFilter {
@@ -76,8 +63,9 @@ class PlaneTreeFilter {
 
   /// Takes the loop to the cells of `tree`, which has
   ///   node_at(place): the node there, or a negative number that stands for a cell;
-  ///   plane(node): its plane;
-  ///   placement(record, plane, loop): where a loop belongs, from a record of its sides;
+  ///   placement(record, node, loop): where a loop belongs that meets the node, from a record of
+  ///   its sides;
+  ///   plane(node, loop): the plane that splits it;
   ///   is_kept(loop): whether a child with three or more vertices is filtered further;
   ///   at_cell(place, loop): puts out a loop that has reached a cell, and may extend the tree.
   template <class Tree, class CellLoop>
@@ -98,7 +86,7 @@ class PlaneTreeFilter {
       const LoopView<Vertex> here = work_.view(frame.loop, support);
       const std::int32_t node = descend(
           frame.at, [&](TreePlace at) { return tree.node_at(at); },
-          [&](std::uint32_t at) { return tree.placement(record_, tree.plane(at), here); });
+          [&](std::uint32_t at) { return tree.placement(record_, at, here); });
       if (node >= 0) {
         frame.leaving = true;
         frame.first_output = static_cast<std::uint32_t>(output.fragments.size());
@@ -128,8 +116,9 @@ class PlaneTreeFilter {
              PlaneId support) {
     parent_.clear();
     const LoopRange copy = parent_.append(work_.view(loop, support));
-    const SplitChildren children = make_children(
-        space, tree.plane(node), parent_.view(copy, support), record_, crossings_, work_);
+    const LoopView<Vertex> parent = parent_.view(copy, support);
+    const SplitChildren children =
+        make_children(space, tree.plane(node, parent), parent, record_, crossings_, work_);
     // The front child was appended last and is taken first, so that the loops are a stack.
     for (const bool front : {false, true}) {
       const LoopRange& child = front ? children.front : children.back;

@@ -33,6 +33,15 @@ struct Rules {
   /// A shadow volume goes on behind the volumes in its way, as far as its caster hides the light
   /// ("Lit, penumbra and umbra": a penumbra volume depends on its caster alone).
   bool volumes_continue_behind_others = true;
+  /// When a later volume holds one that closed a tile, it takes its place there: the shadow in the
+  /// tile is still theirs (Slater 1992, sec. 5, does not say so).
+  bool closed_tiles_pass_to_the_killer = true;
+  /// A volume dies, and a tile closes, only when all polygons of the new one's plane have received
+  /// the old one's shadow ("Lit and in shadow": coplanar polygons).
+  bool volumes_die_after_their_plane_received = true, tiles_close_after_their_plane_received = true;
+  /// The edges of a complete shadow volume stand above its support plane in the tree: what is in
+  /// front of the plane then has no volume that goes on behind it ("Lit and in shadow").
+  bool edges_above_supports = true;
   /// A vertex on the edge of a neighbouring face is a vertex of that face, too: its illumination
   /// is the same from both sides (shading_mesh.h, "no T-vertices").
   bool neighbour_vertices_are_in_the_face = true;

@@ -15,11 +15,11 @@ template <class Kernel>
 Explanation ExplainOn<Kernel>::run(const RunTask& task) {
   using Space = PairLightSpace<typename Kernel::LightSpace, ImplicitLightSpace<NoStats>>;
   const PreparedScene& scene = task.scene;
-  const ShadowOptions& options = task.options;
   LockStep lock_step;
+  ShadowOptions options = task.options;
+  options.control.interrupted = &lock_step.stop;
+  const RunTask pair_task{scene, options, task.rules, task.lights, task.combined};
   const PairOptions kernel_options{options.kernel.options(), &lock_step};
-  RunOptions run_options = run_options_of(options);
-  run_options.interrupted = &lock_step.stop;
 
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
   std::vector<std::uint32_t> parts(scene.parts.size());
@@ -28,7 +28,8 @@ Explanation ExplainOn<Kernel>::run(const RunTask& task) {
                                    options.kernel.identity, &lock_step.stop);
   if (lock_step.first) return FirstDifference{*lock_step.first, std::nullopt};
   for (const std::uint32_t light : task.lights) {
-    SvbspRun<Space> run(scene, run_options, task.rules, scene_space, light, kernel_options);
+    LightScene<Space> light_scene(pair_task, scene_space, light);
+    SvbspRun<Space> run(light_scene);
     if (!lock_step.first) {
       run.run(
           bsp, [](std::size_t) {}, [](std::uint32_t, Side) {});

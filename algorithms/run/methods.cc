@@ -7,14 +7,32 @@
 #include <array>
 #include <cstddef>
 
+#include "algorithms/tiling/by_volumes.h"
 #include "algorithms/run/by_receiver.h"
 #include "algorithms/run/on_every_kernel.h"
 #include "algorithms/sectors/by_sectors.h"
 #include "algorithms/svbsp/by_svbsp.h"
+#include "algorithms/svbsp_full/by_svbsp_full.h"
 
 namespace gnomon {
 
 namespace {
+
+using enum Counter;
+constexpr std::array<std::string_view, 2> kBasicOptions = {"cover", "prune"};
+constexpr std::array<std::string_view, 3> kTilingOptions = {"tiles", "cover", "prune"};
+constexpr std::array<std::string_view, 1> kSvbspFullOptions = {"order"};
+constexpr std::array<std::string_view, 2> kTwoPassOptions = {"cells", "cover"};
+constexpr std::array kSvbspCounters = {kScenePieces, kShadowPolygons, kNodes, kDepth};
+constexpr std::array kBasicCounters = {kScenePieces, kVolumes, kTests,  kCovered,
+                                       kDied,        kClips,   kNulled, kShadowPolygons};
+constexpr std::array kTilingCounters = {
+    kScenePieces,    kVolumes,   kTests,           kCovered,    kDied,
+    kClips,          kNulled,    kShadowPolygons,  kTileWrites, kClosedTiles,
+    kTileBytes,      kMeanMet,   kFirstQuartileMet, kMedianMet,  kThirdQuartileMet};
+constexpr std::array kSvbspFullCounters = {kVolumes, kShadowPolygons, kNodes, kDepth};
+constexpr std::array kTwoPassCounters = {kClips, kShadowPolygons, kLists, kLongestList,
+                                         kDeepestStack};
 
 /// The first of the rows that can do what is asked is what the command line's `auto` takes.
 constexpr std::array kMethods = {
@@ -22,7 +40,8 @@ constexpr std::array kMethods = {
            .name = "sectors",
            .summary = "needs no order",
            .source = "Slater 1992, tiles, in light space",
-           .lights = {.point = true}},
+           .lights = {.point = true},
+           .threads = true},
     Method{.id = MethodId::kSvbsp,
            .name = "svbsp",
            .summary = "front to back by a scene BSP",
@@ -30,13 +49,15 @@ constexpr std::array kMethods = {
            .lights = {.point = true},
            .combines_lights = true,
            .explains = true,
-           .leaves_out_steps = true},
+           .leaves_out_steps = true,
+           .counters = kSvbspCounters},
     Method{.id = MethodId::kReceiver,
            .name = "receiver",
            .summary = "each polygon against its casters",
            .source = "Nishita & Nakamae 1983; Chin & Feiner 1992",
            .lights = {.point = true, .area = true},
-           .combines_lights = true},
+           .combines_lights = true,
+           .threads = true},
     Method{.id = MethodId::kMerged,
            .name = "merged",
            .summary = "two trees of all casters",
@@ -49,6 +70,38 @@ constexpr std::array kMethods = {
            .source = "Chin & Feiner 1992",
            .lights = {.area = true},
            .chosen_by_name = false},
+    Method{.id = MethodId::kBasic,
+           .name = "basic",
+           .summary = "each polygon against all shadow volumes before it",
+           .source = "Slater 1992, section 3",
+           .lights = {.point = true},
+           .overlays = true,
+           .options = kBasicOptions,
+           .counters = kBasicCounters},
+    Method{.id = MethodId::kTiling,
+           .name = "tiling",
+           .summary = "the same, against those in its tiles of a cube around the light",
+           .source = "Slater 1992, section 5",
+           .lights = {.point = true},
+           .overlays = true,
+           .options = kTilingOptions,
+           .counters = kTilingCounters},
+    Method{.id = MethodId::kSvbspFull,
+           .name = "svbsp-full",
+           .summary = "complete shadow volumes in two passes, no order",
+           .source = "Chin & Feiner 1989, sections 4 and 8",
+           .lights = {.point = true},
+           .options = kSvbspFullOptions,
+           .counters = kSvbspFullCounters},
+    Method{.id = MethodId::kTwoPass,
+           .name = "two-pass",
+           .summary = "polygons clip each other as seen from the light, no order",
+           .source = "Atherton, Weiler & Greenberg 1978; Crow 1977, class two",
+           .lights = {.point = true},
+           .overlays = true,
+           .threads = true,
+           .options = kTwoPassOptions,
+           .counters = kTwoPassCounters},
 };
 
 template <template <class> class Run>
@@ -83,9 +136,15 @@ std::string method_names(LightKinds lights) {
 MethodFunction method_function(MethodId method, KernelId kernel) {
   switch (method) {
     case MethodId::kSectors:
+    case MethodId::kTwoPass:  // both run in cells of light space
       return on_kernel<BySectors>(kernel);
     case MethodId::kSvbsp:
       return on_kernel<BySvbsp>(kernel);
+    case MethodId::kBasic:
+    case MethodId::kTiling:
+      return on_kernel<ByVolumes>(kernel);
+    case MethodId::kSvbspFull:
+      return on_kernel<BySvbspFull>(kernel);
     case MethodId::kReceiver:
     case MethodId::kMerged:
     case MethodId::kPieces:

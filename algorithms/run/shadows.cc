@@ -42,8 +42,8 @@ Ways split_by_way(const PreparedScene& scene, const ShadowOptions& options,
 }
 
 /// Names a method in the result, after those that are named there.
-void add_name(ShadowResult& result, MethodId method) {
-  const std::string own(method_info(method).name);
+void add_name(ShadowResult& result, MethodId method, const MethodOptionValues& values) {
+  const std::string own = method_text(method, values);
   if (result.algorithm == own) return;
   result.algorithm += (result.algorithm.empty() ? "" : "+") + own;
 }
@@ -67,7 +67,7 @@ void join(ShadowResult& result, ShadowResult by_receiver, const LightList& light
 /// A method's result bears the name that its row has.
 Expected<ShadowResult> run_method(MethodId method, MethodLookup lookup, const RunTask& task) {
   Expected<ShadowResult> result = lookup(method, task.options.kernel.id)(task);
-  if (result) result->algorithm = method_info(method).name;
+  if (result) result->algorithm = method_text(method, task.options.method.options);
   return result;
 }
 
@@ -147,7 +147,8 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
     const bool is_there = std::ranges::any_of(ways.by_receiver, [&](std::uint32_t light) {
       return scene.lights[light].has_area() == area;
     });
-    if (is_there) add_name(result, area ? options.method.area : options.method.point);
+    if (!is_there) continue;
+    add_name(result, area ? options.method.area : options.method.point, options.method.options);
   }
   join(result, std::move(*by_receiver), lights);
   result.shadow_seconds += cpu_seconds() - start;

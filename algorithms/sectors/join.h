@@ -38,6 +38,7 @@ void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
     context_->stopped.store(true, std::memory_order_relaxed);
   }
   const bool lit = state == kAllLit;
+  if (!lit) ++output_.work[Counter::kShadowPolygons];
   // On an exact kernel the lit fraction gives the shadowed one.
   if (lit || !Space::kExact) emit_area(loop, lit);
   const RunOptions& options = context_->options;

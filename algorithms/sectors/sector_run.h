@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -32,8 +33,11 @@ class SectorRun {
 
   /// Call everything in an arena of `jobs` threads.
   SectorRun(const PreparedScene& scene, const RunOptions& options, const Rules& rules,
-            SceneSpace& scene_space, std::uint32_t light, const KernelOptions& kernel_options)
-      : scene_(scene),
+            SceneSpace& scene_space, std::uint32_t light, const KernelOptions& kernel_options,
+            LeafMethod leaf_method, Cover cover)
+      : leaf_method_(leaf_method),
+        cover_(cover),
+        scene_(scene),
         options_(options),
         rules_(rules),
         scene_space_(scene_space),
@@ -85,6 +89,8 @@ class SectorRun {
   }
   SectorCell common_cell(Tree& planner, std::span<const SectorItem> items);
 
+  LeafMethod leaf_method_;
+  Cover cover_;
   const PreparedScene& scene_;
   const RunOptions& options_;
   const Rules& rules_;
@@ -190,7 +196,7 @@ RunOutcome SectorRun<Space>::run(const std::function<void(double)>& progress) {
   std::atomic<std::uint64_t> pieces = 0;
   std::atomic<bool> stopped = false, no_ieee = false;
   const SectorContext context{scene_, options_, rules_, facing_, charts_,
-                              light_, areas_,   sums_,  pieces,  stopped};
+                              light_, areas_,   sums_,  pieces,  stopped, leaf_method_};
   LoopStore<Vertex> loops;
   std::vector<SectorItem> items = import(loops);
   Tree planner(context, std::move(space_));
@@ -269,10 +275,24 @@ LightResult SectorRun<Space>::finish() {
     result_.fragment_total += output.piece_count;
     result_.tree_nodes += output.nodes;
     result_.dropped_slivers += output.vanished;
+    result_.work += output.work;
     for (auto& [part, lit] : output.exact_lit) exact[part].add({Ball(), std::move(lit), true});
   }
   std::vector<SectorState> states(scene_.parts.size(), kUndecided);
   for (std::uint32_t i = 0; i < states_.size(); ++i) states[facing_.parts[i]] = states_[i];
+
+  if (cover_ == Cover::kOverlay) {
+    // What is lit lies over polygons in shadow: details of their surface (Atherton, Weiler &
+    // Greenberg 1978).
+    result_.cover = Cover::kOverlay;
+    result_.background = LightState::kShadow;
+    result_.fragment_total -= result_.work[Counter::kShadowPolygons];
+    for (SectorOutput& output : outputs_) {
+      std::erase_if(output.pieces, [](const SectorOutput::Piece& piece) {
+        return piece.fragment.state == LightState::kShadow;
+      });
+    }
+  }
 
   // Counting sort of the pieces by part, points one after another.
   std::vector<std::uint32_t> start(scene_.parts.size() + 1, 0);
@@ -330,7 +350,10 @@ LightResult SectorRun<Space>::finish() {
   return std::move(result_);
 }
 
-/// Every light by the sectors algorithm, one after another.
+/// A size of leaves and tasks by which everything is one leaf.
+inline constexpr std::uint32_t kOneCell = std::numeric_limits<std::int32_t>::max();
+
+/// Every light, by sectors or by two passes in the same cells, one after another.
 template <SectorSpaceModel Space>
 Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
   const PreparedScene& scene = task.scene;
@@ -339,10 +362,17 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
   ShadowResult result = empty_result(options);
   const double start = cpu_seconds();
   const KernelOptions kernel_options = options.kernel.options();
-  const RunOptions run_options = run_options_of(options);
+  RunOptions run_options = run_options_of(options);
+  const bool two_pass = options.method.point == MethodId::kTwoPass;
+  const LeafMethod leaf_method = two_pass ? LeafMethod::kTwoPass : LeafMethod::kSubtract;
+  const Cover cover = two_pass ? options.method.options.cover : Cover::kPartition;
+  if (two_pass && !options.method.options.cells) {
+    run_options.tuning.leaf_size = run_options.tuning.task_size = kOneCell;
+  }
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    SectorRun<Space> run(scene, run_options, task.rules, scene_space, lights[i], kernel_options);
+    SectorRun<Space> run(scene, run_options, task.rules, scene_space, lights[i], kernel_options,
+                         leaf_method, cover);
     std::function<void(double)> progress;
     if (options.control.progress) {
       progress = [&](double share) {

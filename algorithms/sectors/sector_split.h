@@ -12,20 +12,10 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/partition/chart_box.h"
 #include "algorithms/partition/chart_split.h"
 
 namespace gnomon {
-
-/// A box in the chart of a sector; by default everything.
-struct ChartBox {
-  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  std::array<float, 2> low{-kInfinity, -kInfinity}, high{kInfinity, kInfinity};
-
-  bool overlaps(const ChartBox& other) const {
-    return low[0] < other.high[0] && other.low[0] < high[0] && low[1] < other.high[1] &&
-           other.low[1] < high[1];
-  }
-};
 
 /// SectorItem is a polygon clipped to a cell. Its box and its depths are certified: the
 /// polygon's directions are within [low, high] and its z within [z_low, z_high] (infinite where

@@ -30,6 +30,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/partition/cone_clip.h"
 #include "algorithms/partition/fraction_sums.h"
 #include "algorithms/partition/import_export.h"
 #include "algorithms/partition/loop_store.h"
@@ -38,6 +39,7 @@
 #include "algorithms/partition/run_options.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/sectors/sector_split.h"
+#include "algorithms/two_pass/list_clipping.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "kernel/concept/kernel_concept.h"
 
@@ -60,7 +62,12 @@ struct SectorOutput {
   std::vector<std::array<mpq_class, 3>> exact_points;
   std::vector<std::pair<std::uint32_t, mpq_class>> exact_lit;  // on request: part, lit fraction
   std::uint64_t piece_count = 0, nodes = 0, vanished = 0;
+  WorkCounts work;
 };
+
+/// What is done in a leaf of the tree: the nearer casters subtracted from each receiver (sectors),
+/// or polygons clipped by each other in lists (two-pass).
+enum class LeafMethod : std::uint8_t { kSubtract, kTwoPass };
 
 /// SectorContext is what all threads share. Only its atomics change.
 struct SectorContext {
@@ -74,6 +81,7 @@ struct SectorContext {
   FractionSums& sums;
   std::atomic<std::uint64_t>& pieces;  // so far
   std::atomic<bool>& stopped;          // interrupted, or too many pieces
+  LeafMethod leaf_method = LeafMethod::kSubtract;
 };
 
 /// A cell of light space: which of the sector planes are still to come, and the chart after them.
@@ -199,7 +207,7 @@ class SectorTree {
   void leaf(std::uint32_t begin, std::uint32_t end, const LightChart* chart);
   void subtract_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters,
                         bool nearest_first, const LightChart* chart);
-  bool clip(const LitPiece& piece, LoopRange& inside);
+  void clip_lists(std::uint32_t begin, std::uint32_t end);
   void join(Range children);
   void emit(const LoopRange& loop, SectorState state);
   void emit_area(const LoopRange& loop, bool lit);
@@ -218,12 +226,16 @@ class SectorTree {
   SplitChooser chooser_;
   std::unordered_map<std::uint32_t, mpq_class> exact_areas_;  // of parts, as needed
   // Workspace, kept to save allocations.
-  SplitRecord record_, first_record_;
+  SplitRecord record_;
+  ConeClip<Space> clip_;
+  ListClipping<Space> lists_;
   std::vector<Vertex> crossings_;
   std::vector<SectorItem> front_items_;
   std::vector<std::uint32_t> order_;
   std::vector<LitPiece> lit_, still_lit_;
-  std::vector<PlaneRef> caster_planes_, spanning_;
+  std::vector<PlaneRef> caster_planes_;
+  std::vector<ListPiece> pieces_;
+  std::vector<ClippedPiece> clipped_;
 };
 
 }  // namespace gnomon

@@ -127,6 +127,10 @@ std::uint32_t SectorTree<Space>::cull(std::uint32_t begin, std::uint32_t end) {
 
 template <SectorSpaceModel Space>
 void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end, const LightChart* chart) {
+  if (context_->leaf_method == LeafMethod::kTwoPass) {
+    clip_lists(begin, end);
+    return;
+  }
   order_.clear();
   for (std::uint32_t i = begin; i < end; ++i) {
     if (context_->scene.parts[items_[i].part].casts) order_.push_back(i);
@@ -197,11 +201,14 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
         piece.box = box_of(*chart, view(piece.loop));
         piece.located = true;
       }
-      LoopRange inside;
-      if (!piece.box.overlaps(caster) || !clip(piece, inside)) {
+      if (!piece.box.overlaps(caster) ||
+          clip_.clip(space_, caster_planes_, piece.loop, context_->scene.parts[item.part].plane,
+                     loops_) == ConePlace::kOutside) {
         still_lit_.push_back(piece);
         continue;
       }
+      for (const LoopRange& outside : clip_.outside()) still_lit_.push_back({outside, false, {}});
+      const LoopRange inside = clip_.inside();
       if (inside.first == whole.first) {
         state = caster.part;  // one caster has it all
       } else {
@@ -212,6 +219,7 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
     lit_.swap(still_lit_);
     if (lit_.empty()) break;
   }
+  output_.vanished += clip_.take_vanished();
   if (cut) {
     for (const LitPiece& piece : lit_) emit(piece.loop, kAllLit);
     state = kMixed;
@@ -219,56 +227,6 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
   states_[receiver] = state;
   loops_.truncate(loops_mark);
   space_.release_planes(planes_mark);
-}
-
-// Cuts the part of a piece that is inside all caster_planes_; the rest goes to still_lit_. Returns
-// false if all of it is outside, and leaves it. `inside` is the piece itself if nothing was cut.
-template <SectorSpaceModel Space>
-bool SectorTree<Space>::clip(const LitPiece& piece, LoopRange& inside) {
-  spanning_.clear();
-  for (const PlaneRef plane : caster_planes_) {
-    SplitRecord& record = spanning_.empty() ? first_record_ : record_;
-    switch (record.decide(space_, plane, view(piece.loop))) {
-      case Placement::kFront:
-        break;
-      case Placement::kSpanning:
-        spanning_.push_back(plane);
-        break;
-      case Placement::kBack:
-      case Placement::kOn:
-        return false;
-    }
-  }
-  inside = piece.loop;
-  const std::uint32_t loops_mark = loops_.size();
-  const std::size_t lit_mark = still_lit_.size();
-  for (std::size_t i = 0; i < spanning_.size(); ++i) {
-    const PlaneRef plane = spanning_[i];
-    const SplitRecord& record = i == 0 ? first_record_ : record_;
-    if (i > 0) {
-      const Placement placement = record_.decide(space_, plane, view(inside));
-      if (placement == Placement::kFront) continue;
-      if (placement != Placement::kSpanning) {  // some of it is inside each plane, none inside all
-        loops_.truncate(loops_mark);
-        still_lit_.resize(lit_mark);
-        return false;
-      }
-    }
-    loops_.reserve_more(2 * std::size_t{inside.count} + 4);
-    const SplitChildren pieces =
-        make_children(space_, plane, view(inside), record, crossings_, loops_);
-    if (pieces.back.count >= 3) {
-      still_lit_.push_back({pieces.back, false, {}});
-    } else {
-      ++output_.vanished;
-    }
-    inside = pieces.front;
-    if (inside.count < 3) {
-      ++output_.vanished;
-      break;
-    }
-  }
-  return true;
 }
 
 }  // namespace gnomon

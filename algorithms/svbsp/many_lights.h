@@ -174,7 +174,7 @@ class Pipeline {
   std::array<std::vector<std::uint32_t>, 2> last_run_;
   LoopStore<Vertex> loop_;
   std::vector<std::uint32_t> order_;  // loop_ edge -> item edge
-  SvbspOutput<Vertex> output_;
+  ClassifiedLoops<Vertex> output_;
 };
 
 }  // namespace gnomon

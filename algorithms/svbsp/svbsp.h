@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "algorithms/partition/classified_loop.h"
 #include "algorithms/partition/loop_store.h"
 #include "algorithms/partition/plane_tree_filter.h"
 #include "algorithms/partition/rules.h"
@@ -27,20 +28,6 @@
 #include "kernel/concept/kernel_concept.h"
 
 namespace gnomon {
-
-/// A classified loop in SvbspOutput::loops.
-struct ClassifiedLoop {
-  LoopRange loop;
-  LightState state = LightState::kLit;
-  std::uint32_t caster = Fragment::kNoCaster;
-
-  bool is_like(const ClassifiedLoop& other) const {
-    return state == other.state && caster == other.caster;
-  }
-};
-
-template <class Vertex>
-using SvbspOutput = FilteredLoops<Vertex, ClassifiedLoop>;
 
 /// FilterActions says what filtering does with a polygon.
 struct FilterActions {
@@ -59,9 +46,11 @@ class SvbspTree {
   void plant(const PrefixTree& prefix);
 
   /// Filters a loop that is counter-clockwise seen from the light.
-  void filter(const LoopView<Vertex>& loop, FilterActions actions, SvbspOutput<Vertex>& output);
+  void filter(const LoopView<Vertex>& loop, FilterActions actions, ClassifiedLoops<Vertex>& output);
 
   std::uint64_t node_count() const { return nodes_.size() - 1; }
+  /// Nodes on the longest way from the root to a cell. O(nodes).
+  std::uint64_t depth() const;
   /// Children with fewer than three vertices that were dropped (rounded kernels).
   std::uint64_t vanished() const { return filter_.vanished(); }
 

@@ -28,16 +28,32 @@ void SvbspTree<Space>::plant(const PrefixTree& prefix) {
 }
 
 template <LightSpaceModel Space>
+std::uint64_t SvbspTree<Space>::depth() const {
+  // A node is made after its parent, whose number is smaller.
+  std::vector<std::uint32_t> depth(nodes_.size(), 0);
+  std::uint32_t most = 0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    most = std::max(most, depth[i]);
+    for (const std::int32_t link : {nodes_[i].front, nodes_[i].back}) {
+      if (link >= 0) depth[static_cast<std::size_t>(link)] = depth[i] + 1;
+    }
+  }
+  return most;
+}
+
+template <LightSpaceModel Space>
 struct SvbspTree<Space>::Cells {
   SvbspTree& tree;
   const LoopView<Vertex>& original;  // the polygon
   FilterActions actions;
-  SvbspOutput<Vertex>& output;
+  ClassifiedLoops<Vertex>& output;
 
   std::int32_t node_at(TreePlace at) const { return tree.child(at); }
-  PlaneRef plane(std::uint32_t node) const { return tree.nodes_[node].plane; }
-  Placement placement(SplitRecord& record, PlaneRef plane, const LoopView<Vertex>& loop) const {
-    return record.decide(*tree.space_, plane, loop);
+  PlaneRef plane(std::uint32_t node, const LoopView<Vertex>&) const {
+    return tree.nodes_[node].plane;
+  }
+  Placement placement(SplitRecord& record, std::uint32_t node, const LoopView<Vertex>& loop) const {
+    return record.decide(*tree.space_, tree.nodes_[node].plane, loop);
   }
   bool is_kept(const LoopView<Vertex>& loop) const {
     return fragment_stays(*tree.space_, loop, tree.rules_);
@@ -45,9 +61,11 @@ struct SvbspTree<Space>::Cells {
   void at_cell(TreePlace at, const LoopView<Vertex>& fragment) const {
     const std::int32_t cell = tree.child(at);
     if (actions.classify) {
-      output.fragments.push_back({output.loops.append(fragment),
-                                  cell == kOut ? LightState::kLit : LightState::kShadow,
-                                  cell == kOut ? Fragment::kNoCaster : caster_of(cell)});
+      if (cell == kOut) {
+        output.add_lit(fragment);
+      } else {
+        output.add_shadow(fragment, caster_of(cell));
+      }
     }
     if (cell == kOut && actions.insert) tree.insert(at, fragment, original);
   }
@@ -55,7 +73,7 @@ struct SvbspTree<Space>::Cells {
 
 template <LightSpaceModel Space>
 void SvbspTree<Space>::filter(const LoopView<Vertex>& loop, FilterActions actions,
-                              SvbspOutput<Vertex>& output) {
+                              ClassifiedLoops<Vertex>& output) {
   filter_.filter(*space_, Cells{*this, loop, actions, output}, loop, output);
 }
 

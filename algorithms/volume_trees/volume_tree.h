@@ -250,8 +250,9 @@ struct CellFilter<Space>::Cells {
   CellOutput<Vertex>& output;
 
   std::int32_t node_at(TreePlace at) const { return tree.node_at(at); }
-  PlaneRef plane(std::uint32_t node) const { return tree.plane(node); }
-  Placement placement(SplitRecord& record, PlaneRef plane, const LoopView<Vertex>& loop) const {
+  PlaneRef plane(std::uint32_t node, const LoopView<Vertex>&) const { return tree.plane(node); }
+  Placement placement(SplitRecord& record, std::uint32_t node, const LoopView<Vertex>& loop) const {
+    const PlaneRef plane = tree.plane(node);
     if (plane.same_plane(receiving.plane)) {
       return plane == receiving.plane ? Placement::kFront : Placement::kBack;
     }

@@ -185,8 +185,7 @@ class CertifyRun {
  private:
   ShadowOptions options_of(const KernelChoice& kernel, const AlgorithmChoice& algorithm) {
     ShadowOptions shadow_options;
-    shadow_options.method.point = algorithm.point;
-    shadow_options.method.area = algorithm.area;
+    algorithm.apply(shadow_options.method);
     shadow_options.tuning.jobs = options_.scene.jobs;
     shadow_options.kernel.id = kernel.kernel;
     shadow_options.kernel.identity = kernel.identity;

@@ -120,8 +120,7 @@ class Pictures {
 
 Expected<Claims> exact_fragments(const LoadedScene& loaded, const AlgorithmChoice& algorithm) {
   ShadowOptions options;
-  options.method.point = algorithm.point;
-  options.method.area = algorithm.area;
+  algorithm.apply(options.method);
   options.lights = loaded.lights;
   options.output.points = true;
   options.control.interrupted = &interrupted();

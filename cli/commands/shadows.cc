@@ -76,8 +76,7 @@ int run_shadows(const ShadowsOptions& options) {
   ProgressBar progress("shadows");
   ShadowOptions shadow_options;
   shadow_options.kernel.id = kernel->kernel;
-  shadow_options.method.point = algorithm->point;
-  shadow_options.method.area = algorithm->area;
+  algorithm->apply(shadow_options.method);
   shadow_options.tuning.jobs = options.scene.jobs;
   shadow_options.kernel.identity = options.identity || kernel->identity;
   shadow_options.kernel.thickness = kernel->thin ? 0 : options.thickness;

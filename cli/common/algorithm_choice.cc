@@ -2,6 +2,7 @@
 #include "cli/common/algorithm_choice.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gnomon::cli {
 
@@ -36,7 +37,8 @@ CLI::Option* add_algorithm_option(CLI::App& command, std::string& name, std::str
                                   std::string_view besides) {
   std::string text(question);
   text += "\nPoint and directional lights: " + described({.point = true});
-  text += ";\narea lights: " + described({.area = true}) + ";\n";
+  text += ";\narea lights: " + described({.area = true}) +
+          ";\noptions as in tiling:tiles=64,cover=overlay (gnomon systems lists them);\n";
   return command.add_option("--algorithm", name, text + std::string(besides))
       ->type_name("A")
       ->default_str(std::string(kAutomaticName));
@@ -49,8 +51,8 @@ std::string AlgorithmChoice::name(const LoadedScene& loaded) const {
       return loaded.scene.lights[light].has_area() == area;
     });
   };
-  if (has(false)) name = method_info(point).name;
-  const std::string area_name(method_info(area).name);
+  if (has(false)) name = method_text(point, options);
+  const std::string area_name = method_text(area, options);
   if (has(true) && area_name != name) name += (name.empty() ? "" : "+") + area_name;
   return name;
 }
@@ -60,27 +62,30 @@ Expected<AlgorithmChoice> parse_algorithm_choice(std::string_view name,
                                                  std::string_view also) {
   AlgorithmChoice choice{.point = automatic_method(needs)};
   if (name == kAutomaticName) return choice;
-  const std::optional<MethodId> id = method_by_name(name);
-  if (!id) {
-    std::string names = "one of: " + std::string(kAutomaticName) + ", " +
-                        method_names({.point = true, .area = true});
-    if (!also.empty()) names += ", " + std::string(also);
-    return fail(ErrorCode::kUsage, "--algorithm " + std::string(name) + ": no such algorithm",
-                std::move(names));
+  auto selection = parse_method(name);
+  if (!selection) {
+    Error error = std::move(selection.error());
+    error.what = "--algorithm " + error.what;
+    if (!method_by_name(name.substr(0, name.find(':')))) {
+      error.expected += ", " + std::string(kAutomaticName);
+      if (!also.empty()) error.expected += ", " + std::string(also);
+    }
+    return tl::unexpected(std::move(error));
   }
-  const Method& method = method_info(*id);
+  choice.options = selection->values;
+  const Method& method = method_info(selection->id);
   if (!method.lights.point) {
-    choice.area = *id;
+    choice.area = selection->id;
     return choice;
   }
   for (const NeedyOption& option : needs) {
     if (!option.given || method.*option.ability) continue;
     const std::string able(method_info(automatic_method({option})).name);
     return fail(ErrorCode::kUsage,
-                std::string(option.name) + " needs " + able + ", not " + std::string(name),
+                std::string(option.name) + " needs " + able + ", not " + std::string(method.name),
                 "--algorithm " + able + ", or auto");
   }
-  choice.point = *id;
+  choice.point = selection->id;
   return choice;
 }
 

@@ -37,13 +37,19 @@ struct NeedyOption {
 struct AlgorithmChoice {
   MethodId point = MethodId::kSectors;  // for point and directional lights
   MethodId area = MethodId::kReceiver;
+  MethodOptionValues options = {};  // of both
 
+  void apply(MethodChoice& method) const {
+    method.point = point;
+    method.area = area;
+    method.options = options;
+  }
   /// Such as "sectors", "merged" or "sectors+receiver", by the lights that there are.
   std::string name(const LoadedScene& loaded) const;
   friend bool operator==(const AlgorithmChoice&, const AlgorithmChoice&) = default;
 };
 
-/// `auto` is sectors and receiver; where one of `needs` was given, the first method of point lights
+/// NAME[:option=value,...]. `auto` is sectors and receiver; where one of `needs` was given, the first method of point lights
 /// that can serve it stands for sectors, unless sectors was asked for by name. Errors: kUsage, for
 /// an unknown name (`also`: what the command takes besides), and for a method that cannot do what
 /// was asked.

@@ -9,12 +9,23 @@ namespace gnomon::fuzz {
 namespace {
 
 constexpr std::string_view kCommandPrefix = "command:";
-/// The method of that name if it takes lights of that kind.
-std::optional<MethodId> method_for(LightKinds lights, std::string_view name) {
+/// Adds the method of that name, with its options, to a subject. Errors: kUsage; `kind` says of
+/// which lights it has to be a method.
+Expected<void> add_method(Subject& subject, LightKinds lights, std::string_view text,
+                          const std::string& whole, std::string_view kind) {
+  const std::string_view name = text.substr(0, text.find(':'));
   const std::optional<MethodId> id = method_by_name(name);
-  if (!id) return std::nullopt;
-  const LightKinds takes = method_info(*id).lights;
-  return (lights.point && takes.point) || (lights.area && takes.area) ? id : std::nullopt;
+  const LightKinds takes = id ? method_info(*id).lights : LightKinds{};
+  if (!(lights.point && takes.point) && !(lights.area && takes.area)) {
+    return fail(ErrorCode::kUsage,
+                "'" + whole + "': no such algorithm for " + std::string(kind) + " lights",
+                "one of: " + method_names(lights));
+  }
+  const auto selection = parse_method(text);
+  if (!selection) return tl::unexpected(selection.error());
+  (lights.area ? subject.area_algorithm : subject.algorithm) = *id;
+  if (name.size() != text.size()) subject.options = selection->values;
+  return {};
 }
 
 /// A mistake that its kernel and its algorithms cannot make would be looked for in vain.
@@ -44,9 +55,9 @@ std::string name_of(const Subject& subject) {
   std::string name = subject.kernel.name();
   const bool usual_area = subject.area_algorithm == MethodId::kReceiver;
   if (subject.algorithm != MethodId::kSectors || !usual_area) {
-    name += '/' + std::string(method_info(subject.algorithm).name);
+    name += '/' + method_text(subject.algorithm, subject.options);
   }
-  if (!usual_area) name += '/' + std::string(method_info(subject.area_algorithm).name);
+  if (!usual_area) name += '/' + method_text(subject.area_algorithm, subject.options);
   if (subject.mistake != Mistake::kNone) name += '~' + std::string(name_of(subject.mistake));
   return name;
 }
@@ -88,20 +99,12 @@ Expected<Subject> parse_subject(std::string_view text) {
   if (!kernel) return tl::unexpected(kernel.error());
   subject.kernel = *kernel;
   if (!algorithms[0].empty()) {
-    const auto algorithm = method_for({.point = true}, algorithms[0]);
-    if (!algorithm) {
-      return fail(ErrorCode::kUsage, "'" + whole + "': no such algorithm for point lights",
-                  "one of: " + method_names({.point = true}));
-    }
-    subject.algorithm = *algorithm;
+    const auto added = add_method(subject, {.point = true}, algorithms[0], whole, "point");
+    if (!added) return tl::unexpected(added.error());
   }
   if (!algorithms[1].empty()) {
-    const auto algorithm = method_for({.area = true}, algorithms[1]);
-    if (!algorithm) {
-      return fail(ErrorCode::kUsage, "'" + whole + "': no such algorithm for area lights",
-                  "one of: " + method_names({.area = true}));
-    }
-    subject.area_algorithm = *algorithm;
+    const auto added = add_method(subject, {.area = true}, algorithms[1], whole, "area");
+    if (!added) return tl::unexpected(added.error());
   }
   if (const auto checked = check_mistake(subject, whole); !checked) {
     return tl::unexpected(checked.error());
@@ -116,6 +119,7 @@ ShadowOptions shadow_options(const Subject& subject) {
   if (subject.kernel.thin) options.kernel.thickness = 0;
   options.method.point = subject.algorithm;
   options.method.area = subject.area_algorithm;
+  options.method.options = subject.options;
   options.tuning.jobs = 1;
   options.output.exact_points = true;
   options.output.exact_fractions = subject.kernel.exact();

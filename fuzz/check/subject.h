@@ -19,6 +19,7 @@ struct Subject {
   KernelChoice kernel;
   MethodId algorithm = MethodId::kSectors;        // of point and directional lights
   MethodId area_algorithm = MethodId::kReceiver;  // of area lights
+  MethodOptionValues options = {};                // of both algorithms
   Mistake mistake = Mistake::kNone;
   // A foreign program: a command line, run by the shell with the scene's file as its last argument;
   // the result is its standard output. Not empty: nothing above counts.
@@ -31,7 +32,7 @@ struct Subject {
 };
 
 /// KERNEL[+identity][+thin][/ALGORITHM[/AREA-ALGORITHM]][~MISTAKE], such as "double+identity",
-/// "plane/svbsp/merged" or "plane/svbsp~coplanar-in-sequence"; algorithms that are the default are
+/// "plane/svbsp/merged", "plane/tiling:tiles=8" or "plane/svbsp~coplanar-in-sequence"; algorithms that are the default are
 /// left out. A foreign program's name is "command:" and its command line.
 std::string name_of(const Subject& subject);
 /// Errors: kUsage, with the names that there are; for a mistake that changes nothing of what that

@@ -166,10 +166,12 @@ struct FlatTree {
     if (at.node == 1) return at.front ? 2 : behind;
     return at.front ? -1 : -2;
   }
-  PlaneRef plane(std::uint32_t node) const { return PlaneRef(node - 1); }
-  Placement placement(SplitRecord& record, PlaneRef plane,
+  PlaneRef plane(std::uint32_t node, const LoopView<FlatSpace::Vertex>&) const {
+    return PlaneRef(node - 1);
+  }
+  Placement placement(SplitRecord& record, std::uint32_t node,
                       const LoopView<FlatSpace::Vertex>& loop) const {
-    return record.decide(space, plane, loop);
+    return record.decide(space, plane(node, loop), loop);
   }
   bool is_kept(const LoopView<FlatSpace::Vertex>&) const { return true; }
   void at_cell(TreePlace at, const LoopView<FlatSpace::Vertex>& loop) const {

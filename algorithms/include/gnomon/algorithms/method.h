@@ -11,6 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "gnomon/algorithms/work_counts.h"
+
 namespace gnomon {
 
 enum class MethodId : std::uint8_t {
@@ -20,6 +22,10 @@ enum class MethodId : std::uint8_t {
   kReceiver,
   kMerged,
   kPieces,
+  kBasic,
+  kTiling,
+  kSvbspFull,
+  kTwoPass,
 };
 
 /// Where a method finds its regions: on the polygons themselves, or in a picture of them.
@@ -28,6 +34,11 @@ enum class Domain : std::uint8_t { kObjectSpace, kImageSpace };
 /// The lights that a question is about; `point` stands for directional lights, too.
 struct LightKinds {
   bool point = false, area = false;
+};
+
+/// What a scene must be for a method to take it.
+struct MethodNeeds {
+  bool closed_meshes = false, camera = false, one_hemisphere = false;
 };
 
 struct Method {
@@ -39,10 +50,15 @@ struct Method {
   bool on_rounded_kernels = true, on_exact_kernels = true;
   Domain domain = Domain::kObjectSpace;
   bool chosen_by_name = true;  // false: an option of another method stands for it
+  MethodNeeds needs = {};
   // What it can put out or be asked besides classified fragments with witnesses:
   bool combines_lights = false;   // the set of lights that reach each fragment
   bool explains = false;          // the first decision on which a rounded kernel goes wrong
   bool leaves_out_steps = false;  // runs without the balanced prefix, and without merging fragments
+  bool overlays = false;          // shadows painted over polygons (Cover::kOverlay)
+  bool threads = false;           // runs on several
+  std::span<const std::string_view> options = {};  // names of method_option()
+  std::span<const Counter> counters = {};          // those that it fills
 };
 
 /// In the order of the documents; kAutomatic is no row.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gnomon/algorithms/method.h"
+#include "gnomon/algorithms/method_options.h"
 #include "gnomon/kernel/kernel_list.h"
 #include "gnomon/kernel/kernel_options.h"
 
@@ -29,6 +30,7 @@ struct MethodChoice {
   MethodId area = MethodId::kReceiver;    // for area lights
   bool prefix = true;                     // balanced prefix of light space
   std::uint64_t seed = 1;                 // of the root choice of the scene BSP
+  MethodOptionValues options;             // each method reads its own
 };
 
 /// What the result holds besides classes and nearest fractions.

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The volumes that a target of `basic` is tested against: all that are alive, in the order in which
+// they were inserted.
+#ifndef GNOMON_ALGORITHMS_BASIC_ALL_VOLUMES_H
+#define GNOMON_ALGORITHMS_BASIC_ALL_VOLUMES_H
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "algorithms/basic/volume_list.h"
+
+namespace gnomon {
+
+template <LightSpaceModel Space>
+class AllVolumes {
+ public:
+  using Loop = LoopView<typename Space::Vertex>;
+
+  AllVolumes(LightScene<Space>&, VolumeList<Space>& volumes) : volumes_(volumes) {}
+
+  /// Valid until the next call of any function.
+  std::span<const VolumeId> of_target(const Loop&) { return alive(); }
+  /// Those that the volume of a piece may hold.
+  std::span<const VolumeId> of_caster(const Loop&) { return alive(); }
+  /// Requires: of_caster() was asked for it last.
+  void insert(VolumeId id) { alive_.push_back(id); }
+  std::uint64_t subtract(const Loop& target, std::span<const VolumeId> volumes,
+                         ClassifiedLoops<typename Space::Vertex>& output) {
+    return volumes_.subtract(target, volumes, output);
+  }
+  void count(WorkCounts&) const {}
+  std::uint64_t vanished() const { return 0; }
+
+ private:
+  std::span<const VolumeId> alive() {
+    std::erase_if(alive_, [&](VolumeId id) { return !volumes_.is_alive(id); });
+    return alive_;
+  }
+
+  VolumeList<Space>& volumes_;
+  std::vector<VolumeId> alive_;
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_BASIC_ALL_VOLUMES_H

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Slater's three systems have one loop in common (1992, sec. 3 to 5): groups of coplanar pieces,
+// front to back, each piece a target first and then, if it casts, a generator of shadows. This is
+// that loop for `basic` and `tiling`, which differ in which volumes a target is tested against
+// (`Candidates`: AllVolumes, TileVolumes).
+//
+// The two phases of a group are never mixed. All pieces of a group receive before any of them
+// casts: a volume must not die, and a tile must not close, while a polygon of the same plane has
+// still to be shadowed by the old volume and not by the new one (docs/basic.md).
+//
+// Guarantee on exact kernels: fragments have the class and a witness of the definition.
+#ifndef GNOMON_ALGORITHMS_BASIC_GROUP_RUN_H
+#define GNOMON_ALGORITHMS_BASIC_GROUP_RUN_H
+
+#include <algorithm>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "algorithms/basic/volume_list.h"
+#include "algorithms/one_light/light_groups.h"
+#include "algorithms/one_light/light_sink.h"
+
+namespace gnomon {
+
+template <LightSpaceModel Space, class Candidates>
+class GroupRun {
+ public:
+  using SceneVertex = typename Space::SceneSpace::Vertex;
+  using Vertex = typename Space::Vertex;
+  using Loop = LoopView<Vertex>;
+
+  template <class... Arguments>
+  GroupRun(LightScene<Space>& light, const MethodOptionValues& options, Arguments... arguments)
+      : light_(light),
+        options_(options),
+        volumes_(light),
+        candidates_(light, volumes_, arguments...) {}
+
+  template <class Progress>
+  RunOutcome run(const SceneBsp<SceneVertex>& bsp, const Progress& progress) {
+    vanished_ = bsp.vanished;
+    return for_each_group(light_, bsp, progress, [&](std::span<const std::uint32_t> group) {
+      counts_[Counter::kScenePieces] += group.size();
+      const bool together = light_.rules.coplanar_classified_first;
+      for (std::size_t i = 0; i < group.size(); i += together ? group.size() : 1) {
+        import(bsp, together ? group : group.subspan(i, 1));
+        first_own_ = volumes_.size();
+        if (!light_.rules.volumes_die_after_their_plane_received) {
+          for (Target& target : targets_) cast(target, {.kill = true, .insert = false});
+        }
+        if (!light_.rules.tiles_close_after_their_plane_received) {
+          for (Target& target : targets_) cast(target, {.kill = false, .insert = true});
+        }
+        for (Target& target : targets_) receive(target);
+        for (Target& target : targets_) cast(target, {.kill = true, .insert = true});
+      }
+      const std::size_t most = std::max(tiling_.fragments.size(), painted_.fragments.size());
+      return most > light_.options.limits.fragments ? RunOutcome::kTooManyFragments
+                                                    : RunOutcome::kDone;
+    });
+  }
+
+  LightResult finish() {
+    candidates_.count(counts_);
+    LightResult result;
+    result.tree_nodes = volumes_.size();
+    result.dropped_slivers = vanished_ + volumes_.take_vanished() + candidates_.vanished();
+    result.work = counts_;
+    LightSink<Space> sink(light_);
+    return overlays() ? sink.finish_overlay(tiling_, painted_, std::move(result))
+                      : sink.finish(tiling_, std::move(result));
+  }
+
+ private:
+  static constexpr VolumeId kNoVolume = std::numeric_limits<VolumeId>::max();
+  struct Target {
+    LoopRange loop;  // in group_loops_
+    bool covered = false;
+    VolumeId volume = kNoVolume;
+    bool inserted = false;
+  };
+  struct CastSteps {
+    bool kill, insert;
+  };
+
+  bool overlays() const { return options_.cover == Cover::kOverlay; }
+  Loop view(const Target& target) const {
+    return group_loops_.view(target.loop, light_.plane_of(target.loop.part));
+  }
+  void import(const SceneBsp<SceneVertex>& bsp, std::span<const std::uint32_t> group) {
+    targets_.clear();
+    group_loops_.clear();
+    for (const std::uint32_t index : group) {
+      const LoopRange& piece = bsp.pieces[index];
+      targets_.push_back(
+          {light_.import(bsp.loops.view(piece, light_.plane_of(piece.part)), group_loops_)});
+    }
+  }
+
+  /// Phase 1: what of a target is in the shadow of the volumes so far.
+  void receive(Target& target) {
+    const Loop loop = view(target);
+    near_.clear();
+    for (const VolumeId id : candidates_.of_target(loop)) {
+      if (id >= first_own_) continue;  // of its own plane
+      ++counts_[Counter::kTests];
+      const ConePlace place = volumes_.place(id, loop);
+      if (place == ConePlace::kOutside) {
+        ++counts_[Counter::kNulled];
+        continue;
+      }
+      near_.push_back(id);
+      if (place != ConePlace::kInside || !options_.prune) continue;
+      target.covered = true;
+      ++counts_[Counter::kCovered];
+      put_out_covered(loop, id);
+      return;
+    }
+    put_out(loop);
+  }
+
+  void put_out_covered(const Loop& loop, VolumeId id) {
+    if (!fragment_stays(light_.space, loop, light_.rules)) return;
+    tiling_.add_shadow(loop, volumes_.caster(id));
+    if (overlays()) painted_.add_shadow(loop, volumes_.caster(id));
+    ++counts_[Counter::kShadowPolygons];
+  }
+
+  // The areas come from pieces that tile the target, whatever is put out; what is counted is the
+  // work of the cover that was asked for.
+  void put_out(const Loop& loop) {
+    const std::uint64_t cuts = volumes_.cuts();
+    if (overlays()) {
+      const std::uint64_t polygons = volumes_.paint(loop, near_, [&](VolumeId id, const Loop& inside) {
+        painted_.add_shadow(inside, volumes_.caster(id));
+      });
+      counts_[Counter::kClips] += volumes_.cuts() - cuts;
+      counts_[Counter::kNulled] += near_.size() - polygons;
+      counts_[Counter::kShadowPolygons] += polygons;
+      candidates_.subtract(loop, near_, tiling_);
+      return;
+    }
+    const std::size_t before = tiling_.fragments.size();
+    const std::uint64_t useful = candidates_.subtract(loop, near_, tiling_);
+    counts_[Counter::kClips] += volumes_.cuts() - cuts;
+    counts_[Counter::kNulled] += near_.size() - std::min<std::uint64_t>(useful, near_.size());
+    for (std::size_t i = before; i < tiling_.fragments.size(); ++i) {
+      if (tiling_.fragments[i].state == LightState::kShadow) ++counts_[Counter::kShadowPolygons];
+    }
+  }
+
+  /// Phase 2: the target becomes a volume; those that it holds are no longer needed.
+  void cast(Target& target, CastSteps steps) {
+    if (!light_.part(target.loop.part).casts || target.covered || target.inserted) return;
+    if (target.volume == kNoVolume) {
+      target.volume = volumes_.add(view(target));
+      ++counts_[Counter::kVolumes];
+    }
+    const VolumeId own = target.volume;
+    const std::span<const VolumeId> met = candidates_.of_caster(volumes_.loop(own));
+    if (steps.kill && options_.prune) {
+      for (const VolumeId other : met) {
+        if (other == own || !volumes_.holds(own, volumes_.loop(other))) continue;
+        volumes_.kill(other);
+        ++counts_[Counter::kDied];
+      }
+    }
+    if (steps.insert) candidates_.insert(own);
+    target.inserted = steps.insert;
+  }
+
+  LightScene<Space>& light_;
+  const MethodOptionValues& options_;
+  VolumeList<Space> volumes_;
+  Candidates candidates_;
+  ClassifiedLoops<Vertex> tiling_, painted_;
+  WorkCounts counts_;
+  std::uint64_t vanished_ = 0;
+  // Workspace, kept to save allocations.
+  LoopStore<Vertex> group_loops_;
+  std::vector<Target> targets_;
+  std::vector<VolumeId> near_;
+  VolumeId first_own_ = 0;  // volumes from here on are of the group
+};
+
+/// Every light by the same scene BSP, one after another. `Arguments`: what Candidates are told
+/// besides the light and the volumes.
+template <LightSpaceModel Space, class Candidates, class... Arguments>
+Expected<ShadowResult> compute_by_groups(const RunTask& task, Arguments... arguments) {
+  const ShadowOptions& options = task.options;
+  ShadowResult result = empty_result(options);
+  const double start = cpu_seconds();
+  typename Space::SceneSpace scene_space(task.scene.geometry, options.kernel.options());
+  std::deque<LightScene<Space>> lights;
+  for (const std::uint32_t light : task.lights) lights.emplace_back(task, scene_space, light);
+  const auto bsp = order_scene(task, scene_space, lights, result);
+  if (!bsp) return tl::unexpected<Error>(bsp.error());
+  const LightProgress progress(options.control, bsp->nodes.size(), lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    GroupRun<Space, Candidates> run(lights[i], options.method.options, arguments...);
+    const RunOutcome outcome = run.run(*bsp, [&](std::size_t nodes) { progress(i, nodes); });
+    if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
+    result.stages += lights[i].space.stage_counts();
+    result.lights.push_back(run.finish());
+  }
+  result.stages += scene_space.stage_counts();
+  result.shadow_seconds = cpu_seconds() - start - result.scene_bsp_seconds;
+  return result;
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_BASIC_GROUP_RUN_H

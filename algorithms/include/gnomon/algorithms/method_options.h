@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The options of methods: `--algorithm NAME[:option=value,...]`. No option changes a class or an
+// area; they change the work, and how the answer is put out.
+#ifndef GNOMON_ALGORITHMS_METHOD_OPTIONS_H
+#define GNOMON_ALGORITHMS_METHOD_OPTIONS_H
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "gnomon/algorithms/method.h"
+#include "gnomon/kernel/error.h"
+#include "gnomon/result/classes.h"
+
+namespace gnomon {
+
+/// The order in which polygons are inserted where no answer depends on it.
+enum class InsertionOrder : std::uint8_t { kNearFirst, kFile };
+
+/// Each method reads its own of them (Method::options).
+struct MethodOptionValues {
+  Cover cover = Cover::kPartition;
+  bool prune = true;          // basic, tiling: covered targets cast nothing, volumes may die
+  std::uint32_t tiles = 128;  // tiling: so many rows and columns on each face
+  InsertionOrder order = InsertionOrder::kNearFirst;  // svbsp-full
+  bool cells = true;                                  // two-pass: in cells of light space
+  friend bool operator==(const MethodOptionValues&, const MethodOptionValues&) = default;
+};
+
+/// A row of the table of options.
+struct MethodOption {
+  std::string_view name;     // such as "tiles"
+  std::string_view values;   // what it takes, such as "1..1024"
+  std::string_view summary;  // a clause
+  /// Reads a value; false if it is none of `values`.
+  bool (*read)(MethodOptionValues& values, std::string_view text) = nullptr;
+  std::string (*text)(const MethodOptionValues& values) = nullptr;
+};
+/// Null if there is no such option.
+const MethodOption* method_option(std::string_view name);
+
+struct MethodSelection {
+  MethodId id = MethodId::kAutomatic;
+  MethodOptionValues values;
+  friend bool operator==(const MethodSelection&, const MethodSelection&) = default;
+};
+
+/// NAME[:option=value,...]. Errors: kUsage: no such method (the names that there are), no such
+/// option of it, a value that it does not take.
+Expected<MethodSelection> parse_method(std::string_view text);
+/// The name, with the options that are not at their defaults.
+std::string method_text(MethodId id, const MethodOptionValues& values);
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_METHOD_OPTIONS_H

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a method did, in numbers that are the same on every machine and with any number of threads:
+// the work that the papers count (Slater 1992, sec. 6; Chin & Feiner 1989, table 1), beside the
+// seconds that nobody can repeat. Each method names the counters that it fills (Method::counters).
+#ifndef GNOMON_ALGORITHMS_WORK_COUNTS_H
+#define GNOMON_ALGORITHMS_WORK_COUNTS_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace gnomon {
+
+enum class Counter : std::uint8_t {
+  kScenePieces,     // pieces of the scene BSP that face the light
+  kVolumes,         // shadow volumes made
+  kTests,           // pairs of a target and a shadow volume
+  kCovered,         // targets wholly inside one volume
+  kDied,            // volumes dropped, since a later one holds all that they shadow
+  kClips,           // cuts of a loop by a plane
+  kNulled,          // pairs of a target and a volume that have no common area
+  kShadowPolygons,  // pieces of targets inside volumes, as the method puts them out
+  kNodes,           // of the tree of planes
+  kDepth,           // of that tree
+  kTileWrites,      // entries made in tiles
+  kClosedTiles,     // tiles that one volume holds wholly
+  kTileBytes,       // memory of the tiles
+  kMeanMet,         // |S(p)| / i of a target: volumes that its tiles name, of all so far
+  kFirstQuartileMet,
+  kMedianMet,
+  kThirdQuartileMet,
+  kLists,         // lists of polygons that were clipped by one of them
+  kLongestList,   // polygons in the longest of them
+  kDeepestStack,  // lists that waited at the same time
+};
+inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kDeepestStack) + 1;
+
+/// How the counts of two lights, or of two parts of one run, make one.
+enum class CountKind : std::uint8_t { kSum, kMost };
+
+struct CounterInfo {
+  Counter counter{};
+  std::string_view name;     // such as "shadow polygons"
+  std::string_view summary;  // what one of them is
+  CountKind kind = CountKind::kSum;
+  /// Not 1: the count is a share, in units of one over this.
+  std::uint64_t denominator = 1;
+};
+/// In order of the enumeration.
+std::span<const CounterInfo> counter_infos();
+const CounterInfo& counter_info(Counter counter);
+
+class WorkCounts {
+ public:
+  std::uint64_t& operator[](Counter counter) { return counts_[static_cast<std::size_t>(counter)]; }
+  std::uint64_t operator[](Counter counter) const {
+    return counts_[static_cast<std::size_t>(counter)];
+  }
+  void at_least(Counter counter, std::uint64_t count) {
+    if ((*this)[counter] < count) (*this)[counter] = count;
+  }
+  /// Adds sums, keeps the larger of what is a maximum or a share.
+  WorkCounts& operator+=(const WorkCounts& other);
+  friend bool operator==(const WorkCounts&, const WorkCounts&) = default;
+
+ private:
+  std::array<std::uint64_t, kCounterCount> counts_{};
+};
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_WORK_COUNTS_H

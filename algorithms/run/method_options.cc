@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The table of options of methods, and the words of `--algorithm`.
+#include "gnomon/algorithms/method_options.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+namespace gnomon {
+
+namespace {
+
+constexpr std::uint32_t kMostTiles = 1024;
+
+/// Reads one of two words into `value`.
+template <class T>
+bool read_word(T& value, std::string_view text, const std::array<std::pair<std::string_view, T>, 2>& words) {
+  for (const auto& [word, meaning] : words) {
+    if (word != text) continue;
+    value = meaning;
+    return true;
+  }
+  return false;
+}
+
+std::string on_or_off(bool value) { return value ? "on" : "off"; }
+bool read_switch(bool& value, std::string_view text) {
+  return read_word<bool>(value, text, {{{"on", true}, {"off", false}}});
+}
+
+constexpr std::array kOptions = {
+    MethodOption{
+        .name = "cells",
+        .values = "on|off",
+        .summary = "clip in the cells of a k-d tree of light space",
+        .read = [](MethodOptionValues& v, std::string_view t) { return read_switch(v.cells, t); },
+        .text = [](const MethodOptionValues& v) { return on_or_off(v.cells); }},
+    MethodOption{.name = "cover",
+                 .values = "partition|overlay",
+                 .summary = "fragments that tile a polygon, or shadows painted over it",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       const std::optional<Cover> cover = cover_by_name(t);
+                       if (cover) v.cover = *cover;
+                       return cover.has_value();
+                     },
+                 .text = [](const MethodOptionValues& v) { return std::string(name_of(v.cover)); }},
+    MethodOption{.name = "order",
+                 .values = "near|file",
+                 .summary = "which polygons are inserted first: a heuristic",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<InsertionOrder>(v.order, t,
+                                                        {{{"near", InsertionOrder::kNearFirst},
+                                                          {"file", InsertionOrder::kFile}}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.order == InsertionOrder::kFile ? "file" : "near");
+                     }},
+    MethodOption{
+        .name = "prune",
+        .values = "on|off",
+        .summary = "covered polygons cast nothing, volumes inside a later one are dropped",
+        .read = [](MethodOptionValues& v, std::string_view t) { return read_switch(v.prune, t); },
+        .text = [](const MethodOptionValues& v) { return on_or_off(v.prune); }},
+    MethodOption{.name = "tiles",
+                 .values = "1..1024",
+                 .summary = "rows and columns of tiles on each face of the cube",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       std::uint32_t tiles = 0;
+                       const auto [end, error] =
+                           std::from_chars(t.data(), t.data() + t.size(), tiles);
+                       if (error != std::errc() || end != t.data() + t.size() || tiles < 1 ||
+                           tiles > kMostTiles) {
+                         return false;
+                       }
+                       v.tiles = tiles;
+                       return true;
+                     },
+                 .text = [](const MethodOptionValues& v) { return std::to_string(v.tiles); }},
+};
+
+std::string joined(std::span<const std::string_view> names) {
+  std::string text;
+  for (const std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
+  return text;
+}
+
+}  // namespace
+
+const MethodOption* method_option(std::string_view name) {
+  const auto found = std::ranges::find(kOptions, name, &MethodOption::name);
+  return found == kOptions.end() ? nullptr : &*found;
+}
+
+Expected<MethodSelection> parse_method(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  const std::string name(text.substr(0, colon));
+  const std::optional<MethodId> id = method_by_name(name);
+  if (!id) {
+    return fail(ErrorCode::kUsage, name + ": no such algorithm",
+                "one of: " + method_names({.point = true, .area = true}));
+  }
+  MethodSelection selection;
+  selection.id = *id;
+  const Method& method = method_info(*id);
+  std::string_view rest = colon == std::string_view::npos ? "" : text.substr(colon + 1);
+  if (colon != std::string_view::npos && (rest.empty() || rest.ends_with(','))) {
+    return fail(ErrorCode::kUsage, std::string(text) + ": an option is missing at its end",
+                name + ":option=value,...");
+  }
+  while (!rest.empty()) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view item = rest.substr(0, comma);
+    rest = comma == std::string_view::npos ? "" : rest.substr(comma + 1);
+    const std::size_t equals = item.find('=');
+    const std::string option_name(item.substr(0, equals));
+    if (std::ranges::find(method.options, option_name) == method.options.end()) {
+      return fail(ErrorCode::kUsage,
+                  std::string(text) + ": " + name + " has no option '" + option_name + "'",
+                  method.options.empty() ? "no options" : "one of: " + joined(method.options));
+    }
+    const MethodOption& option = *method_option(option_name);
+    const std::string_view value = equals == std::string_view::npos ? "" : item.substr(equals + 1);
+    if (!option.read(selection.values, value)) {
+      return fail(ErrorCode::kUsage,
+                  std::string(text) + ": '" + std::string(value) + "' is no value of " +
+                      option_name,
+                  std::string(option.values));
+    }
+  }
+  return selection;
+}
+
+std::string method_text(MethodId id, const MethodOptionValues& values) {
+  const Method& method = method_info(id);
+  const MethodOptionValues defaults;
+  std::string text(method.name);
+  char before = ':';
+  for (const std::string_view name : method.options) {
+    const MethodOption& option = *method_option(name);
+    const std::string value = option.text(values);
+    if (value == option.text(defaults)) continue;
+    text += before + std::string(name) + '=' + value;
+    before = ',';
+  }
+  return text;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gnomon/algorithms/work_counts.h"
+
+#include <algorithm>
+
+namespace gnomon {
+
+namespace {
+
+constexpr std::uint64_t kMillion = 1'000'000;
+constexpr CountKind kSum = CountKind::kSum, kMost = CountKind::kMost;
+
+constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
+    {Counter::kScenePieces, "scene pieces", "pieces of the scene BSP that face the light", kSum},
+    {Counter::kVolumes, "volumes", "shadow volumes made", kSum},
+    {Counter::kTests, "tests", "pairs of a target and a shadow volume", kSum},
+    {Counter::kCovered, "covered", "targets wholly inside one volume", kSum},
+    {Counter::kDied, "died", "volumes dropped, since a later one holds all that they shadow", kSum},
+    {Counter::kClips, "clips", "cuts of a loop by a plane", kSum},
+    {Counter::kNulled, "nulled", "pairs of a target and a volume without common area", kSum},
+    {Counter::kShadowPolygons, "shadow polygons", "pieces of targets inside volumes", kSum},
+    {Counter::kNodes, "nodes", "of the tree of planes", kSum},
+    {Counter::kDepth, "depth", "of the tree of planes", kMost},
+    {Counter::kTileWrites, "tile writes", "entries made in tiles", kSum},
+    {Counter::kClosedTiles, "closed tiles", "tiles that one volume holds wholly", kSum},
+    {Counter::kTileBytes, "tile bytes", "memory of the tiles", kMost},
+    {Counter::kMeanMet, "mean p", "share of all volumes so far that a target's tiles name", kMost,
+     kMillion},
+    {Counter::kFirstQuartileMet, "first quartile of p", "of the same share", kMost, kMillion},
+    {Counter::kMedianMet, "median p", "of the same share", kMost, kMillion},
+    {Counter::kThirdQuartileMet, "third quartile of p", "of the same share", kMost, kMillion},
+    {Counter::kLists, "lists", "lists of polygons that one of them clipped", kSum},
+    {Counter::kLongestList, "longest list", "polygons in the longest list", kMost},
+    {Counter::kDeepestStack, "deepest stack", "lists that waited at the same time", kMost},
+}};
+
+}  // namespace
+
+std::span<const CounterInfo> counter_infos() { return kCounters; }
+
+const CounterInfo& counter_info(Counter counter) {
+  return kCounters[static_cast<std::size_t>(counter)];
+}
+
+WorkCounts& WorkCounts::operator+=(const WorkCounts& other) {
+  for (const CounterInfo& info : kCounters) {
+    std::uint64_t& own = (*this)[info.counter];
+    const std::uint64_t more = other[info.counter];
+    own = info.kind == CountKind::kSum ? own + more : std::max(own, more);
+  }
+  return *this;
+}
+
+}  // namespace gnomon
