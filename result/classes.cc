@@ -47,6 +47,8 @@ const char* name_of(ShadowReason reason) {
   return "";
 }
 
+const char* name_of(Cover cover) { return cover == Cover::kOverlay ? "overlay" : "partition"; }
+
 std::optional<LightState> light_state_by_name(std::string_view name) {
   return value_named(
       {LightState::kLit, LightState::kShadow, LightState::kPenumbra, LightState::kUmbra}, name);
@@ -59,6 +61,10 @@ std::optional<Side> side_by_name(std::string_view name) {
 std::optional<ShadowReason> shadow_reason_by_name(std::string_view name) {
   return value_named(
       {ShadowReason::kFacesAway, ShadowReason::kLightInPlane, ShadowReason::kBehindLight}, name);
+}
+
+std::optional<Cover> cover_by_name(std::string_view name) {
+  return value_named({Cover::kPartition, Cover::kOverlay}, name);
 }
 
 }  // namespace gnomon

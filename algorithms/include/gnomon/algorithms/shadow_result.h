@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,13 @@ struct LightResult {
   // Point and directional lights: one a part, in order. Area lights: one for each side of a part
   // that sees the light, front before back, or one with kFront and a reason if none does.
   std::vector<PartResult> parts;
+  // How the fragments of a part's side cover it: kPartition tiles it; of kOverlay the last fragment
+  // that holds a point tells its class. A method that returns an overlay also says what is true
+  // where no fragment is.
+  Cover cover = Cover::kPartition;
+  // The class of all that no fragment holds, on sides that face or see the light. None: fragments
+  // cover everything. Fractions count it.
+  std::optional<LightState> background;
   std::vector<AreaFractions> area_fractions;  // area lights: one for each of `parts`; else empty
   std::vector<Fragment> fragments;
   std::vector<std::array<double, 3>> points;           // nearest doubles, scene units
@@ -81,6 +89,20 @@ struct CombinedFragment {
   std::uint32_t first = 0, count = 0;  // into combined_points / combined_exact_points
 };
 
+/// A loop painted on one side of a part, for several lights at once (docs: formats, "overlay"): of
+/// the loops that hold a point, the one of the highest level tells which lights do not reach it.
+/// Where none is, every light that the side faces reaches it. Point and directional lights only.
+struct PaintedPolygon {
+  static constexpr std::uint32_t kNoOwner = 0xffffffffu;
+  std::uint32_t part = 0;
+  Side side = Side::kFront;
+  std::uint32_t level = 1;             // painted in ascending order; above the owner's
+  std::uint64_t dark_for = 0;          // bit i: ShadowResult::lights[i] does not reach it
+  std::uint32_t on = kNoOwner;         // the loop that it was cut from: an index into
+                                       // ShadowResult::overlay, of the same polygon and side
+  std::uint32_t first = 0, count = 0;  // into overlay_points / overlay_exact_points
+};
+
 struct ShadowResult {
   std::string kernel;     // id of formats: "plane", "double", ...
   std::string algorithm;  // "sectors", "svbsp", "receiver", "merged", "pieces"; "sectors+receiver"
@@ -94,6 +116,11 @@ struct ShadowResult {
   std::vector<CombinedFragment> combined;
   std::vector<std::array<double, 3>> combined_points;
   std::vector<std::array<mpq_class, 3>> combined_exact_points;
+  // Several lights as shadows painted on shadows: grouped by polygon and side; a side on which
+  // nothing is painted has no entry.
+  std::vector<PaintedPolygon> overlay;
+  std::vector<std::array<double, 3>> overlay_points;
+  std::vector<std::array<mpq_class, 3>> overlay_exact_points;
   double scene_bsp_seconds = 0, shadow_seconds = 0;  // CPU time
   StageCounts stages;  // which stage answered; all zero unless ShadowOptions::count_stages
   std::uint64_t bsp_nodes = 0, bsp_fragments = 0, bsp_depth = 0;

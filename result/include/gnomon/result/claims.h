@@ -40,6 +40,7 @@ struct ClaimedPolygon {
 struct ClaimedLight {
   std::string id;
   std::optional<LightState> background;  // everything not covered has this class
+  Cover cover = Cover::kPartition;       // what the fragments of a side mean together
   // Area lights: umbra is claimed where one caster alone hides all of the light, and nowhere else
   // ("umbra": "per-caster"). Otherwise it may be claimed wherever no light arrives, and need not
   // be.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The words that a result is told in: the class of a fragment, the side of a polygon, the reason of
-// a darkness without a caster; and the only names that files, messages and tables have for them.
+// a darkness without a caster, how fragments cover a polygon; and the only names that files,
+// messages and tables have for them.
 // Algorithms, oracle, report and tests share this vocabulary and nothing that decides.
 #ifndef GNOMON_RESULT_CLASSES_H
 #define GNOMON_RESULT_CLASSES_H
@@ -20,17 +21,25 @@ enum class LightState : std::uint8_t { kLit, kShadow, kPenumbra, kUmbra };
 /// Why a whole part is in shadow without any caster.
 enum class ShadowReason : std::uint8_t { kNone, kFacesAway, kLightInPlane, kBehindLight };
 
+/// What the fragments of a side mean together. kPartition: they tile it, and none overlaps another.
+/// kOverlay: they are painted over each other in their order, so that the last one that holds a
+/// point tells its class.
+enum class Cover : std::uint8_t { kPartition, kOverlay };
+
 /// "lit", "shadow", "penumbra", "umbra".
 const char* name_of(LightState state);
 /// "front" or "back", as a polygon's side. Requires: not kOn.
 const char* name_of(Side side);
 /// "faces-away", "light-in-plane", "behind-light"; empty for kNone.
 const char* name_of(ShadowReason reason);
+/// "partition" or "overlay".
+const char* name_of(Cover cover);
 
 /// The value with that name; none if no value has it. kNone has no name.
 std::optional<LightState> light_state_by_name(std::string_view name);
 std::optional<Side> side_by_name(std::string_view name);
 std::optional<ShadowReason> shadow_reason_by_name(std::string_view name);
+std::optional<Cover> cover_by_name(std::string_view name);
 
 }  // namespace gnomon
 
