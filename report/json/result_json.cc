@@ -41,6 +41,7 @@ class ResultWriter {
     for (const LightResult& light : result_.lights) write_light(light);
     json_.end_array();
     if (options_.combined) write_combined();
+    if (options_.overlay) write_overlay();
     write_findings();
     json_.end_object();
     json_.finish();
@@ -70,37 +71,61 @@ class ResultWriter {
     json_.end_array();
   }
 
-  /// Fragments of each polygon's side with the lights that reach all of them, and those that they
-  /// are in the penumbra of: the pipeline of lights.
-  void write_combined() {
-    const bool any_area = std::ranges::any_of(
-        result_.lights, [&](const LightResult& light) { return is_area(light); });
-    json_.key("combined");
+  /// Entries that are grouped by polygon and side, one object a group with the group's list.
+  /// `write_one` gets the index of an entry and of the first of its group.
+  template <class Entry, class WriteOne>
+  void write_by_side(std::string_view name, std::string_view list,
+                     const std::vector<Entry>& entries, const WriteOne& write_one) {
+    const auto polygon_of = [&](const Entry& entry) { return prepared_.parts[entry.part].polygon; };
+    json_.key(name);
     json_.begin_array();
-    for (std::size_t i = 0; i < result_.combined.size();) {
-      const std::uint32_t polygon = prepared_.parts[result_.combined[i].part].polygon;
-      const Side side = result_.combined[i].side;
+    for (std::size_t i = 0; i < entries.size();) {
+      const std::size_t first = i;
       json_.begin_object();
-      json_.member("id", scene_.polygons[polygon].id);
-      json_.member("side", name_of(side));
-      json_.key("fragments");
+      json_.member("id", scene_.polygons[polygon_of(entries[first])].id);
+      json_.member("side", name_of(entries[first].side));
+      json_.key(list);
       json_.begin_array();
-      for (; i < result_.combined.size() &&
-             prepared_.parts[result_.combined[i].part].polygon == polygon &&
-             result_.combined[i].side == side;
+      for (; i < entries.size() && polygon_of(entries[i]) == polygon_of(entries[first]) &&
+             entries[i].side == entries[first].side;
            ++i) {
-        const CombinedFragment& fragment = result_.combined[i];
         json_.begin_object(JsonLayout::kInline);
-        write_lights("lit_by", fragment.lit_by);
-        if (any_area) write_lights("penumbra_of", fragment.penumbra_of);
-        write_loops(result_.combined_points, result_.combined_exact_points, fragment.first,
-                    fragment.count);
+        write_one(i, first);
         json_.end_object();
       }
       json_.end_array();
       json_.end_object();
     }
     json_.end_array();
+  }
+
+  /// Fragments of each polygon's side with the lights that reach all of them, and those that they
+  /// are in the penumbra of: the pipeline of lights.
+  void write_combined() {
+    const bool any_area = std::ranges::any_of(
+        result_.lights, [&](const LightResult& light) { return is_area(light); });
+    write_by_side("combined", "fragments", result_.combined, [&](std::size_t i, std::size_t) {
+      const CombinedFragment& fragment = result_.combined[i];
+      write_lights("lit_by", fragment.lit_by);
+      if (any_area) write_lights("penumbra_of", fragment.penumbra_of);
+      write_loops(result_.combined_points, result_.combined_exact_points, fragment.first,
+                  fragment.count);
+    });
+  }
+
+  /// Loops painted on each polygon's side by level. An owner is named by its place in the list.
+  void write_overlay() {
+    write_by_side("overlay", "painted", result_.overlay, [&](std::size_t i, std::size_t first) {
+      const PaintedPolygon& painted = result_.overlay[i];
+      json_.member("level", painted.level);
+      write_lights("dark_for", painted.dark_for);
+      json_.member("on",
+                   painted.on == PaintedPolygon::kNoOwner
+                       ? -1
+                       : static_cast<std::int64_t>(painted.on) - static_cast<std::int64_t>(first));
+      write_loops(result_.overlay_points, result_.overlay_exact_points, painted.first,
+                  painted.count);
+    });
   }
 
   void write_findings() {
@@ -128,6 +153,8 @@ class ResultWriter {
     json_.member("id", light_id(light));
     // Umbra is where one caster alone hides all of the light.
     if (is_area(light)) json_.member("umbra", "per-caster");
+    if (light.cover != Cover::kPartition) json_.member("cover", name_of(light.cover));
+    if (light.background) json_.member("background", name_of(*light.background));
     const FacingShare facing = facing_share(prepared_, light);
     json_.key("facing");
     json_.begin_object(JsonLayout::kInline);

@@ -26,6 +26,7 @@ struct ResultJsonOptions {
   bool exact_fractions = false;  // "p/q" instead of numbers; needs PartResult::exact_lit
   bool exact_loops = false;      // needs LightResult::exact_points
   bool combined = false;         // all lights together; needs ShadowResult::combined
+  bool overlay = false;          // shadows painted on shadows; needs ShadowResult::overlay
   /// For each light the bounds that deep_umbra_bounds() has of it, none for other lights; empty: do
   /// not write them.
   std::vector<std::vector<DeepUmbraBounds>> deep_umbra;

@@ -70,6 +70,8 @@ ClaimedLight claims_of_light(const Scene& scene, const PreparedScene& prepared,
   ClaimedLight claimed;
   claimed.id = scene.lights[prepared.lights[light.light].light].id;
   claimed.per_caster_umbra = prepared.lights[light.light].has_area();
+  claimed.cover = light.cover;
+  claimed.background = light.background;
   for (const ClassifiedSide& side : sides) {
     ClaimedPolygon& polygon = claimed.polygons.emplace_back();
     polygon.id = scene.polygons[side.polygon].id;

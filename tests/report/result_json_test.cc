@@ -52,6 +52,18 @@ constexpr const char* kScene = R"({"format": "gnomon-scene", "version": 1,
               {"id": "bent", "loop": [10,11,12,13]}, {"id": "line", "loop": [14,15,16]}],
  "lights": [{"id": "zenith", "type": "directional", "to_light": [0,0,1]}]})";
 
+/// The same under a panel, and a two-sided fin that reaches behind its plane.
+constexpr const char* kAreaScene = R"({"format": "gnomon-scene", "version": 1,
+ "vertices": [[0,0,0],[4,0,0],[4,2,0],[2,2,0],[2,4,0],[0,4,0], [0,0,1],[2,0,1],[2,4,1],[0,4,1],
+              [9,0,0],[10,0,0],[10,1,1],[9,1,0], [1,6,0],[2,6,0],[2,6,9],[1,6,9],
+              [0,0,20],[1,0,20],[0,1,20]],
+ "polygons": [{"id": "floor", "loop": [0,1,2,3,4,5]}, {"id": "roof", "loop": [6,7,8,9]},
+              {"id": "bent", "loop": [10,11,12,13]},
+              {"id": "fin", "loop": [14,15,16,17], "two_sided": true},
+              {"id": "above", "loop": [18,19,20]}],
+ "lights": [{"id": "panel", "type": "area", "loop": [[0,5,6],[0,7,6],[3,7,6],[3,5,6]]},
+            {"id": "zenith", "type": "directional", "to_light": [0,0,1]}]})";
+
 TEST(PolygonSides, CoplanarPartsAddUpExactly) {
   const Classified all = classify(kScene);
   ASSERT_GT(all.prepared.first_part[1], 1u);
@@ -107,6 +119,60 @@ TEST(ResultJson, WhatIsNoNumberIsNullAndAFinding) {
   EXPECT_EQ(json["findings"].Size(), 1u);
 }
 
+TEST(ResultJson, SaysHowFragmentsCoverAPolygon) {
+  Classified all = classify(kScene);
+  rapidjson::Document json;
+  const auto written = [&] {
+    StringSink sink;
+    write_result_json(sink, all.scene, all.prepared, all.result, {});
+    json.Parse(sink.text().c_str());
+    return &json["lights"][0];
+  };
+  EXPECT_FALSE(written()->HasMember("cover"));
+  EXPECT_FALSE(written()->HasMember("background"));
+  all.result.lights[0].cover = Cover::kOverlay;
+  all.result.lights[0].background = LightState::kShadow;
+  EXPECT_STREQ((*written())["cover"].GetString(), "overlay");
+  EXPECT_STREQ((*written())["background"].GetString(), "shadow");
+}
+
+/// Shadows on shadows: on the floor one loop and one on it, on the square one loop.
+TEST(ResultJson, ListsWhatIsPaintedOnEverySide) {
+  Classified all = classify(kAreaScene);
+  all.result.overlay_points = {{0, 0, 0}, {2, 0, 0},  {2, 2, 0}, {1, 0, 0},
+                               {9, 0, 0}, {10, 0, 0}, {9, 1, 0}};
+  all.result.overlay = {
+      {.part = all.prepared.first_part[0], .level = 1, .dark_for = 2, .first = 0, .count = 3},
+      {.part = all.prepared.first_part[2], .level = 1, .dark_for = 2, .first = 4, .count = 3},
+      {.part = all.prepared.first_part[2],
+       .level = 2,
+       .dark_for = 3,
+       .on = 1,
+       .first = 1,
+       .count = 3}};
+  ResultJsonOptions options;
+  options.overlay = true;
+  StringSink sink;
+  write_result_json(sink, all.scene, all.prepared, all.result, options);
+  rapidjson::Document json;
+  json.Parse(sink.text().c_str());
+  ASSERT_FALSE(json.HasParseError());
+  const auto& overlay = json["overlay"];
+  ASSERT_EQ(overlay.Size(), 2u);
+  EXPECT_STREQ(overlay[0]["id"].GetString(), "floor");
+  EXPECT_STREQ(overlay[0]["side"].GetString(), "front");
+  ASSERT_EQ(overlay[0]["painted"].Size(), 1u);
+  EXPECT_EQ(overlay[0]["painted"][0]["on"].GetInt(), -1);
+  const auto& painted = overlay[1]["painted"];
+  ASSERT_EQ(painted.Size(), 2u);
+  EXPECT_EQ(painted[1]["level"].GetInt(), 2);
+  EXPECT_EQ(painted[1]["on"].GetInt(), 0);
+  ASSERT_EQ(painted[1]["dark_for"].Size(), 2u);
+  EXPECT_STREQ(painted[1]["dark_for"][0].GetString(), "panel");
+  EXPECT_EQ(painted[1]["loop"].Size(), 3u);
+  EXPECT_EQ(painted[0]["loop"][1][0].GetDouble(), 10);
+}
+
 TEST(CandidateFromResult, LeavesOutWhatHasNoCoordinates) {
   Classified all = classify(kScene, KernelId::kDouble);
   const auto count = [](const Claims& candidate) {
@@ -118,18 +184,6 @@ TEST(CandidateFromResult, LeavesOutWhatHasNoCoordinates) {
   all.result.lights[0].points[0][1] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(count(claims_of(all.scene, all.prepared, all.result, "double", false)), before - 1);
 }
-
-/// The same under a panel, and a two-sided fin that reaches behind its plane.
-constexpr const char* kAreaScene = R"({"format": "gnomon-scene", "version": 1,
- "vertices": [[0,0,0],[4,0,0],[4,2,0],[2,2,0],[2,4,0],[0,4,0], [0,0,1],[2,0,1],[2,4,1],[0,4,1],
-              [9,0,0],[10,0,0],[10,1,1],[9,1,0], [1,6,0],[2,6,0],[2,6,9],[1,6,9],
-              [0,0,20],[1,0,20],[0,1,20]],
- "polygons": [{"id": "floor", "loop": [0,1,2,3,4,5]}, {"id": "roof", "loop": [6,7,8,9]},
-              {"id": "bent", "loop": [10,11,12,13]},
-              {"id": "fin", "loop": [14,15,16,17], "two_sided": true},
-              {"id": "above", "loop": [18,19,20]}],
- "lights": [{"id": "panel", "type": "area", "loop": [[0,5,6],[0,7,6],[3,7,6],[3,5,6]]},
-            {"id": "zenith", "type": "directional", "to_light": [0,0,1]}]})";
 
 TEST(AreaLights, SharesOfPartsAddUpToOne) {
   const Classified all = classify(kAreaScene);

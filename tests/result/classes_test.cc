@@ -17,6 +17,9 @@ TEST(Classes, EveryNameReadsBack) {
        {ShadowReason::kFacesAway, ShadowReason::kLightInPlane, ShadowReason::kBehindLight}) {
     EXPECT_EQ(shadow_reason_by_name(name_of(reason)), reason);
   }
+  for (const Cover cover : {Cover::kPartition, Cover::kOverlay}) {
+    EXPECT_EQ(cover_by_name(name_of(cover)), cover);
+  }
 }
 
 TEST(Classes, OtherTextNamesNothing) {
@@ -24,6 +27,7 @@ TEST(Classes, OtherTextNamesNothing) {
     EXPECT_FALSE(light_state_by_name(text)) << text;
     EXPECT_FALSE(side_by_name(text)) << text;
     EXPECT_FALSE(shadow_reason_by_name(text)) << text;
+    EXPECT_FALSE(cover_by_name(text)) << text;
   }
 }
 
