@@ -25,10 +25,11 @@ class Shadow {
     const mpz_class& along = d_[static_cast<std::size_t>(k)];
     return position(v, k) * depth() - position(v, axes_.z) * along;
   }
+  /// In units of 2^b grid steps: below 2, whatever b is.
   double rounded(VertexId v, int axis) const {
     const int k = axis == 0 ? axes_.x : axes_.y;
     const mpz_class& along = d_[static_cast<std::size_t>(k)];
-    return value(v, k) - value(v, axes_.z) * (along.get_d() / depth().get_d());
+    return value(v, k) - value(v, axes_.z) * ratio(along, depth());
   }
   const mpz_class& depth() const { return d_[static_cast<std::size_t>(axes_.z)]; }
 
@@ -37,7 +38,17 @@ class Shadow {
     return grid_.is_narrow() ? mpz_class(static_cast<long>(grid_.narrow(v, k))) : grid_.wide(v, k);
   }
   double value(VertexId v, int k) const {
-    return grid_.is_narrow() ? static_cast<double>(grid_.narrow(v, k)) : grid_.wide(v, k).get_d();
+    const int bits = static_cast<int>(grid_.bits());
+    if (grid_.is_narrow()) return std::ldexp(static_cast<double>(grid_.narrow(v, k)), -bits);
+    long exponent = 0;
+    const double mantissa = mpz_get_d_2exp(&exponent, grid_.wide(v, k).get_mpz_t());
+    return std::ldexp(mantissa, static_cast<int>(exponent) - bits);
+  }
+  static double ratio(const mpz_class& a, const mpz_class& b) {
+    long a_exponent = 0, b_exponent = 0;
+    const double top = mpz_get_d_2exp(&a_exponent, a.get_mpz_t());
+    const double bottom = mpz_get_d_2exp(&b_exponent, b.get_mpz_t());
+    return std::ldexp(top / bottom, static_cast<int>(a_exponent - b_exponent));
   }
 
   const GridPositions& grid_;
@@ -50,19 +61,18 @@ class Shadow {
 struct Extremes {
   mpz_class low, high;
 };
-Extremes extremes(const Shadow& shadow, std::span<const VertexId> vertices, int axis,
-                  double extent) {
+Extremes extremes(const Shadow& shadow, std::span<const VertexId> vertices, int axis) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const VertexId v : vertices) {
     low = std::min(low, shadow.rounded(v, axis));
     high = std::max(high, shadow.rounded(v, axis));
   }
-  // |rounded - exact| is below 8 roundings of 2^-53 of numbers below 2 extents.
-  const double margin = extent * 0x1p-45;
+  // |rounded - exact| is below 8 roundings of 2^-53 of numbers below 2.
+  constexpr double kMargin = 0x1p-45;
   std::vector<mpz_class> lows, highs;
   for (const VertexId v : vertices) {
     const double here = shadow.rounded(v, axis);
-    const bool may_be_low = here <= low + margin, may_be_high = here >= high - margin;
+    const bool may_be_low = here <= low + kMargin, may_be_high = here >= high - kMargin;
     if (!may_be_low && !may_be_high) continue;
     mpz_class exact = shadow.exact(v, axis);
     if (sgn(shadow.depth()) < 0) exact = -exact;
@@ -92,7 +102,7 @@ TileBorders::TileBorders(const PreparedScene& scene, const LightPoint& light,
   // In units of 2^-kBits: value * 2^kBits / (|d_z| 2^b), rounded outward.
   const mpz_class denominator = abs(shadow.depth()) << grid_bits_;
   for (int axis = 0; axis < 2; ++axis) {
-    const Extremes ends = extremes(shadow, vertices, axis, std::ldexp(1.0, static_cast<int>(grid_bits_)));
+    const Extremes ends = extremes(shadow, vertices, axis);
     const mpz_class scaled_low = ends.low << kBits, scaled_high = ends.high << kBits;
     mpz_class low, high;
     mpz_fdiv_q(low.get_mpz_t(), scaled_low.get_mpz_t(), denominator.get_mpz_t());

@@ -67,6 +67,7 @@ class ListClipping {
            const Stopped& stopped, std::vector<ClippedPiece>& output) {
     pool_.assign(list.begin(), list.end());
     stack_.clear();
+    first_cut_ = kNone;
     if (!pool_.empty()) stack_.push_back({});
     while (!stack_.empty() && !stopped()) {
       const List here = stack_.back();
@@ -128,7 +129,8 @@ class ListClipping {
     planes_.clear();
     for (std::uint32_t i = 0; i < by.loop.count; ++i) {
       const PlaneRef edge = setting.loops.edge(by.loop.first + i);
-      if (!bounds_all(edge)) planes_.push_back(edge);
+      // Where a support plane cut a piece, only that piece ends.
+      if (edge.index() >= first_cut_ || !bounds_all(edge)) planes_.push_back(edge);
     }
     const std::uint64_t cuts = clip_.cuts();
     for (auto i = begin; i < pool_.size(); ++i) {
@@ -187,6 +189,7 @@ class ListClipping {
     } else {
       // Only planes that meet in a line have corners on both sides.
       const PlaneRef cut = setting.space.cut_of_supports(own, other);
+      first_cut_ = std::min(first_cut_, cut.index());
       const PlaneRef front = positive ? cut : -cut;
       const Placement placement =
           record_.decide(setting.space, front, setting.loops.view(piece.loop, own));
@@ -240,6 +243,7 @@ class ListClipping {
 
   std::vector<ListPiece> pool_;  // of the lists on the stack, one after another
   std::vector<List> stack_;
+  std::uint32_t first_cut_ = kNone;  // the planes that cut supports of this run are numbered from here
   std::uint64_t vanished_ = 0;
   // Workspace, kept to save allocations.
   std::vector<ListPiece> outside_, near_, coplanar_;
