@@ -177,10 +177,9 @@ void add_shadows_command(CLI::App& app, Action& action) {
                    "Write fractions as exact rationals \"p/q\" (exact kernels)");
   command.add_flag("--exact-loops", options->exact_loops,
                    "Write fragments with exact rational coordinates (exact kernels)");
-  command.add_flag(
-      "--combined", options->combined,
-      "Also write fragments with the set of lights that reach each of them (svbsp, or\n"
-      "receiver)");
+  command.add_flag("--combined", options->combined,
+                   "Also write fragments with the set of lights that reach each of them (svbsp,\n"
+                   "receiver or merged)");
   command.add_flag("--pieces", options->pieces,
                    "Area lights as in 1992: cut by the planes of polygons, classes for each piece");
   auto* deep_umbra = command.add_flag(
