@@ -89,8 +89,8 @@ class ReceiverRun {
   LightResult run_light(std::uint32_t light, double from, double to);
   LightResult run_light(const LightInSpace<Space>& light, LightResult result, double from,
                         double to);
-  /// As the 1992 paper has it: the light cut by the planes of all polygons, a result for each
-  /// piece.
+  /// The light cut by the planes of all polygons, a result for each piece. (1992 cuts by the planes
+  /// of those polygons alone that have a part in front of the light's plane.)
   void run_pieces(std::uint32_t light, double from, double to, std::vector<LightResult>& results);
   using Trees = PenumbraAndUmbra<Space>;
   bool has_trees(const LightInSpace<Space>& light) const {
