@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Lights of any kind receiver by receiver, from a prepared scene to a result, on several threads;
-// and several lights in one pipeline, with a class per light on each fragment.
+// and several lights in one pipeline, with a class per light on each fragment. A receiver is cut by
+// the volumes that reach it, or filtered down the light's volume trees where the method has them.
 #ifndef GNOMON_ALGORITHMS_RUN_RECEIVER_RUN_H
 #define GNOMON_ALGORITHMS_RUN_RECEIVER_RUN_H
 
@@ -88,14 +89,26 @@ class ReceiverRun {
   LightResult run_light(std::uint32_t light, double from, double to);
   LightResult run_light(const LightInSpace<Space>& light, LightResult result, double from,
                         double to);
-  /// As the 1992 paper has it: the light cut by the planes of all polygons, a result for each
-  /// piece.
+  /// The light cut by the planes of all polygons, a result for each piece. (1992 cuts by the planes
+  /// of those polygons alone that have a part in front of the light's plane.)
   void run_pieces(std::uint32_t light, double from, double to, std::vector<LightResult>& results);
-  /// `merged`: may be null.
+  using Trees = PenumbraAndUmbra<Space>;
+  bool has_trees(const LightInSpace<Space>& light) const {
+    return light.has_area() && options_.method.area != MethodId::kReceiver;
+  }
+  /// Readies a side that sees the light for cut(). Returns the trees if it goes down them, else
+  /// null. `trees`: may be null.
+  const Trees* prepare_side(Workspace& workspace, const LightInSpace<Space>& light,
+                            const Trees* trees, std::uint32_t part, Side side) const;
+  /// Cuts the loop of a side, or a fragment of it, by one light; as LightInSpace::cut. `trees`:
+  /// what prepare_side() returned.
+  template <class Emit>
+  bool cut(Workspace& workspace, const LightInSpace<Space>& light, const Trees* trees,
+           PlaneRef receiving, const Loop& piece, const Emit& emit) const;
+  /// `trees`: may be null.
   std::vector<SideResult> run_part(Workspace& workspace, const LightInSpace<Space>& light,
-                                   const PenumbraAndUmbra<Space>* merged, std::uint32_t part);
-  bool build_trees(const LightInSpace<Space>& light, double from, double to,
-                   PenumbraAndUmbra<Space>& trees);
+                                   const Trees* trees, std::uint32_t part);
+  bool build_trees(const LightInSpace<Space>& light, double from, double to, Trees& trees);
   void combine(const LightList& lights, double from, double to, ShadowResult& outcome);
   RunOutcome stop_reason() const;
 
@@ -151,10 +164,37 @@ bool ReceiverRun<Space>::for_each(std::size_t n, double from, double to, const B
 }
 
 template <VolumeSpaceModel Space>
+const PenumbraAndUmbra<Space>* ReceiverRun<Space>::prepare_side(Workspace& workspace,
+                                                                const LightInSpace<Space>& light,
+                                                                const Trees* trees,
+                                                                std::uint32_t part,
+                                                                Side side) const {
+  const PlaneRef receiving = plane_of_side(scene_.parts[part], side);
+  if (trees == nullptr || !trees->takes(workspace.space, workspace.record, receiving)) {
+    light.prepare(workspace, part, side);
+    return nullptr;
+  }
+  if (!workspace.trees) {
+    workspace.trees =
+        std::make_unique<VolumeTreeWorkspace<Space>>(workspace.space, options_.output.merge);
+  }
+  return trees;
+}
+
+template <VolumeSpaceModel Space>
+template <class Emit>
+bool ReceiverRun<Space>::cut(Workspace& workspace, const LightInSpace<Space>& light,
+                             const Trees* trees, PlaneRef receiving, const Loop& piece,
+                             const Emit& emit) const {
+  return trees != nullptr ? trees->cut(workspace.space, workspace.record, *workspace.trees, piece,
+                                       receiving, emit)
+                          : light.cut(workspace, piece, emit);
+}
+
+template <VolumeSpaceModel Space>
 std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
                                                      const LightInSpace<Space>& light,
-                                                     const PenumbraAndUmbra<Space>* merged,
-                                                     std::uint32_t index) {
+                                                     const Trees* trees, std::uint32_t index) {
   const Part& part = scene_.parts[index];
   std::vector<SideResult> sides;
   ShadowReason reason = ShadowReason::kNone;
@@ -166,25 +206,14 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
       if (reason == ShadowReason::kNone) reason = sight.reason;
       continue;
     }
-    const PlaneRef receiving = plane_of_side(part, side);
-    const bool by_trees =
-        merged != nullptr && merged->takes(workspace.space, workspace.record, receiving);
-    if (!by_trees) light.prepare(workspace, index, side);
+    const Trees* taken_by = prepare_side(workspace, light, trees, index, side);
     const Loop whole = part_loop(workspace.space, scene_, index, workspace.whole);
     sink.begin(index, side, light.has_area());
-    const auto emit = [&](const PieceClass& state, const Loop& loop) {
-      sink.add(state, loop);
-      return count_piece();
-    };
-    if (by_trees) {
-      if (!workspace.trees) {
-        workspace.trees =
-            std::make_unique<VolumeTreeWorkspace<Space>>(workspace.space, options_.output.merge);
-      }
-      merged->cut(workspace.space, workspace.record, *workspace.trees, whole, receiving, emit);
-    } else {
-      light.cut(workspace, whole, emit);
-    }
+    cut(workspace, light, taken_by, plane_of_side(part, side), whole,
+        [&](const PieceClass& state, const Loop& loop) {
+          sink.add(state, loop);
+          return count_piece();
+        });
     if (stopped_) return sides;
     sides.push_back(sink.finish(workspace.space, whole));
   }
@@ -196,7 +225,7 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
 /// stopped.
 template <VolumeSpaceModel Space>
 bool ReceiverRun<Space>::build_trees(const LightInSpace<Space>& light, double from, double to,
-                                     PenumbraAndUmbra<Space>& trees) {
+                                     Trees& trees) {
   std::vector<std::uint32_t> receivers;
   {
     Workspace workspace(space_.fork(), rules_);
@@ -213,7 +242,7 @@ bool ReceiverRun<Space>::build_trees(const LightInSpace<Space>& light, double fr
     }
     stages_ += workspace.space.stage_counts();
   }
-  using Outcome = typename PenumbraAndUmbra<Space>::Outcome;
+  using Outcome = typename Trees::Outcome;
   const Outcome outcome = trees.build(receivers, [&](double share) {
     if (options_.control.progress) options_.control.progress(from + (to - from) * share);
     return !stopped();
@@ -283,8 +312,8 @@ void ReceiverRun<Space>::run_pieces(std::uint32_t index, double from, double to,
 template <VolumeSpaceModel Space>
 LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, LightResult result,
                                           double from, double to) {
-  std::optional<PenumbraAndUmbra<Space>> merged;
-  if (light.has_area() && options_.method.area != MethodId::kReceiver) {
+  std::optional<Trees> merged;
+  if (has_trees(light)) {
     merged.emplace(space_, light, scene_, tree_, run_options_, rules_);
     const double middle = from + (to - from) / 2;
     if (!build_trees(light, from, middle, *merged)) return result;
@@ -339,7 +368,8 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
   return result;
 }
 
-/// Every fragment of one light goes on to the next (1989, sec. 5).
+/// Every fragment of one light goes on to the next (1989, sec. 5), where it is cut by the volumes
+/// that reach its side, or goes down that light's trees (1992).
 template <VolumeSpaceModel Space>
 void ReceiverRun<Space>::combine(const LightList& indices, double from, double to,
                                  ShadowResult& outcome) {
@@ -355,14 +385,27 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
   pieces_ = 0;
   const std::uint32_t mark = space_.plane_mark();
   std::deque<LightInSpace<Space>> lights;
+  std::deque<std::optional<Trees>> trees;
   for (const std::uint32_t light : indices) {
     lights.emplace_back(space_, light_geometry_, tree_, light, rules_);
+    trees.emplace_back();
+  }
+  if (std::ranges::any_of(lights, [&](const auto& light) { return has_trees(light); })) {
+    const double middle = from + (to - from) / 2;
+    const double step = (middle - from) / static_cast<double>(lights.size());
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      if (!has_trees(lights[i])) continue;
+      trees[i].emplace(space_, lights[i], scene_, tree_, run_options_, rules_);
+      const double begin = from + step * static_cast<double>(i);
+      if (!build_trees(lights[i], begin, begin + step, *trees[i])) return;
+    }
+    from = middle;
   }
   std::vector<std::array<Combined, 2>> results(scene_.parts.size());
   const auto run_side = [&](Workspace& workspace, std::uint32_t part, Side side, Combined& out) {
     const PlaneId plane = scene_.parts[part].plane;
     LoopStore<Vertex> now, next;
-    std::vector<Piece> pieces, cut;
+    std::vector<Piece> pieces, fragments;
     bool seen = false;
     for (std::size_t i = 0; i < lights.size(); ++i) {
       if (!lights[i].sight(workspace, part, side).sees()) continue;
@@ -371,23 +414,25 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
             {now.append(part_loop(workspace.space, scene_, part, workspace.whole)), 0, 0});
         seen = true;
       }
-      lights[i].prepare(workspace, part, side);
+      const Trees* taken_by =
+          prepare_side(workspace, lights[i], trees[i] ? &*trees[i] : nullptr, part, side);
       next.clear();
-      cut.clear();
+      fragments.clear();
       for (const Piece& piece : pieces) {
-        const bool done = lights[i].cut(
-            workspace, now.view(piece.loop, plane), [&](const PieceClass& state, const Loop& loop) {
-              Piece fragment{next.append(loop), piece.lit_by, piece.penumbra_of};
-              const std::uint64_t bit = std::uint64_t{1} << i;
-              if (state.state == LightState::kLit) fragment.lit_by |= bit;
-              if (state.state == LightState::kPenumbra) fragment.penumbra_of |= bit;
-              cut.push_back(fragment);
-              return count_piece();
-            });
+        const bool done =
+            cut(workspace, lights[i], taken_by, plane_of_side(scene_.parts[part], side),
+                now.view(piece.loop, plane), [&](const PieceClass& state, const Loop& loop) {
+                  Piece fragment{next.append(loop), piece.lit_by, piece.penumbra_of};
+                  const std::uint64_t bit = std::uint64_t{1} << i;
+                  if (state.state == LightState::kLit) fragment.lit_by |= bit;
+                  if (state.state == LightState::kPenumbra) fragment.penumbra_of |= bit;
+                  fragments.push_back(fragment);
+                  return count_piece();
+                });
         if (!done) return;
       }
       std::swap(now, next);
-      std::swap(pieces, cut);
+      std::swap(pieces, fragments);
     }
     for (const Piece& piece : pieces) {
       CombinedFragment fragment{part, side, piece.lit_by, piece.penumbra_of};

@@ -176,12 +176,12 @@ void add_shadows_command(CLI::App& app, Action& action) {
                    "Write fractions as exact rationals \"p/q\" (exact kernels)");
   command.add_flag("--exact-loops", options->exact_loops,
                    "Write fragments with exact rational coordinates (exact kernels)");
-  command.add_flag(
-      "--combined", options->combined,
-      "Also write fragments with the set of lights that reach each of them (svbsp, or\n"
-      "receiver)");
+  command.add_flag("--combined", options->combined,
+                   "Also write fragments with the set of lights that reach each of them (svbsp,\n"
+                   "receiver or merged)");
   command.add_flag("--pieces", options->pieces,
-                   "Area lights as in 1992: cut by the planes of polygons, classes for each piece");
+                   "Area lights cut by the planes of all polygons first, classes for each piece\n"
+                   "(Chin & Feiner 1992 cut by fewer planes)");
   auto* deep_umbra = command.add_flag(
       "--deep-umbra", options->deep_umbra,
       "Area lights: also bounds of the share of each polygon that no light reaches, whatever\n"

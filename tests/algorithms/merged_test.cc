@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The merged trees of 1992 against the receiver algorithm, which shares neither tree nor polyhedra
-// with them: the same exact fractions of all classes on small scenes, most of them degenerate; the
-// scenes of the paper's figures 4 and 6; limits, interruption, threads; and pieces of lights.
+// with them: the same exact fractions of all classes on small scenes, most of them degenerate, and
+// the same exact area for every set of lights where several are classified together; the scenes of
+// the paper's figures 4 and 6; limits, interruption, threads; and pieces of lights.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
+#include "algorithms/run/compute.h"
 #include "fuzz/generate/scene_pen.h"
 #include "fuzz/mistakes/compute.h"
 #include "gnomon/algorithms/shadows.h"
@@ -289,6 +294,176 @@ TEST(Merged, RoundedKernelsComeToAnEnd) {
   RecordProperty("findings", std::to_string(findings));
 }
 
+// --- Several lights together ---
+
+/// Four times the square of the area of a planar loop.
+mpq_class squared_area(const std::vector<std::array<mpq_class, 3>>& loop,
+                       std::array<mpq_class, 3>& normal) {
+  normal = {0, 0, 0};
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const auto& a = loop[i];
+    const auto& b = loop[(i + 1) % loop.size()];
+    for (std::size_t k = 0; k < 3; ++k) {
+      normal[k] += a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    }
+  }
+  return normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+}
+
+/// The scene under two area lights, a lamp and a sun.
+Scene with_more_lights(Scene scene, std::uint64_t seed) {
+  Random random(seed ^ 0xbeef);
+  ScenePen pen;
+  const std::int64_t size = seed % 2 == 0 ? 6 : 14;
+  const auto add = [&](LightType type) -> Light& {
+    Light& light = scene.lights.emplace_back();
+    light.id = "light" + std::to_string(scene.lights.size());
+    light.type = type;
+    return light;
+  };
+  for (const Triple& vertex : random_loop(random, size)) {
+    if (scene.lights.size() == 1) add(LightType::kArea);
+    scene.lights.back().loop.push_back(pen.position(vertex));
+  }
+  add(LightType::kPoint).position =
+      pen.position({random.between(0, size), random.between(0, size), random.between(0, size)});
+  add(LightType::kDirectional).position =
+      pen.position({random.between(-2, 2), random.between(-2, 2), random.between(1, 3)});
+  return scene;
+}
+
+using Area = std::array<mpq_class, 3>;
+/// Twice the area vector of what each set of lights reaches, of each side of each part.
+using AreasOfSets = std::map<std::tuple<std::uint32_t, Side, std::uint64_t, std::uint64_t>, Area>;
+
+AreasOfSets areas_of_sets(const ShadowResult& result) {
+  AreasOfSets areas;
+  for (const CombinedFragment& fragment : result.combined) {
+    const auto* points = result.combined_exact_points.data() + fragment.first;
+    Area own;
+    squared_area({points, points + fragment.count}, own);
+    Area& sum = areas[{fragment.part, fragment.side, fragment.lit_by, fragment.penumbra_of}];
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += own[k];
+  }
+  return areas;
+}
+
+std::string text_of(const AreasOfSets& areas) {
+  std::string text;
+  for (const auto& [key, area] : areas) {
+    const auto& [part, side, lit_by, penumbra_of] = key;
+    text += std::to_string(part) + (side == Side::kFront ? " front" : " back") + " lit by " +
+            std::to_string(lit_by) + " penumbra of " + std::to_string(penumbra_of);
+    for (const mpq_class& component : area) text += " " + component.get_str();
+    text += "\n";
+  }
+  return text;
+}
+
+ShadowOptions together(MethodId algorithm, KernelId kernel) {
+  ShadowOptions options = options_of(algorithm, kernel);
+  options.output.combined = true;
+  options.output.exact_points = true;
+  return options;
+}
+
+void compare_together(Scene (*make)(std::uint64_t), unsigned scenes, unsigned least_mixed) {
+  unsigned mixed = 0;
+  for (std::uint64_t seed = 0; seed < scenes; ++seed) {
+    const auto prepared = prepare(with_more_lights(make(seed), seed));
+    if (!prepared) continue;
+    const auto expected =
+        compute_shadows(*prepared, together(MethodId::kReceiver, KernelId::kPlane)).value();
+    const AreasOfSets areas = areas_of_sets(expected);
+    for (const auto& entry : areas) {
+      const auto [lit_by, penumbra_of] =
+          std::pair(std::get<2>(entry.first), std::get<3>(entry.first));
+      if ((lit_by & 3) != 0 && (penumbra_of & 3) != 0) ++mixed;
+    }
+    for (const KernelId kernel : {KernelId::kPlane, KernelId::kRational, KernelId::kEpeck}) {
+      if (kernel != KernelId::kPlane && seed % 10 != 0) continue;
+      ShadowOptions options = together(MethodId::kMerged, kernel);
+      for (const bool plain : {false, true}) {
+        options.method.prefix = options.output.merge = !plain;
+        const auto merged = compute_shadows(*prepared, options).value();
+        EXPECT_EQ(text_of(areas_of_sets(merged)), text_of(areas))
+            << kernel_info(kernel).name << (plain ? ", no prefix, no merging" : "") << ", seed "
+            << seed;
+      }
+    }
+  }
+  // Fragments that one area light reaches while another is partly hidden.
+  EXPECT_GT(mixed, least_mixed);
+}
+
+TEST(MergedTogether, EqualsReceiverOnSoups) { compare_together(soup, 60, 60); }
+TEST(MergedTogether, EqualsReceiverOnBoxes) { compare_together(boxes, 40, 60); }
+TEST(MergedTogether, EqualsReceiverOnStandingWalls) { compare_together(standing, 40, 60); }
+
+/// The rule that this breaks is the trees' alone: its mistake shows only where fragments come from
+/// them.
+TEST(MergedTogether, ComesFromTheTrees) {
+  Scene scene = figure_6();
+  scene.lights.push_back(scene.lights[0]);
+  scene.lights[1].id = "second";
+  for (Position& position : scene.lights[1].loop) position[2] = Number(21.0);
+  const auto prepared = prepare(scene).value();
+  Rules wrong;
+  wrong.volumes_continue_behind_others = false;
+  const ShadowOptions merged = together(MethodId::kMerged, KernelId::kPlane);
+  const ShadowOptions receiver = together(MethodId::kReceiver, KernelId::kPlane);
+  const std::string expected =
+      text_of(areas_of_sets(compute_with(prepared, receiver, Rules{}).value()));
+  EXPECT_EQ(text_of(areas_of_sets(compute_with(prepared, merged, Rules{}).value())), expected);
+  EXPECT_NE(text_of(areas_of_sets(compute_with(prepared, merged, wrong).value())), expected);
+  EXPECT_EQ(text_of(areas_of_sets(compute_with(prepared, receiver, wrong).value())), expected);
+}
+
+TEST(MergedTogether, DoesNotDependOnThreadsAndStopsAtLimits) {
+  const auto scene = prepare(with_more_lights(boxes(3), 3)).value();
+  ShadowOptions options = together(MethodId::kMerged, KernelId::kPlane);
+  const auto one = compute_shadows(scene, options).value();
+  options.tuning.jobs = 2;
+  double last = 0;
+  options.control.progress = [&](double done) {
+    EXPECT_GE(done, last);
+    EXPECT_LE(done, 1);
+    last = done;
+  };
+  const auto two = compute_shadows(scene, options).value();
+  EXPECT_EQ(one.combined_exact_points, two.combined_exact_points);
+  EXPECT_EQ(text_of(areas_of_sets(one)), text_of(areas_of_sets(two)));
+  options.control.progress = {};
+  options.limits.fragments = 1;
+  EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kLimit);
+  const std::atomic<bool> interrupted = true;
+  options.limits.fragments = 1000000;
+  options.control.interrupted = &interrupted;
+  EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kInterrupted);
+}
+
+/// Rounded kernels come to an end, with fragments for every side that the receivers' way has.
+TEST(MergedTogether, RoundedKernelsComeToAnEnd) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const auto scene = prepare(with_more_lights(seed % 2 == 0 ? soup(seed) : boxes(seed), seed));
+    if (!scene) continue;
+    for (const KernelId kernel :
+         {KernelId::kFloat, KernelId::kDouble, KernelId::kLongDouble, KernelId::kEpick}) {
+      ShadowOptions options = together(MethodId::kMerged, kernel);
+      options.output.exact_fractions = false;
+      options.limits.fragments = 100000;
+      const auto result = compute_shadows(*scene, options);
+      if (!result) {
+        EXPECT_EQ(result.error().code, ErrorCode::kLimit);
+        continue;
+      }
+      EXPECT_EQ(result->combined.empty(),
+                compute_shadows(*scene, together(MethodId::kReceiver, KernelId::kPlane))
+                    ->combined.empty());
+    }
+  }
+}
+
 // --- Pieces: the light cut first, as in 1992 ---
 
 TEST(Pieces, OfALightThatNothingCutsIsTheLight) {
@@ -333,20 +508,6 @@ TEST(Pieces, AreLights) {
     }
   }
   EXPECT_GT(pieces, 100u);
-}
-
-/// Four times the square of the area of a planar loop.
-mpq_class squared_area(const std::vector<std::array<mpq_class, 3>>& loop,
-                       std::array<mpq_class, 3>& normal) {
-  normal = {0, 0, 0};
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const auto& a = loop[i];
-    const auto& b = loop[(i + 1) % loop.size()];
-    for (std::size_t k = 0; k < 3; ++k) {
-      normal[k] += a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-    }
-  }
-  return normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
 }
 
 TEST(Pieces, TileTheLightAndRationalAgrees) {
