@@ -10,8 +10,10 @@
 // so that the paper's clipping by outlines with holes is not needed.
 //
 // Guarantee on exact kernels: the pieces put out tile the polygons and have the class and a witness
-// of the definition. On rounded kernels lists may contradict each other; a list that was handed
-// down more often than it has polygons is put out as it is. Explicit stack.
+// of the definition. On rounded kernels lists may contradict each other, and a cut may leave both
+// pieces as large as they were: a list that was handed down more often than it has polygons is put
+// out as it is, and so is all that is left after far more work than lists without contradictions
+// make. Explicit stack.
 #ifndef GNOMON_ALGORITHMS_TWO_PASS_LIST_CLIPPING_H
 #define GNOMON_ALGORITHMS_TWO_PASS_LIST_CLIPPING_H
 
@@ -69,12 +71,19 @@ class ListClipping {
     stack_.clear();
     first_cut_ = kNone;
     if (!pool_.empty()) stack_.push_back({});
+    const std::uint64_t most = most_visits(list.size());
+    std::uint64_t visits = 0;
     while (!stack_.empty() && !stopped()) {
       const List here = stack_.back();
       stack_.pop_back();
       WorkCounts& counts = setting.counts;
       ++counts[Counter::kLists];
       counts.at_least(Counter::kLongestList, pool_.size() - here.begin);
+      visits += pool_.size() - here.begin;
+      if (visits > most) {
+        put_out_lit(pool_, output);
+        return;
+      }
       const std::uint32_t clip = here.clip == kNone ? nearest_caster(setting, here.begin) : here.clip;
       if (clip == kNone) {
         put_out_lit(std::span(pool_).subspan(here.begin), output);
@@ -103,6 +112,14 @@ class ListClipping {
     std::uint32_t most = 0;      // how often at most, if the kernel does not contradict itself
   };
 
+  /// Pieces that the lists made from `size` polygons may have, all lists together. No bound where
+  /// there is nothing to guard against.
+  static constexpr std::uint64_t most_visits(std::uint64_t size) {
+    constexpr std::uint64_t kFew = 4096, kFactor = 64;
+    return Space::kExact ? std::numeric_limits<std::uint64_t>::max()
+                         : kFew + kFactor * size * size;
+  }
+
   std::uint32_t nearest_caster(const Setting& setting, std::uint32_t begin) const {
     std::uint32_t best = kNone;
     for (auto i = begin; i < pool_.size(); ++i) {
@@ -129,8 +146,15 @@ class ListClipping {
     planes_.clear();
     for (std::uint32_t i = 0; i < by.loop.count; ++i) {
       const PlaneRef edge = setting.loops.edge(by.loop.first + i);
-      // Where a support plane cut a piece, only that piece ends.
-      if (edge.index() >= first_cut_ || !bounds_all(edge)) planes_.push_back(edge);
+      if (edge.index() >= first_cut_) {
+        // Where a support plane cut a piece, only that piece ends. Others are cut in the plane
+        // through the light.
+        planes_.push_back(setting.space.shadow_plane(
+            edge, setting.loops.vertex(by.loop.first + i),
+            setting.loops.vertex(by.loop.first + (i + 1 == by.loop.count ? 0 : i + 1))));
+      } else if (!bounds_all(edge)) {
+        planes_.push_back(edge);
+      }
     }
     const std::uint64_t cuts = clip_.cuts();
     for (auto i = begin; i < pool_.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What must not change the exact answer, by either algorithm: how it is computed (prefix, merging,
+// What must not change the exact answer, by any method: how it is computed (prefix, merging,
 // the seed of the BSP; the sizes of cells), how the scene is written down (order, rotation of
 // loops, duplicates), and maps of space that carry light and shadow with them. And what may change
 // it in one direction only: a further caster lights nothing.
@@ -16,6 +16,7 @@
 #include "exact_check.h"
 #include "fuzz/generate/families.h"
 #include "gnomon/scene/generate.h"
+#include "method_variants.h"
 #include "scene/base/random.h"
 
 namespace gnomon::test {
@@ -55,25 +56,27 @@ std::string difference(const Answer& a, const Answer& b) {
 /// Every polygon of these is exactly planar, so that no triangulation depends on the axes.
 const std::vector<std::string> kPlanarFamilies = {"Generic",       "Lattice",       "Crossing",
                                                   "CoplanarTiles", "TouchingBoxes", "NestedBoxes",
-                                                  "Grazing",       "Needles"};
+                                                  "Grazing",       "Needles",       "SmallLattice"};
 
 class Metamorphic : public testing::TestWithParam<std::tuple<std::string, MethodId>> {
  protected:
   static Scene scene_of(std::uint64_t seed) {
     return family_by_name(std::get<0>(GetParam())).make(seed);
   }
-  /// Sectors with small cells: so few polygons would all be in one.
+  /// Cells are small: so few polygons would all be in one.
   static ShadowOptions options() {
-    ShadowOptions options = options_for(KernelId::kPlane);
+    ShadowOptions options = with_small_cells(options_for(KernelId::kPlane));
     options.method.point = std::get<1>(GetParam());
-    return options.method.point == MethodId::kSectors ? with_small_cells(options) : options;
+    return options;
   }
   static Answer answer(const Scene& scene) {
     const auto prepared = Case::make(scene);
     return prepared ? answer_of(*prepared, options()) : Answer{};
   }
 
-  static constexpr std::uint64_t kScenes = 24;
+  /// The default methods get more.
+  const std::uint64_t kScenes =
+      std::ranges::find(kAlgorithms, std::get<1>(GetParam())) != kAlgorithms.end() ? 24 : 6;
   static constexpr std::uint64_t kFirstSeed = 700000;
 
   /// For each scene of the family: the changed scene has the same answer.
@@ -213,9 +216,10 @@ TEST_P(Metamorphic, EachLightForItself) {
 
 INSTANTIATE_TEST_SUITE_P(Families, Metamorphic,
                          testing::Combine(testing::ValuesIn(kPlanarFamilies),
-                                          testing::ValuesIn(kAlgorithms)),
+                                          testing::ValuesIn(object_methods())),
                          [](const auto& info) {
-                           return std::get<0>(info.param) + "_" + name_of(std::get<1>(info.param));
+                           return std::get<0>(info.param) + "_" +
+                                  test_name_of({std::get<1>(info.param), {}});
                          });
 
 /// Scenes large enough for the balanced prefix and for cells, which small ones do without.

@@ -51,6 +51,17 @@ TEST_P(SharedScenes, KernelsAndOracleAgree) {
   EXPECT_EQ(check_exact(*scene), "");
 }
 
+TEST_P(SharedScenes, EveryMethodAgrees) {
+  if (is_missing(GetParam())) GTEST_SKIP() << "no " << path_of(GetParam());
+  const auto scene = load(GetParam());
+  ASSERT_TRUE(scene);
+  constexpr std::size_t kSmall = 100;
+  if (scene->prepared().parts.size() * scene->prepared().lights.size() > kSmall) {
+    GTEST_SKIP() << "not small";
+  }
+  EXPECT_EQ(check_methods(*scene), "");
+}
+
 INSTANTIATE_TEST_SUITE_P(All, SharedScenes, testing::ValuesIn(kScenes), [](const auto& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '-', '_');

@@ -104,6 +104,11 @@ TEST_P(CorpusKind, FractionsAreThoseRecorded) {
   });
 }
 
+TEST_P(CorpusKind, EveryMethodAgrees) {
+  for_each_scene(
+      [](const Fixture&, const Case& scene) { EXPECT_EQ(test::check_methods(scene), ""); });
+}
+
 TEST_P(CorpusKind, RoundedKernelsDifferWhereRecorded) {
   for_each_scene([](const Fixture& fixture, const Case& scene) {
     const std::vector<std::string> wrong = wrong_subjects(scene.judged(), recorded_subjects());

@@ -72,9 +72,13 @@ TEST_P(Mix, ARecipeIsAGeneratorThatGivesTheSameScene) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Generator, Mix, testing::Values("mix", "area-mix"), [](const auto& test) {
-  return std::string(test.param) == "mix" ? "Mix" : "AreaMix";
-});
+INSTANTIATE_TEST_SUITE_P(Generator, Mix, testing::Values("mix", "area-mix", "family-small-lattice"),
+                         [](const auto& test) {
+                           const std::string name = test.param;
+                           return name == "mix"        ? "Mix"
+                                  : name == "area-mix" ? "AreaMix"
+                                                       : "SmallLattice";
+                         });
 
 /// Of the texts of 300 scenes.
 std::uint64_t digest_of(const Generator& made_by) {
@@ -88,6 +92,27 @@ std::uint64_t digest_of(const Generator& made_by) {
 TEST(Generator, GivesTheSameScenesEverywhereAndAlways) {
   EXPECT_EQ(digest_of(generator("mix")), 9916677009930269630u);
   EXPECT_EQ(digest_of(generator("area-mix")), 2183438363570001596u);
+}
+
+TEST(Generator, SmallLatticesAreSmallAndOnTheirPoints) {
+  const Generator made_by = generator("family-small-lattice");
+  std::size_t only_receive = 0, mixed = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Scene scene = made_by.make(seed).scene;
+    EXPECT_GE(scene.polygons.size(), 2u) << seed;
+    EXPECT_LE(scene.polygons.size(), 16u) << seed;
+    for (const Position& vertex : scene.vertices) {
+      for (const Number& x : vertex) {
+        EXPECT_TRUE(x.nearest() == 0 || x.nearest() == 1 || x.nearest() == 2) << seed;
+      }
+    }
+    const auto is_two_sided = [](const Polygon& p) { return p.two_sided.value_or(false); };
+    only_receive += std::ranges::any_of(scene.polygons, [](const Polygon& p) { return !p.casts; });
+    mixed += std::ranges::any_of(scene.polygons, is_two_sided) &&
+             !std::ranges::all_of(scene.polygons, is_two_sided);
+  }
+  EXPECT_GT(only_receive, 50u);
+  EXPECT_GT(mixed, 30u);
 }
 
 TEST(Generator, CutsFilesAndLargeScenesDown) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "gnomon/oracle/witness_check.h"
+#include "method_variants.h"
 #include "witness_check.h"
 
 namespace gnomon::test {
@@ -214,6 +215,44 @@ std::string check_exact(const Case& scene) {
                          options.tuning.task_size, wrong);
     }
     if (is_first) first = std::move(*result);
+  }
+  return {};
+}
+
+std::string check_methods(const Case& scene) {
+  ShadowOptions usual;
+  for (std::uint32_t light = 0; light < scene.prepared().lights.size(); ++light) {
+    if (!scene.is_area(light)) usual.lights.push_back(light);
+  }
+  if (usual.lights.empty()) return {};
+  ShadowResult first;
+  for (const KernelId kernel : kExactKernels) {
+    for (const MethodSelection& method : method_variants()) {
+      ShadowOptions options = with_method(options_for(kernel), method);
+      options.lights = usual.lights;
+      options.tuning.jobs = 1;
+      // The cells of methods that have any: as small as can be on one kernel, as usual on another.
+      if (kernel == KernelId::kPlane) {
+        options.tuning.leaf_size = 1;
+        options.tuning.task_size = 2;
+      }
+      Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
+      if (!result) return text_of(method) + ": " + to_string(result.error());
+      const bool is_first = first.kernel.empty();
+      std::string wrong = check_sums(scene, *result);
+      if (wrong.empty()) wrong = find_false_witness(scene, *result);
+      if (wrong.empty() && is_first) wrong = compare_with_oracle(scene, *result);
+      if (wrong.empty() && !is_first) wrong = compare_results(scene, first, *result);
+      if (wrong.empty() && kernel == KernelId::kPlane) {
+        wrong = check_bounds(scene, *result, options);
+        // The oracle reads fragments that tile.
+        if (wrong.empty() && method.values.cover == Cover::kPartition) {
+          wrong = compare_fragments(scene, *result);
+        }
+      }
+      if (!wrong.empty()) return text_of(method) + ": " + wrong;
+      if (is_first) first = std::move(*result);
+    }
   }
   return {};
 }

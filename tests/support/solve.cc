@@ -59,7 +59,7 @@ ShadowOptions options_by_name(const std::string& name, MethodId algorithm) {
 }
 
 std::string name_of(MethodId algorithm) {
-  return algorithm == MethodId::kSvbsp ? "svbsp" : "sectors";
+  return std::string(method_info(algorithm).name);
 }
 
 ShadowOptions with_small_cells(ShadowOptions options) {

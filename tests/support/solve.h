@@ -54,7 +54,7 @@ oracle::Report judge(const Case& scene, const ShadowResult& result, bool strict 
 ShadowOptions options_by_name(const std::string& name, MethodId algorithm);
 
 inline constexpr std::array kAlgorithms = {MethodId::kSectors, MethodId::kSvbsp};
-/// "sectors", "svbsp"
+/// As in the table of methods.
 std::string name_of(MethodId algorithm);
 /// Sectors with cells so small that few polygons make a tree and many tasks.
 ShadowOptions with_small_cells(ShadowOptions options);
