@@ -22,7 +22,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithms/one_light/light_scene.h"
+#include "algorithms/lights/light_scene.h"
 #include "algorithms/partition/classified_loop.h"
 #include "algorithms/partition/fragment_stays.h"
 #include "algorithms/partition/plane_tree_filter.h"
