@@ -19,6 +19,7 @@
 #include "gnomon/kernel/kernel_choice.h"
 #include "gnomon/oracle/prepared_check.h"
 #include "gnomon/oracle/verdict.h"
+#include "gnomon/result/claimed_pieces.h"
 #include "gnomon/result/read_claims.h"
 #include "gnomon/scene/digest.h"
 #include "report/certificate/certificate.h"
@@ -44,6 +45,7 @@ struct CertifyCommandOptions {
   double clearance = 0;
   std::optional<std::uint64_t> leaks;
   bool strict = false, subset = false, explain = false, times = false;
+  bool combined = false;
   std::string report_directory;
   std::string json;
   CorpusCommandOptions corpus;  // what certify_corpus.h needs besides
@@ -73,9 +75,18 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
 }
 
 Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const CertifyCommandOptions& options) {
-  if (auto several = several_algorithms(options.algorithm); !several.empty()) return several;
-  const auto algorithm = parse_algorithm_choice(
-      options.algorithm, {{"--explain", options.explain, &Method::explains}}, "both, all");
+  if (auto several = several_algorithms(options.algorithm); !several.empty()) {
+    if (!options.combined) return several;
+    std::erase_if(several, [](const AlgorithmChoice& choice) {
+      return !method_info(choice.point).combines_lights;
+    });
+    return several;
+  }
+  const auto algorithm =
+      parse_algorithm_choice(options.algorithm,
+                             {{"--combined", options.combined, &Method::combines_lights},
+                              {"--explain", options.explain, &Method::explains}},
+                             "both, all");
   if (!algorithm) return tl::unexpected(algorithm.error());
   return std::vector{*algorithm};
 }
@@ -135,6 +146,7 @@ class CertifyRun {
     ShadowOptions shadow_options = options_of(kernel, algorithm);
     const auto seconds = cpu_time(shadow_options);
     shadow_options.output.exact_points = true;
+    shadow_options.output.combined = options_.combined;
     auto result = seconds ? compute_shadows(loaded_.prepared, shadow_options)
                           : Expected<ShadowResult>(tl::unexpected(seconds.error()));
     progress_.clear();
@@ -153,6 +165,7 @@ class CertifyRun {
       run.dropped_slivers += light.dropped_slivers;
     }
     auto candidate = report::claims_of(loaded_.scene, loaded_.prepared, *result, run.name, false);
+    if (options_.combined && !candidate.combined) candidate.combined.emplace();
     const bool explained =
         options_.explain && !kernel.exact() && algorithm.point == MethodId::kSvbsp;
     return judge(std::move(run), std::move(candidate),
@@ -228,7 +241,7 @@ class CertifyRun {
     certify_options.progress = progress_.callback();
     certify_options.interrupted = &interrupted();
     progress_.set_label("judging " + run.name);
-    auto report = oracle::certify(answer_, candidate, certify_options);
+    auto report = certified(candidate, std::move(certify_options));
     progress_.clear();
     if (!report) return tl::unexpected(report.error());
     const bool stopped = report->interrupted;
@@ -240,6 +253,20 @@ class CertifyRun {
     if (!options_.report_directory.empty()) kept_.push_back(std::move(candidate));
     if (stopped) return fail(ErrorCode::kInterrupted, "interrupted");
     return {};
+  }
+
+  /// Of pieces of lights, against the answer of the scene in which each is a light.
+  Expected<oracle::Report> certified(Claims& candidate, oracle::CertifyOptions certify_options) {
+    if (!has_pieces(candidate)) return oracle::certify(answer_, candidate, certify_options);
+    auto pieces = scene_of_pieces(loaded_.scene, loaded_.prepared, candidate);
+    if (!pieces) return tl::unexpected(pieces.error());
+    certify_options.lights.clear();
+    for (std::uint32_t light = 0; light < pieces->source.size(); ++light) {
+      if (std::ranges::find(loaded_.lights, pieces->source[light]) != loaded_.lights.end()) {
+        certify_options.lights.push_back(light);
+      }
+    }
+    return oracle::certify(pieces->scene, pieces->prepared, candidate, certify_options);
   }
 
   std::string first_difference(const KernelChoice& kernel) {
@@ -435,6 +462,9 @@ void add_certify_command(CLI::App& app, Action& action) {
   command
       .add_option("--leaks", options->leaks, "Fail with more invented and lost regions than this")
       ->type_name("N");
+  command.add_flag(
+      "--combined", options->combined,
+      "Also judge each kernel's fragments of all lights together (svbsp, or receiver)");
   command.add_flag("--subset", options->subset,
                    "A candidate need not have all lights and polygons");
   command

@@ -11,6 +11,7 @@
 #include "cli/common/scene_options.h"
 #include "gnomon/oracle/prepared_check.h"
 #include "gnomon/oracle/witness_check.h"
+#include "gnomon/result/claimed_pieces.h"
 #include "gnomon/result/read_claims.h"
 #include "report/json/json_writer.h"
 #include "report/text/number_text.h"
@@ -42,7 +43,8 @@ std::string findings_text(const VerifyOptions& options, const oracle::WitnessRep
   }
   for (const oracle::WitnessFinding& finding : report.findings) {
     std::string place;
-    if (!finding.light.empty()) place += "light " + finding.light;
+    if (finding.block != Block::kLights) place += name_of(finding.block);
+    if (!finding.light.empty()) place += (place.empty() ? "" : ", ") + ("light " + finding.light);
     if (!finding.polygon.empty())
       place += (place.empty() ? "" : ", ") + ("polygon " + finding.polygon);
     if (finding.fragment) place += ", fragment " + std::to_string(*finding.fragment);
@@ -78,6 +80,7 @@ void write_findings_json(report::TextSink& sink, const oracle::WitnessReport& re
   json.begin_array();
   for (const oracle::WitnessFinding& finding : report.findings) {
     json.begin_object(report::JsonLayout::kInline);
+    if (finding.block != Block::kLights) json.member("block", name_of(finding.block));
     json.member("light", finding.light);
     json.member("polygon", finding.polygon);
     if (finding.fragment) json.member("fragment", *finding.fragment);
@@ -91,10 +94,19 @@ void write_findings_json(report::TextSink& sink, const oracle::WitnessReport& re
 
 int run_verify(const VerifyOptions& options) {
   const ThreadLimit threads(options.scene.jobs);
-  const auto loaded = load_scene(options.scene, true);
+  auto loaded = load_scene(options.scene, true);
   if (!loaded) return report_error(loaded.error());
-  const auto candidate = read_claims(options.result, loaded->scene);
+  auto candidate = read_claims(options.result, loaded->scene);
   if (!candidate) return report_error(candidate.error());
+  Scene* scene = &loaded->scene;
+  PreparedScene* prepared = &loaded->prepared;
+  Expected<SceneWithPieces> pieces;
+  if (has_pieces(*candidate)) {
+    pieces = scene_of_pieces(loaded->scene, loaded->prepared, *candidate);
+    if (!pieces) return report_error(pieces.error());
+    scene = &pieces->scene;
+    prepared = &pieces->prepared;
+  }
   const auto scene_findings = oracle::check_prepared(loaded->scene, loaded->prepared);
 
   ProgressBar progress("verify");
@@ -105,8 +117,7 @@ int run_verify(const VerifyOptions& options) {
   witness_options.subset = options.subset || !options.scene.lights.empty();
   witness_options.progress = progress.callback();
   witness_options.interrupted = &interrupted();
-  const auto report =
-      oracle::check_witnesses(loaded->scene, loaded->prepared, *candidate, witness_options);
+  const auto report = oracle::check_witnesses(*scene, *prepared, *candidate, witness_options);
   progress.clear();
 
   if (options.json != "-") {

@@ -59,7 +59,7 @@ struct LightResult {
   std::uint32_t light = 0;  // index into PreparedScene::lights
   // MethodId::kPieces: one result a piece of the light, in order of the pieces; else kWhole.
   std::uint32_t piece = kWhole;
-  // Of that piece, counter-clockwise seen from its front, scene units: if exact points are kept.
+  // Of that piece, counter-clockwise seen from its front, scene units.
   std::vector<std::array<mpq_class, 3>> piece_loop;
   // Point and directional lights: one a part, in order. Area lights: one for each side of a part
   // that sees the light, front before back, or one with kFront and a reason if none does.
