@@ -115,6 +115,10 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
   if (options.output.combined && options.method.area == MethodId::kPieces) {
     return fail(ErrorCode::kUsage, "pieces of lights have no classes together", "whole lights");
   }
+  if (options.output.combined && options.method.options.cover == Cover::kOverlay) {
+    return fail(ErrorCode::kUsage, "shadows of area lights cannot be painted on shadows",
+                "point and directional lights alone, or cover=partition");
+  }
   if (options.output.combined && lights.size() > 64) {
     return fail(ErrorCode::kLimit, std::to_string(lights.size()) + " lights together",
                 "at most 64");
