@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
   add_verify_command(app, action);
   add_render_command(app, action);
   add_info_command(app, action);
+  add_systems_command(app, action);
   add_generate_command(app, action);
   add_convert_command(app, action);
   add_shrink_command(app, action);

@@ -15,6 +15,7 @@ void add_shadows_command(CLI::App& app, Action& action);
 void add_certify_command(CLI::App& app, Action& action);
 void add_verify_command(CLI::App& app, Action& action);
 void add_info_command(CLI::App& app, Action& action);
+void add_systems_command(CLI::App& app, Action& action);
 void add_generate_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
