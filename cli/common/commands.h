@@ -17,6 +17,8 @@ void add_verify_command(CLI::App& app, Action& action);
 void add_info_command(CLI::App& app, Action& action);
 void add_systems_command(CLI::App& app, Action& action);
 void add_generate_command(CLI::App& app, Action& action);
+void add_compare_command(CLI::App& app, Action& action);
+void add_measure_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
 void add_shrink_command(CLI::App& app, Action& action);
