@@ -67,7 +67,9 @@ void join(ShadowResult& result, ShadowResult by_receiver, const LightList& light
 /// A method's result bears the name that its row has.
 Expected<ShadowResult> run_method(MethodId method, MethodLookup lookup, const RunTask& task) {
   Expected<ShadowResult> result = lookup(method, task.options.kernel.id)(task);
-  if (result) result->algorithm = method_text(method, task.options.method.options);
+  if (!result) return result;
+  result->algorithm = method_text(method, task.options.method.options);
+  for (LightResult& light : result->lights) light.method = method;
   return result;
 }
 
@@ -147,6 +149,10 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
   auto by_receiver = lookup(options.method.area,
                             options.kernel.id)({scene, own, rules, ways.by_receiver, together});
   if (!by_receiver) return by_receiver;
+  for (LightResult& light : by_receiver->lights) {
+    const bool area = scene.lights[light.light].has_area();
+    light.method = area ? options.method.area : options.method.point;
+  }
   for (const bool area : {false, true}) {
     const bool is_there = std::ranges::any_of(ways.by_receiver, [&](std::uint32_t light) {
       return scene.lights[light].has_area() == area;
