@@ -2,7 +2,6 @@
 #include "gnomon/result/claimed_pieces.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace gnomon {
@@ -13,7 +12,7 @@ bool has_pieces(const Claims& claims) {
 }
 
 Expected<SceneWithPieces> scene_of_pieces(const Scene& scene, const PreparedScene& prepared,
-                                          Claims& claims) {
+                                          const Claims& claims) {
   std::vector<LightPiece> pieces;
   for (const ClaimedLight& light : claims.lights) {
     if (light.piece_of.empty()) continue;
@@ -25,7 +24,6 @@ Expected<SceneWithPieces> scene_of_pieces(const Scene& scene, const PreparedScen
     error.where.file = claims.name;
     return tl::unexpected(std::move(error));
   }
-  std::ranges::copy(result->gaps, std::back_inserter(claims.problems));
   return result;
 }
 

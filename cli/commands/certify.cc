@@ -19,7 +19,6 @@
 #include "gnomon/kernel/kernel_choice.h"
 #include "gnomon/oracle/prepared_check.h"
 #include "gnomon/oracle/verdict.h"
-#include "gnomon/result/claimed_pieces.h"
 #include "gnomon/result/read_claims.h"
 #include "gnomon/scene/digest.h"
 #include "report/certificate/certificate.h"
@@ -76,10 +75,15 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
 
 Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const CertifyCommandOptions& options) {
   if (auto several = several_algorithms(options.algorithm); !several.empty()) {
-    if (!options.combined) return several;
-    std::erase_if(several, [](const AlgorithmChoice& choice) {
-      return !method_info(choice.point).combines_lights;
+    // As with auto: what cannot combine lights leaves them to the first that can.
+    const auto combining = std::ranges::find_if(methods(), [](const Method& method) {
+      return method.lights.point && method.combines_lights;
     });
+    for (AlgorithmChoice& choice : several) {
+      if (options.combined && !method_info(choice.point).combines_lights) {
+        choice.point = combining->id;
+      }
+    }
     return several;
   }
   const auto algorithm =
@@ -241,7 +245,7 @@ class CertifyRun {
     certify_options.progress = progress_.callback();
     certify_options.interrupted = &interrupted();
     progress_.set_label("judging " + run.name);
-    auto report = certified(candidate, std::move(certify_options));
+    auto report = oracle::certify(answer_, candidate, certify_options);
     progress_.clear();
     if (!report) return tl::unexpected(report.error());
     const bool stopped = report->interrupted;
@@ -253,20 +257,6 @@ class CertifyRun {
     if (!options_.report_directory.empty()) kept_.push_back(std::move(candidate));
     if (stopped) return fail(ErrorCode::kInterrupted, "interrupted");
     return {};
-  }
-
-  /// Of pieces of lights, against the answer of the scene in which each is a light.
-  Expected<oracle::Report> certified(Claims& candidate, oracle::CertifyOptions certify_options) {
-    if (!has_pieces(candidate)) return oracle::certify(answer_, candidate, certify_options);
-    auto pieces = scene_of_pieces(loaded_.scene, loaded_.prepared, candidate);
-    if (!pieces) return tl::unexpected(pieces.error());
-    certify_options.lights.clear();
-    for (std::uint32_t light = 0; light < pieces->source.size(); ++light) {
-      if (std::ranges::find(loaded_.lights, pieces->source[light]) != loaded_.lights.end()) {
-        certify_options.lights.push_back(light);
-      }
-    }
-    return oracle::certify(pieces->scene, pieces->prepared, candidate, certify_options);
   }
 
   std::string first_difference(const KernelChoice& kernel) {

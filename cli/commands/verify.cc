@@ -11,7 +11,6 @@
 #include "cli/common/scene_options.h"
 #include "gnomon/oracle/prepared_check.h"
 #include "gnomon/oracle/witness_check.h"
-#include "gnomon/result/claimed_pieces.h"
 #include "gnomon/result/read_claims.h"
 #include "report/json/json_writer.h"
 #include "report/text/number_text.h"
@@ -94,19 +93,10 @@ void write_findings_json(report::TextSink& sink, const oracle::WitnessReport& re
 
 int run_verify(const VerifyOptions& options) {
   const ThreadLimit threads(options.scene.jobs);
-  auto loaded = load_scene(options.scene, true);
+  const auto loaded = load_scene(options.scene, true);
   if (!loaded) return report_error(loaded.error());
-  auto candidate = read_claims(options.result, loaded->scene);
+  const auto candidate = read_claims(options.result, loaded->scene);
   if (!candidate) return report_error(candidate.error());
-  Scene* scene = &loaded->scene;
-  PreparedScene* prepared = &loaded->prepared;
-  Expected<SceneWithPieces> pieces;
-  if (has_pieces(*candidate)) {
-    pieces = scene_of_pieces(loaded->scene, loaded->prepared, *candidate);
-    if (!pieces) return report_error(pieces.error());
-    scene = &pieces->scene;
-    prepared = &pieces->prepared;
-  }
   const auto scene_findings = oracle::check_prepared(loaded->scene, loaded->prepared);
 
   ProgressBar progress("verify");
@@ -117,7 +107,8 @@ int run_verify(const VerifyOptions& options) {
   witness_options.subset = options.subset || !options.scene.lights.empty();
   witness_options.progress = progress.callback();
   witness_options.interrupted = &interrupted();
-  const auto report = oracle::check_witnesses(*scene, *prepared, *candidate, witness_options);
+  const auto report =
+      oracle::check_witnesses(loaded->scene, loaded->prepared, *candidate, witness_options);
   progress.clear();
 
   if (options.json != "-") {

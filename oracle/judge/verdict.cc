@@ -11,8 +11,10 @@
 #include <mutex>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "gnomon/oracle/visibility.h"
+#include "gnomon/result/claimed_pieces.h"
 #include "gnomon/result/shared_claims.h"
 #include "oracle/judge/point_check.h"
 
@@ -34,8 +36,12 @@ bool is_class_of(LightState shade, bool area) {
 
 class Certifier {
  public:
-  Certifier(const ExactAnswer& answer, const Claims& candidate, const CertifyOptions& options)
-      : answer_(answer), candidate_(candidate), options_(options) {}
+  /// `problems`: that are known of the candidate.
+  Certifier(const ExactAnswer& answer, const Claims& candidate, const CertifyOptions& options,
+            std::vector<std::string> problems = {})
+      : answer_(answer), candidate_(candidate), options_(options) {
+    report_.problems = std::move(problems);
+  }
 
   Report run();
 
@@ -399,6 +405,21 @@ Report Certifier::run() {
   return std::move(report_);
 }
 
+/// Every piece of a light against the answer of the scene in which it is a light.
+Expected<Report> certify_pieces(const ExactAnswer& answer, const Claims& candidate,
+                                CertifyOptions options) {
+  const auto pieces = scene_of_pieces(answer.scene(), answer.prepared(), candidate);
+  if (!pieces) return tl::unexpected(pieces.error());
+  const std::vector<std::uint32_t> wanted = std::exchange(options.lights, {});
+  for (std::uint32_t light = 0; light < pieces->source.size(); ++light) {
+    if (wanted.empty() || std::ranges::find(wanted, pieces->source[light]) != wanted.end()) {
+      options.lights.push_back(light);
+    }
+  }
+  const ExactAnswer of_pieces(pieces->scene, pieces->prepared);
+  return Certifier(of_pieces, candidate, options, pieces->gaps).run();
+}
+
 }  // namespace
 
 const char* name_of(Verdict verdict) {
@@ -438,6 +459,7 @@ Expected<Report> certify(const ExactAnswer& answer, const Claims& candidate,
   if (!(options.clearance >= 0)) {
     return fail(ErrorCode::kUsage, "clearance is negative", "scene units of at least 0");
   }
+  if (has_pieces(candidate)) return certify_pieces(answer, candidate, options);
   return Certifier(answer, candidate, options).run();
 }
 

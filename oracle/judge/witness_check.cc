@@ -12,6 +12,7 @@
 
 #include "gnomon/oracle/compare.h"
 #include "gnomon/oracle/verdict.h"
+#include "gnomon/result/claimed_pieces.h"
 #include "gnomon/result/shared_claims.h"
 #include "oracle/geometry/space_loop.h"
 #include "oracle/judge/light_volumes.h"
@@ -45,7 +46,8 @@ class WitnessChecker {
     }
   }
 
-  WitnessReport run();
+  /// `problems`: that are known of the candidate.
+  WitnessReport run(const std::vector<std::string>& problems = {});
 
  private:
   void violation(const std::string& polygon, std::string text,
@@ -657,7 +659,8 @@ void WitnessChecker::check_claims(const Claims& claims, Block block) {
   }
 }
 
-WitnessReport WitnessChecker::run() {
+WitnessReport WitnessChecker::run(const std::vector<std::string>& problems) {
+  for (const std::string& problem : problems) violation({}, problem);
   const std::vector<Claims> shared = shared_claims(candidate_, scene_);
   const auto count = [&](const Claims& claims) {
     for (const ClaimedLight& light : claims.lights) polygons_ += light.polygons.size();
@@ -676,7 +679,15 @@ WitnessReport WitnessChecker::run() {
 
 WitnessReport check_witnesses(const Scene& scene, const PreparedScene& prepared,
                               const Claims& candidate, const WitnessOptions& options) {
-  return WitnessChecker(scene, prepared, candidate, options).run();
+  if (!has_pieces(candidate)) return WitnessChecker(scene, prepared, candidate, options).run();
+  const auto pieces = scene_of_pieces(scene, prepared, candidate);
+  if (pieces) {
+    return WitnessChecker(pieces->scene, pieces->prepared, candidate, options).run(pieces->gaps);
+  }
+  WitnessReport report;
+  report.violations = 1;
+  report.findings.push_back({{}, {}, pieces.error().what, {}, Block::kLights});
+  return report;
 }
 
 }  // namespace gnomon::oracle

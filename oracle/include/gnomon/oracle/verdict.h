@@ -97,7 +97,9 @@ struct Report {
   }
 };
 
-/// Errors: kUsage (tolerance, width or clearance negative or NaN). An interrupted run is a report.
+/// Pieces of a light are judged as lights, and must tile it. Errors: kUsage (tolerance, width or
+/// clearance negative or NaN); kGeometry (a piece of a light that is none). An interrupted run is a
+/// report.
 Expected<Report> certify(const ExactAnswer& answer, const Claims& candidate,
                          const CertifyOptions& options);
 Expected<Report> certify(const Scene& scene, const PreparedScene& prepared, const Claims& candidate,

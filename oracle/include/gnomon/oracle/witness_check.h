@@ -56,6 +56,7 @@ struct WitnessOptions {
   const std::atomic<bool>* interrupted = nullptr;
 };
 
+/// Pieces of a light are checked as lights, and must tile it.
 WitnessReport check_witnesses(const Scene& scene, const PreparedScene& prepared,
                               const Claims& candidate, const WitnessOptions& options = {});
 

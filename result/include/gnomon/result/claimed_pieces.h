@@ -10,10 +10,9 @@
 namespace gnomon {
 
 bool has_pieces(const Claims& claims);
-/// Lights that their pieces do not tile become problems of the claims. Errors: those of
-/// with_light_pieces(), in the file that the claims are named after.
+/// Errors: those of with_light_pieces(), in the file that the claims are named after.
 Expected<SceneWithPieces> scene_of_pieces(const Scene& scene, const PreparedScene& prepared,
-                                          Claims& claims);
+                                          const Claims& claims);
 
 }  // namespace gnomon
 
