@@ -370,7 +370,6 @@ void WitnessChecker::check_tiling(const ClaimedPolygon& polygon,
   if (!left_out() && abs(mpq_class(whole - sum)) > (exact ? mpq_class(0) : slack)) {
     violation(polygon.id, "the fragments' areas do not add up to the polygon's");
   }
-  check_overlaps(polygon, normal, pieces, slack);
 }
 
 void WitnessChecker::check_family(const ClaimedPolygon& polygon,
@@ -383,11 +382,12 @@ void WitnessChecker::check_family(const ClaimedPolygon& polygon,
   for (std::uint32_t part : parts) whole += area_along(normal, light_->solid(part).loop);
   const mpq_class slack = tolerance_ * whole;
   // Shared fragments tile a side for all lights or for none.
-  if (terms_.block == Block::kLights ||
-      (reached && tiled_.emplace(parts.front(), polygon.side).second)) {
-    check_tiling(polygon, parts, pieces, slack);
-  }
+  const bool tiles = terms_.block == Block::kLights ||
+                     (reached && tiled_.emplace(parts.front(), polygon.side).second);
+  if (tiles) check_tiling(polygon, parts, pieces, slack);
+  // Loops of one level may overlap under one of a higher level.
   if (terms_.cover == Cover::kOverlay) pieces = cut_to_visible(std::move(pieces), normal);
+  if (tiles) check_overlaps(polygon, normal, pieces, slack);
   bool exact = true;
   for (const Piece& piece : pieces) {
     exact = exact && piece.fragment->exact;
