@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -20,9 +21,9 @@ namespace {
 
 /// Scenes of one size: Chin & Feiner 1989, Table 1; Slater 1992, Tables 1 to 3; 1992's area lights.
 const std::vector<std::string> kPapers = {
-    "solids",      "tetra-staircase", "table-chair",
-    "room",        "tetra:level=4",   "tetra:level=3,ground=1",
-    "slater-room", "figure-4f",       "figure-6"};
+    "solids",        "tetra-staircase",        "table-chair",       "room",
+    "tetra:level=4", "tetra:level=3,ground=1", "slater-room:n=138", "figure-4f",
+    "figure-6"};
 /// Boxes on a lattice with room for all of them; pages, tiles and triangles as dense as they are.
 const std::vector<std::string> kFamilies = {
     "city",         "quads",   "lattice:size=20", "coplanar-tiles", "touching-boxes:size=14",

@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <csignal>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -269,28 +270,19 @@ Expected<Comparison> compare(const ComparePlan& plan, const RunProgram& program,
     // A reference that is no row itself is not judged.
     if (std::ranges::find(*all, reference, &Planned::request) == all->end())
       reference.certify_up_to = 0;
-    std::optional<Error> error;
-    Row row{request, polygons, {}, {}, command_of(request, plan.limits)};
-    auto measured = run(reference);
+    const auto base = run(reference);
+    auto measured = base ? run(request) : base;
     if (!measured) {
-      error = measured.error();
-    } else {
-      const Measurement base = std::move(*measured);
-      measured = run(request);
-      if (!measured) {
-        error = measured.error();
-      } else {
-        row.measurement = std::move(*measured);
-        if (base.timed() && base.seconds > 0 && row.measurement.timed()) {
-          row.ratio = row.measurement.seconds / base.seconds;
-        }
+      if (measured.error().code != ErrorCode::kInterrupted) {
+        return tl::unexpected(measured.error());
       }
-    }
-    if (error && error->code == ErrorCode::kInterrupted) {
       comparison.interrupted = true;
       break;
     }
-    if (error) return tl::unexpected(*error);
+    Row row{request, polygons, std::move(*measured), {}, command_of(request, plan.limits)};
+    if (base->timed() && base->seconds > 0 && row.measurement.timed()) {
+      row.ratio = row.measurement.seconds / base->seconds;
+    }
     comparison.rows.push_back(std::move(row));
   }
   comparison.growth = growth_of(comparison.rows);

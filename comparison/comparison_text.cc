@@ -2,9 +2,11 @@
 #include "comparison/comparison_text.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
-#include <utility>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "gnomon/algorithms/method.h"
 #include "gnomon/algorithms/method_options.h"
