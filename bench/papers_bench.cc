@@ -233,6 +233,8 @@ void slater(Extent extent) {
       if (!method.lights.point || !row.output.contains(method.name)) continue;
       ShadowOptions options = paper_options({0});
       options.method.point = method.id;
+      // As in the paper: shadow polygons over polygons that stay whole.
+      if (method.overlays) options.method.options.cover = Cover::kOverlay;
       const ShadowResult result = shadows_or_stop(scene, options);
       if (method.id == MethodId::kSvbsp) {
         seconds = median(interleaved({[&] { shadows_or_stop(scene, options); }}, kRounds)[0].cpu);
