@@ -6,6 +6,7 @@
 #define GNOMON_ALGORITHMS_SECTORS_TWO_PASS_LEAF_H
 
 #include <cstdint>
+#include <limits>
 
 #include "algorithms/sectors/sector_tree.h"
 
@@ -16,9 +17,12 @@ void SectorTree<Space>::clip_lists(std::uint32_t begin, std::uint32_t end) {
   const std::uint32_t loops_mark = loops_.size(), planes_mark = space_.plane_mark();
   pieces_.clear();
   clipped_.clear();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (std::uint32_t i = begin; i < end; ++i) {
     const SectorItem& item = items_[i];
-    pieces_.push_back({{item.first, item.count, item.part}, i, item, item.z_high});
+    // Of a floor under a vertical sun doubles may know no depth: it is not the nearest for that.
+    const float nearest = item.z_high < kInfinity ? item.z_high : -kInfinity;
+    pieces_.push_back({{item.first, item.count, item.part}, i, item, nearest});
   }
   lists_.run({space_, context_->scene, context_->facing, loops_, context_->rules, output_.work},
              pieces_, [&](PlaneRef edge) { return is_cell_plane(edge); }, [&] { return stopped(); },

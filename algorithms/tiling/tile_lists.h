@@ -5,7 +5,7 @@
 //
 // Departs from the paper: when a later volume holds a closing one, so that this one is dropped, the
 // later one takes its place in the tiles that it closed; else the shadow there would be lost
-// (systems: S2.2; tests/algorithms/tiling_test.cc has the smallest scene).
+// (systems: S2.2; tests/algorithms/system_counts_test.cc has the smallest scene).
 #ifndef GNOMON_ALGORITHMS_TILING_TILE_LISTS_H
 #define GNOMON_ALGORITHMS_TILING_TILE_LISTS_H
 

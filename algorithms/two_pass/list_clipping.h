@@ -129,8 +129,15 @@ class ListClipping {
     planes_.clear();
     for (std::uint32_t i = 0; i < by.loop.count; ++i) {
       const PlaneRef edge = setting.loops.edge(by.loop.first + i);
-      // Where a support plane cut a piece, only that piece ends.
-      if (edge.index() >= first_cut_ || !bounds_all(edge)) planes_.push_back(edge);
+      if (edge.index() >= first_cut_) {
+        // Where a support plane cut a piece, only that piece ends. Others are cut in the plane
+        // through the light.
+        planes_.push_back(setting.space.shadow_plane(
+            edge, setting.loops.vertex(by.loop.first + i),
+            setting.loops.vertex(by.loop.first + (i + 1 == by.loop.count ? 0 : i + 1))));
+      } else if (!bounds_all(edge)) {
+        planes_.push_back(edge);
+      }
     }
     const std::uint64_t cuts = clip_.cuts();
     for (auto i = begin; i < pool_.size(); ++i) {

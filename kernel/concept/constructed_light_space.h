@@ -71,9 +71,10 @@ class ConstructedLightSpace {
   /// Vertices carry coordinates, so that an edge cut for another light needs no plane here.
   PlaneRef import_cut(const Derived&, PlaneRef, PlaneId) { return {}; }
   void finish_vertex(Vertex&, PlaneRef, PlaneRef) const {}
-  /// With identity an edge keeps its plane; without, a new one is computed from the two vertices.
+  /// With identity an edge keeps its plane, unless it was cut along a support plane; a new one is
+  /// computed from the two vertices.
   PlaneRef shadow_plane(PlaneRef edge, const Vertex& from, const Vertex& to) {
-    return identity_ ? edge : add(self().shadow_plane_of(from, to));
+    return identity_ && !is_cut(edge) ? edge : add(self().shadow_plane_of(from, to));
   }
 
   void make_edge_planes(EdgeId begin, EdgeId end) {
@@ -158,6 +159,9 @@ class ConstructedLightSpace {
 
   const Derived& self() const { return static_cast<const Derived&>(*this); }
   bool is_edge(PlaneRef ref) const { return ref.index() < edge_count_; }
+  bool is_cut(PlaneRef ref) const {
+    return ref.valid() && !is_edge(ref) && own_[ref.index() - edge_count_].is_cut();
+  }
   bool is_cut_along(PlaneRef ref, PlaneId support) const {
     return !is_edge(ref) && own_[ref.index() - edge_count_].support == support;
   }

@@ -88,21 +88,34 @@ Side ImplicitLightSpace<Stats>::undecided_depth(PlaneId plane, const Corner<Vert
       is_cut_of(corner.after, corner.support, plane)) {
     return stages_.known_on();  // identity (5)
   }
-  // A vertex on an edge of its own polygon lies between the edge's ends: two decisions of degree 3
-  // often save one of degree 9. A polygon that shares the edge is the common case.
-  for (const PlaneRef ref : {corner.before, corner.after}) {
+  // A vertex on an edge of its own polygon lies between the edge's ends: a few decisions of degree
+  // 3 often save one of degree 9. A polygon that shares the edge is the common case.
+  for (const bool first : {true, false}) {
+    const PlaneRef ref = first ? corner.before : corner.after;
     if (!is_edge(ref)) continue;
     const EdgeEnds ends = ends_of(ref);
     if (input_depth(corner.support, ends.a) != Sign::kZero ||
         input_depth(corner.support, ends.b) != Sign::kZero) {
-      continue;  // an edge of another polygon
+      continue;  // an edge of another plane
     }
     const Sign a = input_depth(plane, ends.a), b = input_depth(plane, ends.b);
-    if (a == b) return side_of(a);
-    if (a == Sign::kZero) return side_of(b);
-    if (b == Sign::kZero) return side_of(a);
+    if (a == -b && a != Sign::kZero) continue;
+    if (!is_between(ends, first ? corner.after : corner.before)) continue;  // of another polygon
+    return side_of(a == Sign::kZero ? b : a);
   }
   return side_of(exact_depth_of_crossing(plane, corner));
+}
+
+// Polygons of one plane may be cut by each other's edges, where these end, and beyond.
+template <class Stats>
+bool ImplicitLightSpace<Stats>::is_between(const EdgeEnds& ends, PlaneRef cut) {
+  const auto side = [&](VertexId vertex) {
+    return is_edge(cut) && is_made_from(ends_of(cut), vertex)
+               ? stages_.known(Sign::kZero)
+               : exact_side_of_input(PlaneRef(cut.index()), vertex);
+  };
+  const Sign a = side(ends.a);
+  return a != Sign::kZero && a == -side(ends.b);
 }
 
 // The cut of the two support planes against the crossing's ray.

@@ -86,6 +86,9 @@ class ImplicitLightSpace : public LightPositions {
   Sign exact_side_of_input(PlaneRef plane, VertexId vertex);
   Sign exact_side_of_crossing(PlaneRef plane, const Corner<Vertex>& corner);
   Side undecided_depth(PlaneId plane, const Corner<Vertex>& corner);
+  /// Whether the point where an edge and a plane through the light meet lies between the edge's
+  /// ends, and at neither of them.
+  bool is_between(const EdgeEnds& ends, PlaneRef cut);
   Sign exact_depth_of_crossing(PlaneId plane, const Corner<Vertex>& corner);
   Sign input_depth(PlaneId plane, VertexId vertex);
 
