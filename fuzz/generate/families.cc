@@ -6,6 +6,7 @@
 
 #include "fuzz/generate/random_shapes.h"
 #include "fuzz/generate/scene_pen.h"
+#include "fuzz/generate/small_lattice.h"
 #include "scene/base/random.h"
 
 namespace gnomon::fuzz {
@@ -350,6 +351,7 @@ const std::vector<Family>& families() {
       {"MixedMagnitudes", mixed_magnitudes, 3, 50},
       {"Decimals", decimals, 2, 200},
       {"Repaired", repaired, 2, 200},
+      {"SmallLattice", small_lattice, 2, 200, false},
   };
   return all;
 }

@@ -18,6 +18,9 @@ struct Family {
   Scene (*make)(std::uint64_t seed);
   unsigned blocks = 1;    // tests that an exact suite makes of it
   unsigned scenes = 100;  // seeds in each of them
+  /// Drawn by the generators `mix` and `area-mix`. A family that joins them changes the scene of
+  /// every seed.
+  bool in_mix = true;
 };
 
 const std::vector<Family>& families();

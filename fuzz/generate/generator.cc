@@ -51,6 +51,13 @@ std::vector<Kind> kinds_in_family(std::string_view name) {
       {"MixedMagnitudes", {Kind::kMixedMagnitudes}},
       {"Decimals", {Kind::kDecimals}},
       {"Repaired", {Kind::kNonConvex}},
+      {"SmallLattice", {Kind::kCoplanar,           Kind::kOverlap,         Kind::kDuplicate,
+                        Kind::kBackToBack,         Kind::kSharedEdge,      Kind::kSharedVertex,
+                        Kind::kTJunction,          Kind::kEdgeOverlap,     Kind::kVertexInFace,
+                        Kind::kCrossing,           Kind::kLightInPlane,    Kind::kLightOnFace,
+                        Kind::kLightOnEdge,        Kind::kLightOnEdgeLine, Kind::kLightAtVertex,
+                        Kind::kSunInPlane,         Kind::kSunAlongEdge,    Kind::kShadowEdges,
+                        Kind::kShadowVertexOnEdge, Kind::kShadowVertices,  Kind::kCyclicOverlap}},
   };
   const auto found = kHeld.find(name);
   return found == kHeld.end() ? std::vector<Kind>{} : found->second;
@@ -439,7 +446,10 @@ Expected<Generator> Generator::parse(std::string_view text) {
   }
   if (mix) {
     recipe->soups = all_soups(area);
-    recipe->families = all_families(area);
+    const auto& families = area ? area_families() : fuzz::families();
+    for (Base& each : all_families(area)) {
+      if (families[each.index].in_mix) recipe->families.push_back(std::move(each));
+    }
     recipe->scenes = hard_scenes(area);
     for (const auto* list : {&recipe->soups, &recipe->families, &recipe->scenes}) {
       for (const Base& each : *list) expected.push_back(each.kind);
@@ -449,6 +459,10 @@ Expected<Generator> Generator::parse(std::string_view text) {
     if (!area) expected.push_back(id_of(Kind::kNestedBoxes));
   } else {
     expected.push_back(recipe->base.kind);
+    // A move that is put on every scene may undo what the base holds.
+    if (moves->empty()) {
+      for (const Kind kind : recipe->base.others) expected.push_back(id_of(kind));
+    }
   }
   std::ranges::sort(expected);
   expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
