@@ -69,6 +69,9 @@ TEST(Measurement, TellsMoreAndMore) {
 
 TEST(Measurement, EverySystemGivesOneAnswerOnEveryExactKernel) {
   const std::string answer = measure(request("svbsp", "plane")).checksum;
+  RunRequest crossing = request("two-pass", "rational");
+  crossing.scene = "lattice:n=24";
+  EXPECT_TRUE(measure(crossing).judgement->confirms);
   for (const char* system : {"sectors", "svbsp", "receiver", "basic", "tiling:tiles=16",
                              "svbsp-full", "two-pass", "two-pass:cells=off"}) {
     for (const char* kernel : {"plane", "rational", "epeck"}) {
