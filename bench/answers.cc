@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "scene/base/text_hash.h"
+#include "comparison/answer_checksum.h"
 #include "scenes.h"
 
 namespace gnomon::bench {
@@ -34,22 +34,19 @@ std::vector<NamedAlgorithm> named_methods(bool (*wanted)(LightKinds)) {
 
 ExactAnswers exact_answers(const ShadowResult& result) {
   ExactAnswers answers;
-  TextHash hash;
+  answers.checksum = comparison::exact_checksum(result);
   for (const LightResult& light : result.lights) {
     for (std::size_t i = 0; i < light.parts.size(); ++i) {
       const PartResult& part = light.parts[i];
-      hash.add(fmt::format("{} {} {}\n", light.light, part.part, part.exact_lit.get_str()));
       answers.lit.push_back(part.exact_lit.get_d());
       mpq_class sum = part.exact_lit + part.exact_shadow;
       if (!light.area_fractions.empty()) {
         const AreaFractions& area = light.area_fractions[i];
-        hash.add(area.exact_penumbra.get_str() + "\n");
         sum += area.exact_penumbra + area.exact_umbra;
       }
       if (sum != 1) answers.sums_to_one = false;
     }
   }
-  answers.checksum = fmt::format("{:016x}", hash.value());
   return answers;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gnomon_bench [--short | --long] [PART...] [--benchmark_...]
 //
-// Parts: targets kernels area papers scene-bsp pitfalls thickness; all but the last two by default.
+// Parts: targets kernels area papers scene-bsp pitfalls thickness systems; all but the last three
+// by default.
 // Exit status: 0; 1 if exact kernels, algorithms or peers gave different answers, or fractions that
-// do not add up to 1; 2 bad usage. (`child` and its arguments are for the program itself: child.h.)
+// do not add up to 1; 2 bad usage. (`child` and `measure` with their arguments are for the program
+// itself: child.h, comparison/run_measurement.h.)
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -13,6 +15,7 @@
 #include <string_view>
 
 #include "child.h"
+#include "comparison/run_measurement.h"
 #include "machine.h"
 #include "parts.h"
 
@@ -29,8 +32,11 @@ constexpr const char* kUsage =
     "  scene-bsp  splits, depth, memory and time of the scene BSP\n"
     "  pitfalls   scenes that are known to hurt\n"
     "  thickness  plane thickness of the rounded kernels against wrong answers\n"
+    "  systems    every system on every kernel, on all scenes, by size: the table of `gnomon\n"
+    "             compare`\n"
     "\n"
-    "Without PART: all but pitfalls and thickness. --short takes seconds; --long adds a million\n"
+    "Without PART: all but pitfalls, thickness and systems. --short takes seconds; --long adds a "
+    "million\n"
     "polygons to the scene BSP, full sizes for the slow exact kernels, and repetitions. Options\n"
     "that begin with --benchmark_ go to Google Benchmark.\n";
 
@@ -39,19 +45,23 @@ struct NamedPart {
   bool (*run)(gnomon::bench::Extent);
   bool usual;  // runs where no part is named
 };
-constexpr std::array<NamedPart, 7> kParts{{{"targets", gnomon::bench::run_targets, true},
+constexpr std::array<NamedPart, 8> kParts{{{"targets", gnomon::bench::run_targets, true},
                                            {"kernels", gnomon::bench::run_kernels, true},
                                            {"area", gnomon::bench::run_area, true},
                                            {"papers", gnomon::bench::run_papers, true},
                                            {"scene-bsp", gnomon::bench::run_scene_bsp, true},
                                            {"pitfalls", gnomon::bench::run_pitfalls, false},
-                                           {"thickness", gnomon::bench::run_thickness, false}}};
+                                           {"thickness", gnomon::bench::run_thickness, false},
+                                           {"systems", gnomon::bench::run_systems, false}}};
 
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace gnomon::bench;
   if (argc > 1 && std::string_view(argv[1]) == "child") return child_main(argc - 2, argv + 2);
+  if (argc == 3 && std::string_view(argv[1]) == "measure") {
+    return gnomon::comparison::measurement_main(argv[2]);
+  }
   benchmark::Initialize(&argc, argv);
   Extent extent = Extent::kUsual;
   std::array<bool, kParts.size()> chosen{};

@@ -31,6 +31,9 @@ bool run_targets(Extent extent);
 bool run_area(Extent extent);
 /// Scenes that are known to hurt, n = 250 to 4,000: pieces, time, growth.
 bool run_pitfalls(Extent extent);
+/// Every system on every kernel, on the papers' scenes and families of hard ones, in one table.
+/// False if an exact kernel is not confirmed, or exact answers differ.
+bool run_systems(Extent extent);
 /// Pieces of the scene BSP of all polygons.
 std::uint64_t scene_bsp_pieces(const PreparedScene& scene);
 

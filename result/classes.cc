@@ -49,6 +49,18 @@ const char* name_of(ShadowReason reason) {
 
 const char* name_of(Cover cover) { return cover == Cover::kOverlay ? "overlay" : "partition"; }
 
+const char* name_of(Block block) {
+  switch (block) {
+    case Block::kLights:
+      return "lights";
+    case Block::kCombined:
+      return "combined";
+    case Block::kOverlay:
+      return "overlay";
+  }
+  return "";
+}
+
 std::optional<LightState> light_state_by_name(std::string_view name) {
   return value_named(
       {LightState::kLit, LightState::kShadow, LightState::kPenumbra, LightState::kUmbra}, name);

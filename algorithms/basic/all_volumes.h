@@ -21,9 +21,9 @@ class AllVolumes {
 
   /// Valid until the next call of any function.
   std::span<const VolumeId> of_target(const Loop&) { return alive(); }
-  /// Those that the volume of a piece may hold.
-  std::span<const VolumeId> of_caster(const Loop&) { return alive(); }
-  /// Requires: of_caster() was asked for it last.
+  /// The same for any other loop: one on the target, or a piece that casts.
+  std::span<const VolumeId> met_by(const Loop&) { return alive(); }
+  /// Requires: met_by() was asked for it last.
   void insert(VolumeId id) { alive_.push_back(id); }
   std::uint64_t subtract(const Loop& target, std::span<const VolumeId> volumes,
                          ClassifiedLoops<typename Space::Vertex>& output) {

@@ -16,13 +16,16 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "algorithms/basic/volume_list.h"
-#include "algorithms/one_light/light_groups.h"
-#include "algorithms/one_light/light_sink.h"
+#include "algorithms/lights/light_groups.h"
+#include "algorithms/lights/light_sink.h"
+#include "algorithms/lights/painted_shadows.h"
+#include "algorithms/lights/pipeline.h"
 
 namespace gnomon {
 
@@ -40,8 +43,11 @@ class GroupRun {
         volumes_(light),
         candidates_(light, volumes_, arguments...) {}
 
-  template <class Progress>
-  RunOutcome run(const SceneBsp<SceneVertex>& bsp, const Progress& progress) {
+  /// `progress(done)` gets the number of nodes done; `with_others(piece, side)` is called for each
+  /// piece when it is a target: classify() and paint() then do the same to other loops on it.
+  template <class Progress, class WithOthers>
+  RunOutcome run(const SceneBsp<SceneVertex>& bsp, const Progress& progress,
+                 const WithOthers& with_others) {
     vanished_ = bsp.vanished;
     return for_each_group(light_, bsp, progress, [&](std::span<const std::uint32_t> group) {
       counts_[Counter::kScenePieces] += group.size();
@@ -55,13 +61,34 @@ class GroupRun {
         if (!light_.rules.tiles_close_after_their_plane_received) {
           for (Target& target : targets_) cast(target, {.kill = false, .insert = true});
         }
-        for (Target& target : targets_) receive(target);
+        for (Target& target : targets_) {
+          receive(target);
+          with_others(target.piece, light_.facing.facing[target.loop.part].side);
+        }
         for (Target& target : targets_) cast(target, {.kill = true, .insert = true});
       }
       const std::size_t most = std::max(tiling_.fragments.size(), painted_.fragments.size());
       return most > light_.options.limits.fragments ? RunOutcome::kTooManyFragments
                                                     : RunOutcome::kDone;
     });
+  }
+
+  /// Puts out what becomes of a loop on the present target, and counts nothing.
+  void classify(const Loop& loop, ClassifiedLoops<Vertex>& output) {
+    if (const VolumeId cover = find_near(loop); cover != kNoVolume) {
+      output.add_shadow(loop, volumes_.caster(cover));
+    } else {
+      candidates_.subtract(loop, near_, output);
+    }
+  }
+  /// Calls put(inside) for each shadow polygon on a loop on the present target.
+  template <class Put>
+  void paint(const Loop& loop, const Put& put) {
+    if (find_near(loop) != kNoVolume) {
+      put(loop);
+    } else {
+      volumes_.paint(loop, near_, [&](VolumeId, const Loop& inside) { put(inside); });
+    }
   }
 
   LightResult finish() {
@@ -79,6 +106,7 @@ class GroupRun {
   static constexpr VolumeId kNoVolume = std::numeric_limits<VolumeId>::max();
   struct Target {
     LoopRange loop;  // in group_loops_
+    std::uint32_t piece = 0;
     bool covered = false;
     VolumeId volume = kNoVolume;
     bool inserted = false;
@@ -97,7 +125,7 @@ class GroupRun {
     for (const std::uint32_t index : group) {
       const LoopRange& piece = bsp.pieces[index];
       targets_.push_back(
-          {light_.import(bsp.loops.view(piece, light_.plane_of(piece.part)), group_loops_)});
+          {light_.import(bsp.loops.view(piece, light_.plane_of(piece.part)), group_loops_), index});
     }
   }
 
@@ -121,6 +149,17 @@ class GroupRun {
       return;
     }
     put_out(loop);
+  }
+
+  /// Finds the volumes that a loop may have something inside of, or one that holds all of it.
+  VolumeId find_near(const Loop& loop) {
+    near_.clear();
+    for (const VolumeId id : candidates_.met_by(loop)) {
+      const ConePlace place = id < first_own_ ? volumes_.place(id, loop) : ConePlace::kOutside;
+      if (place == ConePlace::kInside && options_.prune) return id;
+      if (place != ConePlace::kOutside) near_.push_back(id);
+    }
+    return kNoVolume;
   }
 
   void put_out_covered(const Loop& loop, VolumeId id) {
@@ -161,7 +200,7 @@ class GroupRun {
       ++counts_[Counter::kVolumes];
     }
     const VolumeId own = target.volume;
-    const std::span<const VolumeId> met = candidates_.of_caster(volumes_.loop(own));
+    const std::span<const VolumeId> met = candidates_.met_by(volumes_.loop(own));
     if (steps.kill && options_.prune) {
       for (const VolumeId other : met) {
         if (other == own || !volumes_.holds(own, volumes_.loop(other))) continue;
@@ -199,14 +238,39 @@ Expected<ShadowResult> compute_by_groups(const RunTask& task, Arguments... argum
   for (const std::uint32_t light : task.lights) lights.emplace_back(task, scene_space, light);
   const auto bsp = order_scene(task, scene_space, lights, result);
   if (!bsp) return tl::unexpected<Error>(bsp.error());
+  std::optional<Pipeline<Space>> pipeline;
+  std::optional<PaintedShadows<Space>> painted;
+  if (!task.combined.empty()) {
+    if (const auto few = check_light_count(lights.size()); !few) {
+      return tl::unexpected<Error>(few.error());
+    }
+    if (options.method.options.cover == Cover::kOverlay) {
+      painted.emplace(task.scene, lights, *bsp);
+    } else {
+      pipeline.emplace(task.scene, lights, *bsp);
+    }
+  }
   const LightProgress progress(options.control, bsp->nodes.size(), lights.size());
-  for (std::size_t i = 0; i < lights.size(); ++i) {
+  for (std::uint32_t i = 0; i < lights.size(); ++i) {
     GroupRun<Space, Candidates> run(lights[i], options.method.options, arguments...);
-    const RunOutcome outcome = run.run(*bsp, [&](std::size_t nodes) { progress(i, nodes); });
+    const RunOutcome outcome = run.run(
+        *bsp, [&](std::size_t nodes) { progress(i, nodes); },
+        [&](std::uint32_t piece, Side side) {
+          if (pipeline) {
+            pipeline->filter(piece, side, i,
+                             [&](const auto& loop, auto& output) { run.classify(loop, output); });
+          }
+          if (painted) {
+            painted->filter(piece, side, i,
+                            [&](const auto& loop, const auto& put) { run.paint(loop, put); });
+          }
+        });
     if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
     result.stages += lights[i].space.stage_counts();
     result.lights.push_back(run.finish());
   }
+  if (pipeline) pipeline->put_out(task, result);
+  if (painted) painted->put_out(task, result);
   result.stages += scene_space.stage_counts();
   result.shadow_seconds = cpu_seconds() - start - result.scene_bsp_seconds;
   return result;

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/one_light/light_scene.h"
+#include "algorithms/lights/light_scene.h"
 #include "algorithms/partition/classified_loop.h"
 #include "algorithms/partition/cone_clip.h"
 #include "algorithms/partition/fragment_stays.h"

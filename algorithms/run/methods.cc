@@ -75,6 +75,7 @@ constexpr std::array kMethods = {
            .summary = "each polygon against all shadow volumes before it",
            .source = "Slater 1992, section 3",
            .lights = {.point = true},
+           .combines_lights = true,
            .overlays = true,
            .options = kBasicOptions,
            .counters = kBasicCounters},
@@ -83,6 +84,7 @@ constexpr std::array kMethods = {
            .summary = "the same, against those in its tiles of a cube around the light",
            .source = "Slater 1992, section 5",
            .lights = {.point = true},
+           .combines_lights = true,
            .overlays = true,
            .options = kTilingOptions,
            .counters = kTilingCounters},
@@ -115,6 +117,34 @@ MethodFunction on_kernel(KernelId kernel) {
 std::span<const Method> methods() { return kMethods; }
 
 const Method& method_info(MethodId id) { return *std::ranges::find(kMethods, id, &Method::id); }
+
+std::string_view name_of(Domain domain) {
+  return domain == Domain::kObjectSpace ? "object space" : "image space";
+}
+
+std::vector<std::string_view> names_of(const MethodNeeds& needs) {
+  std::vector<std::string_view> names;
+  if (needs.closed_meshes) names.emplace_back("closed meshes");
+  if (needs.camera) names.emplace_back("a camera");
+  if (needs.one_hemisphere) names.emplace_back("all polygons in one hemisphere of the light");
+  return names;
+}
+
+std::string name_of(LightKinds lights) {
+  std::string name = lights.point ? "point, directional" : "";
+  if (lights.area) name += name.empty() ? "area" : ", area";
+  return name;
+}
+
+std::vector<std::string_view> abilities(const Method& method) {
+  std::vector<std::string_view> names;
+  if (method.combines_lights) names.emplace_back("combined");
+  if (method.explains) names.emplace_back("explain");
+  if (method.overlays) names.emplace_back("overlay");
+  if (method.threads) names.emplace_back("threads");
+  if (method.names_casters) names.emplace_back("witness");
+  return names;
+}
 
 std::optional<MethodId> method_by_name(std::string_view name) {
   for (const Method& method : kMethods) {

@@ -298,7 +298,7 @@ void ReceiverRun<Space>::run_pieces(std::uint32_t index, double from, double to,
     LightResult result;
     result.light = index;
     result.piece = i;
-    for (std::uint32_t k = 0; options_.output.exact_points && k < piece.size(); ++k) {
+    for (std::uint32_t k = 0; k < piece.size(); ++k) {
       result.piece_loop.push_back(space_.exact_position(piece.corner(k)));
     }
     result = run_light(light, std::move(result), from + (to - from) * (i / count),

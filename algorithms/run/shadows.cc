@@ -67,7 +67,9 @@ void join(ShadowResult& result, ShadowResult by_receiver, const LightList& light
 /// A method's result bears the name that its row has.
 Expected<ShadowResult> run_method(MethodId method, MethodLookup lookup, const RunTask& task) {
   Expected<ShadowResult> result = lookup(method, task.options.kernel.id)(task);
-  if (result) result->algorithm = method_text(method, task.options.method.options);
+  if (!result) return result;
+  result->algorithm = method_text(method, task.options.method.options);
+  for (LightResult& light : result->lights) light.method = method;
   return result;
 }
 
@@ -115,6 +117,10 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
   if (options.output.combined && options.method.area == MethodId::kPieces) {
     return fail(ErrorCode::kUsage, "pieces of lights have no classes together", "whole lights");
   }
+  if (options.output.combined && options.method.options.cover == Cover::kOverlay) {
+    return fail(ErrorCode::kUsage, "shadows of area lights cannot be painted on shadows",
+                "point and directional lights alone, or cover=partition");
+  }
   if (options.output.combined && lights.size() > 64) {
     return fail(ErrorCode::kLimit, std::to_string(lights.size()) + " lights together",
                 "at most 64");
@@ -143,6 +149,10 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
   auto by_receiver = lookup(options.method.area,
                             options.kernel.id)({scene, own, rules, ways.by_receiver, together});
   if (!by_receiver) return by_receiver;
+  for (LightResult& light : by_receiver->lights) {
+    const bool area = scene.lights[light.light].has_area();
+    light.method = area ? options.method.area : options.method.point;
+  }
   for (const bool area : {false, true}) {
     const bool is_there = std::ranges::any_of(ways.by_receiver, [&](std::uint32_t light) {
       return scene.lights[light].has_area() == area;

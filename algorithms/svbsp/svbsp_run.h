@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The SVBSP method from a prepared scene to a result: one scene BSP, and for each light the
 // front-to-back order, the SVBSP tree and its output (Chin & Feiner 1989, sec. 4); lights together
-// go through the pipeline of many_lights.h.
+// go through the pipeline of lights/pipeline.h.
 #ifndef GNOMON_ALGORITHMS_SVBSP_SVBSP_RUN_H
 #define GNOMON_ALGORITHMS_SVBSP_SVBSP_RUN_H
 
@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/one_light/light_groups.h"
-#include "algorithms/one_light/light_sink.h"
+#include "algorithms/lights/light_groups.h"
+#include "algorithms/lights/light_sink.h"
+#include "algorithms/lights/pipeline.h"
 #include "algorithms/svbsp/balanced_prefix.h"
 #include "algorithms/svbsp/by_svbsp.h"
-#include "algorithms/svbsp/many_lights.h"
 #include "algorithms/svbsp/svbsp.h"
 #include "algorithms/svbsp/svbsp.inl.h"
 #include "kernel/concept/kernel_model.h"
@@ -130,26 +130,6 @@ class SvbspRun {
   LoopStore<Vertex> imported_;
 };
 
-/// Lights together, as the result tells of them.
-template <LightSpaceModel Space>
-void put_out_combined(Pipeline<Space>& pipeline, const RunTask& task, ShadowResult& result) {
-  const PreparedScene& scene = task.scene;
-  const RunOptions options = run_options_of(task.options);
-  pipeline.for_each([&](std::uint32_t part, Side side, std::uint64_t lit_by, const Space& space,
-                        const LoopView<typename Space::Vertex>& loop) {
-    CombinedFragment fragment{part, side, lit_by};
-    export_loop(space, scene.geometry, options, loop, fragment, result.combined_points,
-                result.combined_exact_points);
-    result.combined.push_back(fragment);
-  });
-  const auto key = [&](const CombinedFragment& fragment) {
-    return std::pair(scene.parts[fragment.part].polygon, -static_cast<int>(fragment.side));
-  };
-  std::stable_sort(
-      result.combined.begin(), result.combined.end(),
-      [&](const CombinedFragment& a, const CombinedFragment& b) { return key(a) < key(b); });
-}
-
 template <LightSpaceModel Space>
 Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
   const ShadowOptions& options = task.options;
@@ -164,12 +144,10 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
   for (LightScene<Space>& light : lights) runs.emplace_back(light);
   std::optional<Pipeline<Space>> pipeline;
   if (!task.combined.empty()) {
-    if (runs.size() > 64) {
-      return fail(ErrorCode::kLimit, std::to_string(runs.size()) + " lights together",
-                  "at most 64");
+    if (const auto few = check_light_count(runs.size()); !few) {
+      return tl::unexpected<Error>(few.error());
     }
-    pipeline.emplace(task.scene, scene_space, *bsp);
-    for (LightScene<Space>& light : lights) pipeline->add_space(light.space);
+    pipeline.emplace(task.scene, lights, *bsp);
   }
   const LightProgress progress(options.control, bsp->nodes.size(), runs.size());
   for (std::uint32_t i = 0; i < runs.size(); ++i) {
@@ -177,13 +155,16 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
     const RunOutcome outcome = run.run(
         *bsp, [&](std::size_t nodes) { progress(i, nodes); },
         [&](std::uint32_t piece, Side side) {
-          if (pipeline) pipeline->filter(piece, side, i, run.tree());
+          if (!pipeline) return;
+          pipeline->filter(piece, side, i, [&](const auto& loop, auto& output) {
+            run.tree().filter(loop, {.classify = true, .insert = false}, output);
+          });
         });
     if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
     result.stages += lights[i].space.stage_counts();
     result.lights.push_back(run.finish());
   }
-  if (pipeline) put_out_combined(*pipeline, task, result);
+  if (pipeline) pipeline->put_out(task, result);
   result.stages += scene_space.stage_counts();
   result.shadow_seconds = cpu_seconds() - start - result.scene_bsp_seconds;
   return result;

@@ -22,7 +22,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "algorithms/one_light/light_scene.h"
+#include "algorithms/lights/light_scene.h"
 #include "algorithms/partition/classified_loop.h"
 #include "algorithms/partition/fragment_stays.h"
 #include "algorithms/partition/plane_tree_filter.h"
@@ -147,7 +147,9 @@ struct FullVolumeTree<Space>::Cells {
     Space& space = tree.light_.space;
     if (node.caster == kNoSupport) return record.decide(space, node.plane, loop);
     const PlaneId support = tree.light_.plane_of(node.caster);
-    if (support == loop.support) return Placement::kFront;
+    if (support == loop.support) {
+      return tree.light_.rules.on_goes_to_its_own_side ? Placement::kFront : Placement::kBack;
+    }
     const Side nearer = tree.light_.facing.plane_signs[support] == Sign::kPositive ? Side::kFront
                                                                                    : Side::kBack;
     bool any_nearer = false, any_behind = false;

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/one_light/light_groups.h"
-#include "algorithms/one_light/light_sink.h"
+#include "algorithms/lights/light_groups.h"
+#include "algorithms/lights/light_sink.h"
 #include "algorithms/svbsp_full/by_svbsp_full.h"
 #include "algorithms/svbsp_full/full_volume_tree.h"
 #include "algorithms/svbsp_full/insertion_order.h"

@@ -36,12 +36,12 @@ class TileVolumes {
     }
     return named_;
   }
-  /// Those that the volume of a piece may hold.
-  std::span<const VolumeId> of_caster(const Loop& piece) {
+  /// The same for any other loop: one on the target, or a piece that casts.
+  std::span<const VolumeId> met_by(const Loop& piece) {
     name_volumes(piece);
     return named_;
   }
-  /// Writes the volume into the tiles that it meets. Requires: of_caster() was asked for it last.
+  /// Writes the volume into the tiles that it meets. Requires: met_by() was asked for it last.
   void insert(VolumeId id) {
     lists_.write(id, met_, light_.rules.closed_tiles_pass_to_the_killer,
                  [&](VolumeId other) { return volumes_.is_alive(other); });

@@ -10,10 +10,9 @@
 // so that the paper's clipping by outlines with holes is not needed.
 //
 // Guarantee on exact kernels: the pieces put out tile the polygons and have the class and a witness
-// of the definition. On rounded kernels lists may contradict each other, and a cut may leave both
-// pieces as large as they were: a list that was handed down more often than it has polygons is put
-// out as it is, and so is all that is left after far more work than lists without contradictions
-// make. Explicit stack.
+// of the definition. On rounded kernels lists may contradict each other; a list that was handed
+// down more often than it has polygons is put out as it is, and so is all that is left after far
+// more work than an exact kernel has. Explicit stack.
 #ifndef GNOMON_ALGORITHMS_TWO_PASS_LIST_CLIPPING_H
 #define GNOMON_ALGORITHMS_TWO_PASS_LIST_CLIPPING_H
 
@@ -71,19 +70,23 @@ class ListClipping {
     stack_.clear();
     first_cut_ = kNone;
     if (!pool_.empty()) stack_.push_back({});
-    const std::uint64_t most = most_visits(list.size());
-    std::uint64_t visits = 0;
+    // On an exact kernel every piece is cut by those alone that it meets. A rounded one may go on
+    // making slivers that contradict each other: after so much work it puts out what is left.
+    const std::uint64_t size = list.size();
+    std::uint64_t work_left = Space::kExact ? std::numeric_limits<std::uint64_t>::max()
+                                            : kLeastWork + kWorkAPair * size * size;
     while (!stack_.empty() && !stopped()) {
       const List here = stack_.back();
-      stack_.pop_back();
-      WorkCounts& counts = setting.counts;
-      ++counts[Counter::kLists];
-      counts.at_least(Counter::kLongestList, pool_.size() - here.begin);
-      visits += pool_.size() - here.begin;
-      if (visits > most) {
+      const std::uint64_t pieces = pool_.size() - here.begin;
+      if (pieces > work_left) {
         put_out_lit(pool_, output);
         return;
       }
+      work_left -= pieces;
+      stack_.pop_back();
+      WorkCounts& counts = setting.counts;
+      ++counts[Counter::kLists];
+      counts.at_least(Counter::kLongestList, pieces);
       const std::uint32_t clip = here.clip == kNone ? nearest_caster(setting, here.begin) : here.clip;
       if (clip == kNone) {
         put_out_lit(std::span(pool_).subspan(here.begin), output);
@@ -105,20 +108,14 @@ class ListClipping {
 
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  /// In pieces that are looked at: at the least, and for each pair of a list's polygons.
+  static constexpr std::uint64_t kLeastWork = 4096, kWorkAPair = 16;
   struct List {
     std::uint32_t begin = 0;     // in pool_; the list on top of the stack ends where the pool ends
     std::uint32_t clip = kNone;  // in pool_: the piece that clips, if it was handed down
     std::uint32_t handed = 0;    // how often a list was handed down to this one
     std::uint32_t most = 0;      // how often at most, if the kernel does not contradict itself
   };
-
-  /// Pieces that the lists made from `size` polygons may have, all lists together. No bound where
-  /// there is nothing to guard against.
-  static constexpr std::uint64_t most_visits(std::uint64_t size) {
-    constexpr std::uint64_t kFew = 4096, kFactor = 64;
-    return Space::kExact ? std::numeric_limits<std::uint64_t>::max()
-                         : kFew + kFactor * size * size;
-  }
 
   std::uint32_t nearest_caster(const Setting& setting, std::uint32_t begin) const {
     std::uint32_t best = kNone;

@@ -44,6 +44,7 @@ struct CertifyCommandOptions {
   double clearance = 0;
   std::optional<std::uint64_t> leaks;
   bool strict = false, subset = false, explain = false, times = false;
+  bool combined = false;
   std::string report_directory;
   std::string json;
   CorpusCommandOptions corpus;  // what certify_corpus.h needs besides
@@ -73,9 +74,23 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
 }
 
 Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const CertifyCommandOptions& options) {
-  if (auto several = several_algorithms(options.algorithm); !several.empty()) return several;
-  const auto algorithm = parse_algorithm_choice(
-      options.algorithm, {{"--explain", options.explain, &Method::explains}}, "both, all");
+  if (auto several = several_algorithms(options.algorithm); !several.empty()) {
+    // As with auto: what cannot combine lights leaves them to the first that can.
+    const auto combining = std::ranges::find_if(methods(), [](const Method& method) {
+      return method.lights.point && method.combines_lights;
+    });
+    for (AlgorithmChoice& choice : several) {
+      if (options.combined && !method_info(choice.point).combines_lights) {
+        choice.point = combining->id;
+      }
+    }
+    return several;
+  }
+  const auto algorithm =
+      parse_algorithm_choice(options.algorithm,
+                             {{"--combined", options.combined, &Method::combines_lights},
+                              {"--explain", options.explain, &Method::explains}},
+                             "both, all");
   if (!algorithm) return tl::unexpected(algorithm.error());
   return std::vector{*algorithm};
 }
@@ -135,6 +150,7 @@ class CertifyRun {
     ShadowOptions shadow_options = options_of(kernel, algorithm);
     const auto seconds = cpu_time(shadow_options);
     shadow_options.output.exact_points = true;
+    shadow_options.output.combined = options_.combined;
     auto result = seconds ? compute_shadows(loaded_.prepared, shadow_options)
                           : Expected<ShadowResult>(tl::unexpected(seconds.error()));
     progress_.clear();
@@ -153,6 +169,7 @@ class CertifyRun {
       run.dropped_slivers += light.dropped_slivers;
     }
     auto candidate = report::claims_of(loaded_.scene, loaded_.prepared, *result, run.name, false);
+    if (options_.combined && !candidate.combined) candidate.combined.emplace();
     const bool explained =
         options_.explain && !kernel.exact() && algorithm.point == MethodId::kSvbsp;
     return judge(std::move(run), std::move(candidate),
@@ -435,6 +452,9 @@ void add_certify_command(CLI::App& app, Action& action) {
   command
       .add_option("--leaks", options->leaks, "Fail with more invented and lost regions than this")
       ->type_name("N");
+  command.add_flag(
+      "--combined", options->combined,
+      "Also judge each kernel's fragments of all lights together (svbsp, or receiver)");
   command.add_flag("--subset", options->subset,
                    "A candidate need not have all lights and polygons");
   command

@@ -127,7 +127,7 @@ int run_merge(const FuzzOptions& options) {
 /// Every mistake of the zoo hunted with several seeds. One that is not found is a hole in the
 /// oracle.
 int run_zoo(const FuzzOptions& options) {
-  constexpr std::uint64_t kHunts = 5, kMostScenes = 1000;
+  constexpr std::uint64_t kHunts = 5, kMostScenes = 3000;
   const ThreadLimit threads(1);
   ProgressLine line;
   std::vector<fuzz::ZooTally> tallies;

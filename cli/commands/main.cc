@@ -67,11 +67,14 @@ int run(int argc, char** argv) {
   add_verify_command(app, action);
   add_render_command(app, action);
   add_info_command(app, action);
+  add_compare_command(app, action);
+  add_systems_command(app, action);
   add_generate_command(app, action);
   add_convert_command(app, action);
   add_shrink_command(app, action);
   add_fuzz_command(app, action);
   add_replay_command(app, action);
+  add_measure_command(app, action);
   add_worker_command(app, action);
   try {
     app.parse(argc, argv);

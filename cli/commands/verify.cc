@@ -42,7 +42,8 @@ std::string findings_text(const VerifyOptions& options, const oracle::WitnessRep
   }
   for (const oracle::WitnessFinding& finding : report.findings) {
     std::string place;
-    if (!finding.light.empty()) place += "light " + finding.light;
+    if (finding.block != Block::kLights) place += name_of(finding.block);
+    if (!finding.light.empty()) place += (place.empty() ? "" : ", ") + ("light " + finding.light);
     if (!finding.polygon.empty())
       place += (place.empty() ? "" : ", ") + ("polygon " + finding.polygon);
     if (finding.fragment) place += ", fragment " + std::to_string(*finding.fragment);
@@ -78,6 +79,7 @@ void write_findings_json(report::TextSink& sink, const oracle::WitnessReport& re
   json.begin_array();
   for (const oracle::WitnessFinding& finding : report.findings) {
     json.begin_object(report::JsonLayout::kInline);
+    if (finding.block != Block::kLights) json.member("block", name_of(finding.block));
     json.member("light", finding.light);
     json.member("polygon", finding.polygon);
     if (finding.fragment) json.member("fragment", *finding.fragment);

@@ -3,9 +3,12 @@
 
 #include <sys/resource.h>
 
+#include "gnomon/algorithms/method.h"
 #include "gnomon/kernel/precision_plan.h"
 #include "report/sides/polygon_sides.h"
+#include "report/text/count_text.h"
 #include "report/text/number_text.h"
+#include "report/text/table.h"
 
 namespace gnomon::cli {
 
@@ -63,6 +66,10 @@ std::string statistics_text(const LoadedScene& loaded, const ShadowResult& resul
             " edges face it, " + grouped(light.tree_nodes) +
             (has_bsp ? " tree nodes, " : " cells, ") + grouped(light.fragment_total) +
             " fragments\n";
+    const std::string work = report::work_text(method_info(light.method).counters, light.work);
+    if (!work.empty()) {
+      text += report::wrapped("work: " + work, report::TextTable::kWidth, 2, 4);
+    }
   }
   if (result.stages.total() > 0) text += stages_text(result.stages);
   text += "CPU seconds (elapsed): " + phase("reading", loaded.reading) + ", " +

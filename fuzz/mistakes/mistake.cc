@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::string_view kChin1989 = "Chin & Feiner 1989";
 constexpr std::string_view kChin1992 = "Chin & Feiner 1992";
+constexpr std::string_view kSlater1992 = "Slater 1992";
 
 constexpr std::array kMistakes = {
     MistakeInfo{Mistake::kPlanesFromFragments, "planes-from-fragments",
@@ -33,6 +34,18 @@ constexpr std::array kMistakes = {
     MistakeInfo{Mistake::kSliversDropped, "slivers-dropped", "thin fragments are left out",
                 kChin1989},
     MistakeInfo{Mistake::kOnSwapped, "on-swapped", "what lies on a plane is put on its other side",
+                kChin1989},
+    MistakeInfo{Mistake::kCoplanarDiesEarly, "coplanar-dies-early",
+                "a volume is dropped before all polygons of the new one's plane have received it",
+                kSlater1992},
+    MistakeInfo{Mistake::kTileClosedEarly, "tile-closed-early",
+                "a tile is closed before all polygons of the new volume's plane have received",
+                kSlater1992},
+    MistakeInfo{Mistake::kClosedTileKeepsDead, "closed-tile-keeps-dead",
+                "a closed tile goes on naming a volume that a later one made needless",
+                kSlater1992},
+    MistakeInfo{Mistake::kSupportBeforeEdges, "support-before-edges",
+                "the support plane of a complete volume stands above its edges in the tree",
                 kChin1989},
 };
 
@@ -68,15 +81,17 @@ bool keeps_coordinates(KernelId kernel) {
 
 bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
   const bool svbsp = method == MethodId::kSvbsp, receiver = method == MethodId::kReceiver;
+  const bool by_volumes = method == MethodId::kBasic || method == MethodId::kTiling;
+  const bool by_order = svbsp || by_volumes;
   switch (mistake) {
     case Mistake::kNone:
       return true;
     case Mistake::kPlanesFromFragments:
       return svbsp && kernel == KernelId::kDouble;
     case Mistake::kVerticesPerSide:
-      return kernel == KernelId::kDouble;
+      return kernel == KernelId::kDouble && !by_volumes && method != MethodId::kSvbspFull;
     case Mistake::kCoplanarInSequence:
-      return svbsp;
+      return by_order;
     case Mistake::kLightInPlaneFaces:
       return receiver || (svbsp && keeps_coordinates(kernel));
     case Mistake::kThicknessTooLarge:
@@ -86,6 +101,13 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
       return true;
     case Mistake::kOnSwapped:
       return !receiver;
+    case Mistake::kCoplanarDiesEarly:
+      return by_volumes;
+    case Mistake::kTileClosedEarly:
+    case Mistake::kClosedTileKeepsDead:
+      return method == MethodId::kTiling;
+    case Mistake::kSupportBeforeEdges:
+      return method == MethodId::kSvbspFull;
     case Mistake::kUnionWithoutContinuedPlanes:
     case Mistake::kTVerticesLeftIn:
     case Mistake::kStraddlingLightFaces:
@@ -116,6 +138,10 @@ bool applies_to_area(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kCoplanarInSequence:
     case Mistake::kLightInPlaneFaces:  // what holds an area light is in its plane, and behind it
     case Mistake::kTVerticesLeftIn:
+    case Mistake::kCoplanarDiesEarly:
+    case Mistake::kTileClosedEarly:
+    case Mistake::kClosedTileKeepsDead:
+    case Mistake::kSupportBeforeEdges:
       return false;
   }
   return false;

@@ -10,6 +10,7 @@ namespace gnomon::fuzz {
 MethodFunction vertices_per_side_function(MethodId method, KernelId) {
   switch (method) {
     case MethodId::kSectors:
+    case MethodId::kTwoPass:
       return BySectors<SplitVerticesKernel>::run;
     case MethodId::kSvbsp:
       return BySvbsp<SplitVerticesKernel>::run;

@@ -62,6 +62,18 @@ Rules rules_of(Mistake mistake) {
     case Mistake::kSliversDropped:
       rules.fragment_stays = [](const LoopShape& loop) { return !is_thin(loop); };
       break;
+    case Mistake::kCoplanarDiesEarly:
+      rules.volumes_die_after_their_plane_received = false;
+      break;
+    case Mistake::kTileClosedEarly:
+      rules.tiles_close_after_their_plane_received = false;
+      break;
+    case Mistake::kClosedTileKeepsDead:
+      rules.closed_tiles_pass_to_the_killer = false;
+      break;
+    case Mistake::kSupportBeforeEdges:
+      rules.edges_above_supports = false;
+      break;
     case Mistake::kOnSwapped:
       rules.on_goes_to_its_own_side = false;
       break;

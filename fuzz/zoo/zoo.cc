@@ -40,6 +40,14 @@ constexpr std::array kZoo = {
              "misclassified"},
     ZooEntry{"slivers-dropped", Mistake::kSliversDropped, "plane/svbsp", kPointScenes, "uncovered"},
     ZooEntry{"on-swapped", Mistake::kOnSwapped, "plane", kPointScenes, "misclassified"},
+    ZooEntry{"coplanar-dies-early", Mistake::kCoplanarDiesEarly, "plane/basic", kPointScenes,
+             "misclassified"},
+    ZooEntry{"tile-closed-early", Mistake::kTileClosedEarly, "plane/tiling:tiles=4", kPointScenes,
+             "misclassified"},
+    ZooEntry{"closed-tile-keeps-dead", Mistake::kClosedTileKeepsDead, "plane/tiling:tiles=32",
+             "family-small-lattice", "misclassified"},
+    ZooEntry{"support-before-edges", Mistake::kSupportBeforeEdges, "plane/svbsp-full",
+             kPointScenes, "misclassified"},
     ZooEntry{"area-on-swapped", Mistake::kOnSwapped, "plane", kAreaScenes, "misclassified"},
 };
 

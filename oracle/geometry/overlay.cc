@@ -53,7 +53,20 @@ mpq_class unreduced_tree_sum(std::vector<mpq_class> terms) {
   return terms[0];
 }
 
+/// Sums of zero are not kept.
+void add_mark(Overlay::MarkWindings& marks, std::uint32_t mark, int weight) {
+  const auto place = std::ranges::find(marks, mark, &Overlay::MarkWinding::mark);
+  if (place == marks.end()) {
+    marks.push_back({mark, weight});
+  } else if (place->winding += weight; place->winding == 0) {
+    *place = marks.back();
+    marks.pop_back();
+  }
+}
+
 }  // namespace
+
+bool Overlay::Segment::vanishes() const { return is_zero(delta) && marks.empty(); }
 
 std::size_t Overlay::PointHash::operator()(std::uint32_t vertex) const {
   const ChartPoint& p = (*points)[vertex];
@@ -71,7 +84,8 @@ std::uint32_t Overlay::intern(const ChartPoint& point) {
   return place->second;
 }
 
-void Overlay::add_edge(const ChartPoint& a, const ChartPoint& b, Layer layer, int weight) {
+void Overlay::add_edge(const ChartPoint& a, const ChartPoint& b, Layer layer, int weight,
+                       std::uint32_t mark) {
   std::uint32_t from = intern(a), to = intern(b);
   if (from == to) return;
   if (compare(points_[from], points_[to]) > 0) {
@@ -81,9 +95,10 @@ void Overlay::add_edge(const ChartPoint& a, const ChartPoint& b, Layer layer, in
   const std::uint64_t key = (std::uint64_t{from} << 32) | to;
   const auto [place, inserted] =
       segment_ids_.try_emplace(key, static_cast<std::uint32_t>(segments_.size()));
-  if (inserted) segments_.push_back(Segment{from, to, {}, false});
+  if (inserted) segments_.push_back(Segment{from, to});
   Segment& segment = segments_[place->second];
   segment.delta[layer] += weight;
+  if (mark != kNone) add_mark(segment.marks, mark, weight);
   segment.candidate = segment.candidate || (layer >= kLit && layer <= kUmbra);
 }
 
@@ -198,7 +213,7 @@ void Overlay::intersect(std::size_t s, std::size_t t,
                         std::vector<std::vector<std::uint32_t>>& splits) {
   const Segment &first = segments_[s], &second = segments_[t];
   // A segment whose windings cancel is no edge; it counts for T-vertices only.
-  const bool edges = !is_zero(first.delta) && !is_zero(second.delta);
+  const bool edges = !first.vanishes() && !second.vanishes();
   if (!edges && !(first.candidate && second.candidate)) return;
   const int a = orient(first.a, first.b, second.a);
   const int b = orient(first.a, first.b, second.b);
@@ -264,7 +279,7 @@ void Overlay::split_segments(const std::vector<std::vector<std::uint32_t>>& spli
   std::vector<std::uint32_t> chain;
   for (std::size_t s = 0; s < segments_.size(); ++s) {
     const Segment& segment = segments_[s];
-    if (is_zero(segment.delta)) continue;
+    if (segment.vanishes()) continue;
     chain.assign(1, segment.a);
     chain.insert(chain.end(), splits[s].begin(), splits[s].end());
     chain.push_back(segment.b);
@@ -275,15 +290,15 @@ void Overlay::split_segments(const std::vector<std::vector<std::uint32_t>>& spli
       const std::uint64_t key = (std::uint64_t{chain[i]} << 32) | chain[i + 1];
       const auto [place, inserted] =
           edge_ids.try_emplace(key, static_cast<std::uint32_t>(pieces.size()));
-      if (inserted) pieces.push_back(Segment{chain[i], chain[i + 1], {}, false});
-      for (int layer = 0; layer < kLayers; ++layer) {
-        pieces[place->second].delta[layer] += segment.delta[layer];
-      }
+      if (inserted) pieces.push_back(Segment{chain[i], chain[i + 1]});
+      Segment& piece = pieces[place->second];
+      for (int layer = 0; layer < kLayers; ++layer) piece.delta[layer] += segment.delta[layer];
+      for (const auto& [mark, weight] : segment.marks) add_mark(piece.marks, mark, weight);
     }
   }
   edges_.clear();
   for (const Segment& piece : pieces) {
-    if (!is_zero(piece.delta)) edges_.push_back(piece);
+    if (!piece.vanishes()) edges_.push_back(piece);
   }
 }
 
@@ -439,6 +454,40 @@ bool Overlay::spread_windings() {
   return std::find(reached.begin(), reached.end(), false) == reached.end();
 }
 
+void Overlay::for_each_marked_face(
+    const std::function<void(std::uint32_t face, const MarkWindings&)>& visit) const {
+  // A walk from face to face that goes back the way it came: what winds around the present face
+  // changes by one edge at a time.
+  struct Step {
+    std::uint32_t halfedge = 0;  // from its face to its twin's
+    bool back = false;           // leaves a face for good
+  };
+  MarkWindings around;
+  const auto cross = [&](std::uint32_t halfedge) {
+    for (const auto& [mark, weight] : edges_[halfedge / 2].marks) {
+      add_mark(around, mark, (halfedge & 1u) == 0 ? -weight : weight);
+    }
+  };
+  std::vector<bool> reached(faces_.size(), false);
+  std::vector<Step> steps;
+  const auto enter = [&](std::uint32_t face) {
+    reached[face] = true;
+    for_each_halfedge(face, [&](std::uint32_t halfedge) { steps.push_back({halfedge, false}); });
+  };
+  enter(0);
+  while (!steps.empty()) {
+    const Step step = steps.back();
+    steps.pop_back();
+    const std::uint32_t face = halfedges_[twin(step.halfedge)].face;
+    if (!step.back && reached[face]) continue;
+    cross(step.halfedge);
+    if (step.back) continue;
+    visit(face, around);
+    steps.push_back({twin(step.halfedge), true});
+    enter(face);
+  }
+}
+
 void Overlay::build() {
   set_scale();
   approximate();
@@ -512,7 +561,10 @@ mpq_class Overlay::exact_area(const std::vector<bool>& face_in_set) const {
   return sum;
 }
 
-NormalisedLoop normalise(std::vector<ChartPoint> loop) {
+NormalisedLoop normalise(std::vector<ChartPoint> loop) { return normalise(std::move(loop), {}); }
+
+NormalisedLoop normalise(std::vector<ChartPoint> loop,
+                         const std::vector<std::vector<ChartPoint>>& holes) {
   NormalisedLoop result;
   loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
   while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
@@ -527,7 +579,7 @@ NormalisedLoop normalise(std::vector<ChartPoint> loop) {
     if (sign != 0) turn = sign;
     if (compare(a, b) != compare(b, c)) ++flips;
   }
-  if (one_way && turn != 0 && flips == 2) {
+  if (one_way && turn != 0 && flips == 2 && holes.empty()) {
     if (turn < 0) std::reverse(loop.begin(), loop.end());
     result.convex = true;
     result.loop = std::move(loop);
@@ -536,6 +588,7 @@ NormalisedLoop normalise(std::vector<ChartPoint> loop) {
   if (turn == 0) return result;  // no area
   Overlay own;
   own.add_loop(loop, kReceiver);
+  for (const std::vector<ChartPoint>& hole : holes) own.add_loop(hole, kTruth);
   own.build();
   bool positive = false, negative = false, twice = false;
   for (const Overlay::Face& face : own.faces()) {
@@ -545,10 +598,12 @@ NormalisedLoop normalise(std::vector<ChartPoint> loop) {
     twice = twice || winding > 1 || winding < -1;
   }
   result.crosses_itself = twice || (positive && negative);
+  const auto holds = [&](std::uint32_t h) {
+    const Winding& winding = own.faces()[own.halfedges()[h].face].winding;
+    return winding[kReceiver] != 0 && winding[kTruth] == 0;
+  };
   for (std::uint32_t h = 0; h < own.halfedges().size(); ++h) {
-    const bool inside = own.faces()[own.halfedges()[h].face].winding[kReceiver] != 0;
-    const bool beyond = own.faces()[own.halfedges()[Overlay::twin(h)].face].winding[kReceiver] != 0;
-    if (inside && !beyond) {
+    if (holds(h) && !holds(Overlay::twin(h))) {
       result.edges.emplace_back(own.point(own.halfedges()[h].origin), own.point(own.target(h)));
     }
   }

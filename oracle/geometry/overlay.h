@@ -50,8 +50,11 @@ class Overlay {
 
   /// Adds a closed loop; its interior is to the left of its edges (counter-clockwise: winding +1).
   void add_loop(const std::vector<ChartPoint>& loop, Layer layer, int weight = 1);
-  /// Adds one directed edge; all edges added must make closed loops in the end.
-  void add_edge(const ChartPoint& a, const ChartPoint& b, Layer layer, int weight = 1);
+  /// Adds one directed edge; all edges added must make closed loops in the end. Edges with a mark
+  /// belong to a loop of that number, and stay even where their layer's windings cancel: such loops
+  /// can be told apart on every face.
+  void add_edge(const ChartPoint& a, const ChartPoint& b, Layer layer, int weight = 1,
+                std::uint32_t mark = kNone);
   void build();
 
   bool consistent() const { return consistent_; }
@@ -63,6 +66,15 @@ class Overlay {
   std::size_t vertex_count() const { return points_.size(); }
   /// Calls for every halfedge of a face's boundary.
   void for_each_halfedge(std::uint32_t face, const std::function<void(std::uint32_t)>& visit) const;
+  /// A marked loop and its winding number, which is not zero.
+  struct MarkWinding {
+    std::uint32_t mark = 0;
+    std::int32_t winding = 0;
+  };
+  using MarkWindings = std::vector<MarkWinding>;
+  /// Calls for every face but the unbounded one, with the marked loops that wind around it.
+  void for_each_marked_face(
+      const std::function<void(std::uint32_t face, const MarkWindings&)>& visit) const;
   /// Vertices of a candidate's layers that lie inside an edge of these layers.
   std::uint64_t t_vertices() const { return t_vertices_; }
 
@@ -88,6 +100,8 @@ class Overlay {
     std::uint32_t a = 0, b = 0;  // a before b in the order x, y
     Winding delta{};             // left of a -> b minus right of it
     bool candidate = false;
+    MarkWindings marks{};  // as delta, of marked loops
+    bool vanishes() const;
   };
   struct PointHash {
     const std::vector<ChartPoint>* points;
@@ -155,6 +169,9 @@ struct NormalisedLoop {
   std::vector<std::pair<ChartPoint, ChartPoint>> edges;  // otherwise
 };
 NormalisedLoop normalise(std::vector<ChartPoint> loop);
+/// The same without what holes wind around.
+NormalisedLoop normalise(std::vector<ChartPoint> loop,
+                         const std::vector<std::vector<ChartPoint>>& holes);
 
 }  // namespace gnomon::oracle
 

@@ -60,6 +60,20 @@ Loop cut(const Loop& loop, const HalfSpace& half) {
   return result;
 }
 
+std::vector<Loop> without(std::vector<Loop> loops, std::span<const HalfSpace> bounds) {
+  std::vector<Loop> left;
+  for (Loop& loop : loops) {
+    for (std::size_t i = 0; i < bounds.size() && !loop.empty(); ++i) {
+      const HalfSpace beyond(negated(bounds[i].normal), bounds[i].base);
+      Loop inner = cut(loop, bounds[i]);
+      Loop outer = inner.empty() ? loop : cut(loop, beyond);
+      if (!outer.empty()) left.push_back(std::move(outer));
+      loop = std::move(inner);
+    }
+  }
+  return left;
+}
+
 mpq_class area_along(const RationalPoint& normal, const Loop& loop) {
   RationalPoint sum;
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
@@ -67,6 +81,12 @@ mpq_class area_along(const RationalPoint& normal, const Loop& loop) {
     for (int k = 0; k < 3; ++k) sum[k] += term[k];
   }
   return dot(normal, sum) / 2;
+}
+
+mpq_class area_along(const RationalPoint& normal, const std::vector<Loop>& loops) {
+  mpq_class sum;
+  for (const Loop& loop : loops) sum += area_along(normal, loop);
+  return sum;
 }
 
 }  // namespace gnomon::oracle::space

@@ -9,6 +9,7 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "gnomon/result/claims.h"
@@ -35,8 +36,13 @@ struct HalfSpace {
 /// What is left of a convex loop in a half-space; empty without area there.
 Loop cut(const Loop& loop, const HalfSpace& half);
 
+/// What is left of convex loops without an intersection of half-spaces, as convex loops that do not
+/// overlap if the given ones do not. No half-spaces: nothing is left.
+std::vector<Loop> without(std::vector<Loop> loops, std::span<const HalfSpace> bounds);
+
 /// Area along a normal: half of normal . area vector. Signed by the loop's orientation.
 mpq_class area_along(const RationalPoint& normal, const Loop& loop);
+mpq_class area_along(const RationalPoint& normal, const std::vector<Loop>& loops);
 
 }  // namespace gnomon::oracle::space
 

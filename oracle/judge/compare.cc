@@ -13,82 +13,12 @@
 #include "oracle/answer/truth_overlay.h"
 #include "oracle/geometry/group_overlay.h"
 #include "oracle/geometry/region_width.h"
+#include "oracle/judge/cells.h"
 #include "oracle/judge/clearance.h"
 
 namespace gnomon::oracle {
 
 namespace {
-
-/// What a candidate's classes are judged by.
-struct Rules {
-  bool area = false;        // of an area light
-  bool per_caster = false;  // umbra is what one caster alone hides
-};
-
-/// What one cell of the overlay says.
-struct Cell {
-  bool inside = false;  // of the receiver
-  LightState truth = LightState::kLit;
-  bool deep = false;              // certified: no light arrives
-  std::array<bool, 4> claimed{};  // by LightState
-  bool misclassified = false, uncovered = false, overlapping = false, outside = false;
-  bool missing_umbra = false;
-
-  bool errs() const { return misclassified || overlapping || outside; }
-  bool claims(LightState shade) const { return claimed[static_cast<std::size_t>(shade)]; }
-  bool accepts(LightState shade, const Rules& rules) const {
-    if (shade == truth) return true;
-    if (!rules.area || rules.per_caster) return false;
-    return (truth == LightState::kUmbra && shade == LightState::kPenumbra) ||
-           (truth == LightState::kPenumbra && shade == LightState::kUmbra && deep);
-  }
-};
-
-constexpr LightState kClasses[] = {LightState::kLit, LightState::kShadow, LightState::kPenumbra,
-                                   LightState::kUmbra};
-
-Cell read_cell(const Winding& winding, std::optional<LightState> background, bool optional,
-               const Rules& rules) {
-  constexpr Layer kLayerOf[] = {kLit, kShadow, kPenumbra, kUmbra};
-  Cell cell;
-  int claims = 0;
-  for (std::size_t c = 0; c < 4; ++c) {
-    claims += winding[kLayerOf[c]];
-    cell.claimed[c] = winding[kLayerOf[c]] > 0;
-  }
-  cell.inside = winding[kReceiver] != 0;
-  cell.truth = winding[kTrueUmbra] != 0 ? LightState::kUmbra
-               : winding[kTruth] == 0   ? LightState::kLit
-               : rules.area             ? LightState::kPenumbra
-                                        : LightState::kShadow;
-  cell.deep = winding[kDeep] != 0;
-  cell.overlapping = claims > 1;
-  if (!cell.inside) {
-    cell.outside = claims > 0;
-    return cell;
-  }
-  if (claims == 0) {
-    if (optional) return cell;
-    cell.uncovered = !background;
-    if (background) cell.claimed[static_cast<std::size_t>(*background)] = true;
-  }
-  const auto classes = std::count(cell.claimed.begin(), cell.claimed.end(), true);
-  const bool right =
-      classes == 1 && std::any_of(std::begin(kClasses), std::end(kClasses), [&](LightState shade) {
-        return cell.claims(shade) && cell.accepts(shade, rules);
-      });
-  cell.misclassified = !right;
-  cell.missing_umbra = !rules.per_caster && cell.truth == LightState::kUmbra && classes == 1 &&
-                       cell.claims(LightState::kPenumbra);
-  return cell;
-}
-
-ErrorKind kind_of(const Cell& cell) {
-  if (cell.uncovered) return ErrorKind::kUncovered;
-  if (cell.misclassified) return ErrorKind::kMisclassified;
-  if (cell.outside) return ErrorKind::kOutside;
-  return cell.overlapping ? ErrorKind::kOverlapping : ErrorKind::kNone;
-}
 
 /// Faces joined across edges between two faces that `joined` both accepts. Returns a region a face.
 template <class Joined>
@@ -159,8 +89,8 @@ class GroupComparison {
         light_(light),
         entry_(entry),
         group_(group),
-        background_(terms.background),
-        rules_{answer.is_area(light), terms.per_caster_umbra},
+        terms_(terms),
+        rules_(rules_of(terms, answer.is_area(light), group)),
         options_(options),
         result_(result),
         overlay_(answer.prepared(), group.parts, truth_of(answer, light, group)) {}
@@ -177,7 +107,8 @@ class GroupComparison {
   Enclosure whole_area() const { return overlay_.whole_area(); }
 
  private:
-  Layer layer_of(LightState shade) const;
+  Layer layer_of(LightState shade) const { return gnomon::oracle::layer_of(shade, rules_.area); }
+  std::vector<Cell> read_cells() const;
   void add_deep_umbra();
   void examine_regions(const std::vector<Cell>& cells, std::vector<bool>& ill_conditioned);
   ErrorRegion examine(const std::vector<std::uint32_t>& faces,
@@ -195,7 +126,7 @@ class GroupComparison {
   std::uint32_t light_;
   const AnswerEntry& entry_;
   const ReceiverGroup& group_;
-  std::optional<LightState> background_;
+  const ClaimedTerms& terms_;
   Rules rules_;
   const ComparisonOptions& options_;
   PolygonComparison& result_;
@@ -204,34 +135,38 @@ class GroupComparison {
   Shares shares_;
 };
 
-// A class that the light does not have fails the candidate elsewhere; here it is some darkness.
-Layer GroupComparison::layer_of(LightState shade) const {
-  if (shade == LightState::kLit) return kLit;
-  if (!rules_.area) return kShadow;
-  return shade == LightState::kUmbra ? kUmbra : kPenumbra;
-}
-
 void GroupComparison::add(const ClaimedFragment& fragment) {
   const Geometry& geometry = answer_.prepared().geometry;
   const Chart& chart = overlay_.chart();
-  std::vector<ChartPoint> loop;
   Enclosure most;
-  for (const RationalPoint& point : fragment.loop) {
-    const HomogeneousPoint place = to_grid(geometry, point);
-    const mpz_class value = value_at(chart.support(), place);
-    if (value != 0) most = greater_of(most, enclose_ratio(value, place.w));
-    loop.push_back(chart.project(place));
-  }
+  const auto projected_loop = [&](const RationalLoop& points) {
+    std::vector<ChartPoint> loop;
+    for (const RationalPoint& point : points) {
+      const HomogeneousPoint place = to_grid(geometry, point);
+      const mpz_class value = value_at(chart.support(), place);
+      if (value != 0) most = greater_of(most, enclose_ratio(value, place.w));
+      loop.push_back(chart.project(place));
+    }
+    return loop;
+  };
+  std::vector<ChartPoint> loop = projected_loop(fragment.loop);
+  std::vector<std::vector<ChartPoint>> holes;
+  for (const RationalLoop& hole : fragment.holes) holes.push_back(projected_loop(hole));
   if (!most.is_zero()) {
     const Integers3& normal = chart.support().normal;
     const Enclosure length = enclose_square_root(mpq_class(dot(normal, normal)));
     result_.off_plane = greater_of(result_.off_plane, most / length * enclose(geometry.step));
   }
-  ProjectedFragment projected{&fragment, normalise(std::move(loop))};
+  ProjectedFragment projected{&fragment, normalise(std::move(loop), holes)};
   if (projected.loop.crosses_itself) ++result_.self_crossing;
+  const auto mark = terms_.cover == Cover::kOverlay ? static_cast<std::uint32_t>(fragments_.size())
+                                                    : Overlay::kNone;
   const Layer layer = layer_of(fragment.state);
-  overlay_.overlay().add_loop(projected.loop.loop, layer);
-  for (const auto& [a, b] : projected.loop.edges) overlay_.overlay().add_edge(a, b, layer);
+  const std::vector<ChartPoint>& convex = projected.loop.loop;
+  for (std::size_t i = 0; i < convex.size(); ++i) {
+    overlay_.overlay().add_edge(convex[i], convex[(i + 1) % convex.size()], layer, 1, mark);
+  }
+  for (const auto& [a, b] : projected.loop.edges) overlay_.overlay().add_edge(a, b, layer, 1, mark);
   fragments_.push_back(std::move(projected));
 }
 
@@ -243,13 +178,7 @@ void GroupComparison::compare() {
     result_.inconsistent = true;
     return;
   }
-  std::vector<Cell> cells;
-  std::optional<LightState> background = background_;
-  if (background && layer_of(*background) == kShadow) background = LightState::kShadow;
-  for (const Overlay::Face& face : overlay.faces()) {
-    cells.push_back(read_cell(face.winding, background, group_.optional, rules_));
-  }
-  cells[0] = Cell{};
+  const std::vector<Cell> cells = read_cells();
   result_.t_vertices += overlay.t_vertices();
   std::vector<bool> ill_conditioned(cells.size(), false);
   if (std::any_of(cells.begin(), cells.end(), [](const Cell& cell) { return cell.errs(); })) {
@@ -288,6 +217,33 @@ void GroupComparison::compare() {
       share([&](const Cell&, std::size_t f) { return bool{ill_conditioned[f]}; });
 }
 
+std::vector<Cell> GroupComparison::read_cells() const {
+  const Overlay& overlay = overlay_.overlay();
+  std::vector<Cell> cells(overlay.faces().size());
+  if (terms_.cover == Cover::kPartition) {
+    for (std::size_t f = 1; f < cells.size(); ++f) {
+      const Winding& winding = overlay.faces()[f].winding;
+      cells[f] = read_cell(winding, claimed_by(winding), rules_);
+    }
+    return cells;
+  }
+  overlay.for_each_marked_face([&](std::uint32_t face, const Overlay::MarkWindings& marks) {
+    Claimed on_top;
+    std::uint64_t level = 0;
+    for (const auto& [mark, winding] : marks) {
+      const ClaimedFragment& fragment = *fragments_[mark].fragment;
+      if (on_top.loops == 0 || fragment.level > level) {
+        level = fragment.level;
+        on_top.states = {};
+      }
+      ++on_top.loops;
+      if (fragment.level == level) on_top.add(class_of(layer_of(fragment.state)));
+    }
+    cells[face] = read_cell(overlay.faces()[face].winding, on_top, rules_);
+  });
+  return cells;
+}
+
 void GroupComparison::add_deep_umbra() {
   DeepUmbra deep(answer_, light_, group_, overlay_.chart());
   for (const ProjectedFragment& fragment : fragments_) {
@@ -300,7 +256,7 @@ void GroupComparison::add_deep_umbra() {
     for (const auto& [a, b] : fragment.loop.edges) corners.push_back(a);
     deep.certify_box_of(corners);
   }
-  if (background_ == LightState::kUmbra) deep.certify_whole();
+  if (rules_.may_be_left_out(LightState::kUmbra)) deep.certify_whole();
   for (const std::vector<ChartPoint>& loop : deep.certified()) {
     overlay_.overlay().add_loop(loop, kDeep);
   }
@@ -388,18 +344,13 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
   const Cell& cell = cells[worst];
   witness.kind = kind_of(cell);
   if (cell.inside) witness.truth = cell.truth;
-  // Of several classes one that is wrong.
-  bool wrong = false;
-  for (const LightState shade : kClasses) {
-    if (!cell.claims(shade) || wrong) continue;
-    witness.found = shade;
-    wrong = !cell.accepts(shade, rules_);
-  }
+  witness.found = wrong_class(cell, rules_);
   witness.point = overlay_.chart().lift_to_scene(geometry, inner);
   for (int k = 0; k < 3; ++k) witness.nearest[k] = enclose(witness.point[k]).middle();
   witness.light = answer_.scene().lights[answer_.prepared().lights[light_].light].id;
   witness.polygon = result_.polygon;
   witness.side = entry_.side;
+  witness.block = terms_.block;
   if (options_.clearance > 0 && group_.faces && !rules_.area &&
       witness.kind == ErrorKind::kMisclassified) {
     witness.clearance = decide(answer_.prepared(), answer_.prepared().lights[light_],
@@ -599,7 +550,7 @@ PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
   std::array<ShareSum, std::size(kShares)> sums;
   for (std::size_t g = 0; g < entry.groups.size(); ++g) {
     const ReceiverGroup& group = entry.groups[g];
-    if (group.optional && fragments[g].empty()) continue;
+    if (group.optional && (fragments[g].empty() || terms.block == Block::kOverlay)) continue;
     GroupComparison comparison(answer, light, entry, group, terms, options, result);
     for (const ClaimedFragment* fragment : fragments[g]) comparison.add(*fragment);
     comparison.compare();

@@ -2,9 +2,9 @@
 #include "oracle/judge/point_check.h"
 
 #include <algorithm>
-#include <array>
 
 #include "oracle/geometry/group_overlay.h"
+#include "oracle/judge/cells.h"
 
 namespace gnomon::oracle {
 
@@ -86,30 +86,34 @@ PointTruth truth_at(const ExactAnswer& answer, std::uint32_t light, const Receiv
 /// A candidate's fragments in the chart of one receiver.
 struct ChartFragments {
   std::vector<std::vector<ChartPoint>> loops;
+  std::vector<std::vector<std::vector<ChartPoint>>> holes;  // one list a loop
   std::vector<LightState> states;
+  std::vector<std::uint64_t> levels;
 };
 
 ChartFragments in_chart(const Chart& chart, const Geometry& geometry,
                         const ClaimedPolygon* candidate) {
   ChartFragments fragments;
   if (candidate == nullptr) return fragments;
-  for (const ClaimedFragment& fragment : candidate->fragments) {
-    std::vector<ChartPoint>& loop = fragments.loops.emplace_back();
-    for (const RationalPoint& point : fragment.loop) {
+  const auto projected = [&](const RationalLoop& points) {
+    std::vector<ChartPoint> loop;
+    for (const RationalPoint& point : points)
       loop.push_back(chart.project(to_grid(geometry, point)));
-    }
+    return loop;
+  };
+  for (const ClaimedFragment& fragment : candidate->fragments) {
+    fragments.loops.push_back(projected(fragment.loop));
+    auto& holes = fragments.holes.emplace_back();
+    for (const RationalLoop& hole : fragment.holes) holes.push_back(projected(hole));
     fragments.states.push_back(fragment.state);
+    fragments.levels.push_back(fragment.level);
   }
   return fragments;
 }
 
 /// The classes that are claimed at one point.
-struct ClaimedStates {
-  std::array<bool, 4> claimed{};  // by LightState
-  bool on_border = false;         // of a fragment
-
-  bool claims(LightState state) const { return claimed[static_cast<std::size_t>(state)]; }
-  std::ptrdiff_t count() const { return std::count(claimed.begin(), claimed.end(), true); }
+struct ClaimedStates : Claimed {
+  bool on_border = false;  // of a fragment
 };
 
 class PointChecker {
@@ -139,10 +143,6 @@ class PointChecker {
   }
 
  private:
-  LightState class_of(LightState state) const {
-    return area_ || state == LightState::kLit ? state : LightState::kShadow;
-  }
-
   std::vector<ChartPoint> loop_of(const Chart& chart, std::uint32_t part) const {
     std::vector<ChartPoint> loop;
     for (const Integers3& vertex : grid_loop(prepared_, part)) loop.push_back(chart.at(vertex));
@@ -174,62 +174,65 @@ class PointChecker {
     return around;
   }
 
-  ClaimedStates claimed_at(const ChartFragments& fragments, const ChartPoint& point) const {
-    ClaimedStates states;
-    for (std::size_t f = 0; f < fragments.loops.size(); ++f) {
-      const std::optional<bool> within = winds_around(fragments.loops[f], point);
-      states.on_border = states.on_border || !within;
-      if (within.value_or(false)) {
-        states.claimed[static_cast<std::size_t>(class_of(fragments.states[f]))] = true;
-      }
+  /// Whether a fragment holds a point; nothing if it is on its border.
+  static std::optional<bool> holds(const ChartFragments& fragments, std::size_t f,
+                                   const ChartPoint& point) {
+    std::optional<bool> within = winds_around(fragments.loops[f], point);
+    for (const std::vector<ChartPoint>& hole : fragments.holes[f]) {
+      if (!within || !*within) return within;
+      within = winds_around(hole, point);
+      if (within) within = !*within;
     }
-    return states;
+    return within;
   }
 
-  bool accepts(const PointTruth& truth, LightState state) const {
-    if (state == truth.state) return true;
-    if (!area_ || terms_.per_caster_umbra) return false;
-    return (truth.state == LightState::kUmbra && state == LightState::kPenumbra) ||
-           (truth.state == LightState::kPenumbra && state == LightState::kUmbra && truth.deep);
+  /// In an overlay the classes of the highest level.
+  ClaimedStates claimed_at(const ChartFragments& fragments, const ChartPoint& point) const {
+    ClaimedStates states;
+    std::uint64_t level = 0;
+    for (std::size_t f = 0; f < fragments.loops.size(); ++f) {
+      const std::optional<bool> within = holds(fragments, f, point);
+      states.on_border = states.on_border || !within;
+      if (!within.value_or(false)) continue;
+      if (terms_.cover == Cover::kOverlay) {
+        if (states.loops > 0 && fragments.levels[f] < level) continue;
+        if (fragments.levels[f] > level) states.states = {};
+        level = fragments.levels[f];
+      }
+      ++states.loops;
+      states.add(class_of(layer_of(fragments.states[f], area_)));
+    }
+    return states;
   }
 
   void check(const ReceiverGroup& group, const Chart& chart, const ChartFragments& fragments,
              const ChartPoint& point) {
     const std::optional<std::uint32_t> part = part_around(group, chart, point);
     if (!part) return;  // a fragment beyond the polygon; its share inside is asked elsewhere
-    ClaimedStates states = claimed_at(fragments, point);
+    const ClaimedStates states = claimed_at(fragments, point);
     if (states.on_border) {
       ++result_.on_boundary;
       return;
     }
-    if (states.count() == 0 && terms_.background) {
-      states.claimed[static_cast<std::size_t>(class_of(*terms_.background))] = true;
-    }
+    const Rules rules = rules_of(terms_, area_, group);
     const RationalPoint place = chart.lift_to_scene(prepared_.geometry, point);
-    const bool ask_deep = !terms_.per_caster_umbra && states.claims(LightState::kUmbra);
+    const bool ask_deep =
+        !terms_.per_caster_umbra && (states.states[static_cast<std::size_t>(LightState::kUmbra)] ||
+                                     rules.may_be_left_out(LightState::kUmbra));
     const PointTruth truth = truth_at(answer_, light_, group, *part, place, ask_deep, visibility_);
     if (truth.on_boundary) {
       ++result_.on_boundary;
       return;
     }
     ++result_.checked;
-    compare(states, truth, place);
-  }
-
-  void compare(const ClaimedStates& states, const PointTruth& truth, const RationalPoint& place) {
-    // Of several classes one that is wrong.
-    std::optional<LightState> found;
-    bool wrong = states.count() != 1, named = false;
-    for (const LightState state :
-         {LightState::kLit, LightState::kShadow, LightState::kPenumbra, LightState::kUmbra}) {
-      if (!states.claims(state) || named) continue;
-      found = state;
-      named = !accepts(truth, state);
-      wrong = wrong || named;
-    }
-    if (!wrong) return;
+    Cell cell;
+    cell.inside = true;
+    cell.truth = truth.state;
+    cell.deep = truth.deep;
+    compare_claims(cell, states, rules);
+    if (!cell.misclassified) return;
     ++result_.wrong;
-    if (!result_.worst) result_.worst = witness(found, truth, place);
+    if (!result_.worst) result_.worst = witness(wrong_class(cell, rules), truth, place);
   }
 
   Witness witness(const std::optional<LightState>& found, const PointTruth& truth,
@@ -238,6 +241,7 @@ class PointChecker {
     witness.light = answer_.scene().lights[prepared_.lights[light_].light].id;
     witness.polygon = answer_.scene().polygons[entry_.polygon].id;
     witness.side = entry_.side;
+    witness.block = terms_.block;
     witness.kind = found ? ErrorKind::kMisclassified : ErrorKind::kUncovered;
     witness.point = place;
     for (int k = 0; k < 3; ++k) witness.nearest[k] = enclose(place[k]).middle();

@@ -9,9 +9,13 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "gnomon/oracle/visibility.h"
+#include "gnomon/result/claimed_pieces.h"
+#include "gnomon/result/shared_claims.h"
 #include "oracle/judge/point_check.h"
 
 namespace gnomon::oracle {
@@ -32,23 +36,37 @@ bool is_class_of(LightState shade, bool area) {
 
 class Certifier {
  public:
-  Certifier(const ExactAnswer& answer, const Claims& candidate, const CertifyOptions& options)
-      : answer_(answer), candidate_(candidate), options_(options) {}
+  /// `problems`: that are known of the candidate.
+  Certifier(const ExactAnswer& answer, const Claims& candidate, const CertifyOptions& options,
+            std::vector<std::string> problems = {})
+      : answer_(answer), candidate_(candidate), options_(options) {
+    report_.problems = std::move(problems);
+  }
 
   Report run();
 
  private:
   void match_light(std::uint32_t light, const ClaimedLight* found);
-  void match_lights();
+  void match_lights(const Claims& candidate, Block block);
+  bool skips(AnswerEntry& entry, const ClaimedLight& found, bool listed);
   void compare_all();
   void sum_up();
   void judge();
   bool fails(const PolygonComparison& comparison) const;
   void problem(std::string text) { report_.problems.push_back(std::move(text)); }
+  /// "light 'sun'", and the block that tells of it if the lights' own does not.
+  static std::string name_of_light(const ClaimedLight& light) {
+    return light.block == Block::kLights
+               ? fmt::format("light '{}'", light.id)
+               : fmt::format("{}, light '{}'", name_of(light.block), light.id);
+  }
 
   const ExactAnswer& answer_;
   const Claims& candidate_;
   const CertifyOptions& options_;
+  std::vector<Claims> shared_;  // what the candidate tells of several lights, light by light
+  // First part and side of the groups whose tiling by shared fragments is judged: once each.
+  std::set<std::pair<std::uint32_t, Side>> tiled_;
   Report report_;
   std::vector<Task> tasks_;
   std::vector<PolygonComparison> comparisons_;
@@ -56,9 +74,22 @@ class Certifier {
   std::vector<bool> done_;
 };
 
+/// Shared fragments need not list what no light reaches. Where several lights tell of one side, the
+/// first that reaches it stands for all in what its fragments cover.
+bool Certifier::skips(AnswerEntry& entry, const ClaimedLight& found, bool listed) {
+  if (found.block == Block::kLights) return false;
+  bool reached = false;
+  for (ReceiverGroup& group : entry.groups) {
+    reached = reached || group.faces;
+    group.optional = group.optional || !group.faces;
+    group.tiling = group.faces && tiled_.emplace(group.parts.front(), entry.side).second;
+  }
+  return !reached && (!listed || found.block == Block::kOverlay);
+}
+
 void Certifier::match_light(std::uint32_t light, const ClaimedLight* found) {
   const Scene& scene = answer_.scene();
-  const std::string& light_id = scene.lights[answer_.prepared().lights[light].light].id;
+  const std::string name = name_of_light(*found);
   const std::vector<AnswerEntry>& entries = answer_.entries(light);
   std::map<std::string, std::vector<const ClaimedPolygon*>> by_id;
   for (const ClaimedPolygon& polygon : found->polygons) by_id[polygon.id].push_back(&polygon);
@@ -66,14 +97,14 @@ void Certifier::match_light(std::uint32_t light, const ClaimedLight* found) {
   for (std::uint32_t i = 0; i < scene.polygons.size(); ++i) known.emplace(scene.polygons[i].id, i);
   const bool area = answer_.is_area(light);
   if (found->background && !is_class_of(*found->background, area)) {
-    problem(fmt::format("light '{}': background '{}' is no class of {} light", light_id,
+    problem(fmt::format("{}: background '{}' is no class of {} light", name,
                         name_of(*found->background), area ? "an area" : "a point or directional"));
   }
   std::unordered_map<std::string, std::size_t> sides;
   for (const AnswerEntry& entry : entries) ++sides[scene.polygons[entry.polygon].id];
 
   std::map<const ClaimedPolygon*, bool> used;
-  for (const AnswerEntry& entry : entries) {
+  for (AnswerEntry entry : entries) {
     const std::string& id = scene.polygons[entry.polygon].id;
     const ClaimedPolygon* match = nullptr;
     const auto place = by_id.find(id);
@@ -83,8 +114,8 @@ void Certifier::match_light(std::uint32_t light, const ClaimedLight* found) {
                                                    : sides[id] == 1 || polygon->side == entry.side;
         if (!same_side) continue;
         if (match) {
-          problem(fmt::format("light '{}': polygon '{}' ({}) is listed twice", light_id, id,
-                              name_of(entry.side)));
+          problem(
+              fmt::format("{}: polygon '{}' ({}) is listed twice", name, id, name_of(entry.side)));
           used[polygon] = true;
           continue;
         }
@@ -92,28 +123,28 @@ void Certifier::match_light(std::uint32_t light, const ClaimedLight* found) {
         used[polygon] = true;
       }
     }
+    if (skips(entry, *found, match != nullptr)) continue;
     if (!match && !found->background) {
       if (!options_.subset) {
-        problem(fmt::format("light '{}': polygon '{}' ({}) is missing", light_id, id,
-                            name_of(entry.side)));
+        problem(fmt::format("{}: polygon '{}' ({}) is missing", name, id, name_of(entry.side)));
       }
       continue;
     }
-    tasks_.push_back({light, entry, match, {found->background, found->per_caster_umbra}});
+    tasks_.push_back({light, std::move(entry), match, *found});
   }
   for (const ClaimedPolygon& polygon : found->polygons) {
     bool known_classes = true;
     for (const ClaimedFragment& fragment : polygon.fragments) {
       if (is_class_of(fragment.state, area) || !known_classes) continue;
       known_classes = false;
-      problem(fmt::format("light '{}': polygon '{}' has a fragment of class '{}'; {} was expected",
-                          light_id, polygon.id, name_of(fragment.state),
+      problem(fmt::format("{}: polygon '{}' has a fragment of class '{}'; {} was expected", name,
+                          polygon.id, name_of(fragment.state),
                           area ? "lit, penumbra or umbra" : "lit or shadow"));
     }
-    if (used[&polygon]) continue;
+    if (used[&polygon] || found->block == Block::kOverlay) continue;
     const auto place = known.find(polygon.id);
     if (place == known.end()) {
-      problem(fmt::format("light '{}': no polygon '{}' in the scene", light_id, polygon.id));
+      problem(fmt::format("{}: no polygon '{}' in the scene", name, polygon.id));
       continue;
     }
     // A side that the light does not reach, or a polygon without area: shadow or umbra if anything.
@@ -126,15 +157,18 @@ void Certifier::match_light(std::uint32_t light, const ClaimedLight* found) {
     for (ReceiverGroup& group : entry.groups) {
       group.faces = false;
       group.optional = true;
+      group.tiling = found->block == Block::kLights;
       group.side = polygon.side;
     }
     if (!entry.groups.empty()) {
-      tasks_.push_back({light, entry, &polygon, {std::nullopt, found->per_caster_umbra}});
+      ClaimedTerms terms = *found;
+      terms.background.reset();
+      tasks_.push_back({light, std::move(entry), &polygon, std::move(terms)});
     }
   }
 }
 
-void Certifier::match_lights() {
+void Certifier::match_lights(const Claims& candidate, Block block) {
   const Scene& scene = answer_.scene();
   const PreparedScene& prepared = answer_.prepared();
   std::vector<std::uint32_t> wanted = options_.lights;
@@ -142,7 +176,8 @@ void Certifier::match_lights() {
     for (std::uint32_t i = 0; i < prepared.lights.size(); ++i) wanted.push_back(i);
   }
   std::map<std::string, const ClaimedLight*> by_id;
-  for (const ClaimedLight& light : candidate_.lights) {
+  for (const std::string& text : candidate.problems) problem(text);
+  for (const ClaimedLight& light : candidate.lights) {
     if (!by_id.emplace(light.id, &light).second) {
       problem(fmt::format("light '{}' is listed twice", light.id));
     }
@@ -154,7 +189,9 @@ void Certifier::match_lights() {
     const std::string& id = scene.lights[prepared.lights[light].light].id;
     const auto place = by_id.find(id);
     if (place == by_id.end()) {
-      if (!options_.subset) problem(fmt::format("light '{}' is missing", id));
+      if (!options_.subset && block == Block::kLights) {
+        problem(fmt::format("light '{}' is missing", id));
+      }
       continue;
     }
     match_light(light, place->second);
@@ -232,23 +269,29 @@ bool Certifier::fails(const PolygonComparison& comparison) const {
 
 void Certifier::sum_up() {
   ComparisonTotals& totals = report_.totals;
-  std::optional<std::uint32_t> light;
+  std::optional<std::pair<Block, std::uint32_t>> light;
   // The witness: of a polygon that fails before one that does not, then the widest.
   bool worst_fails = false;
   for (std::size_t i = 0; i < tasks_.size(); ++i) {
-    if (light != tasks_[i].light) {
-      light = tasks_[i].light;
-      report_.lights.emplace_back();
-      report_.lights.back().id = answer_.scene().lights[answer_.prepared().lights[*light].light].id;
+    const Block block = tasks_[i].terms.block;
+    if (light != std::pair(block, tasks_[i].light)) {
+      light = {block, tasks_[i].light};
+      LightComparison& own = report_.lights.emplace_back();
+      own.id = answer_.scene().lights[answer_.prepared().lights[light->second].light].id;
+      own.block = block;
     }
     if (!done_[i]) continue;
     const PolygonComparison& own = comparisons_[i];
     ++totals.polygons;
-    totals.area = totals.area + own.lit.area + own.shadow.area + own.penumbra.area + own.umbra.area;
-    totals.lit = totals.lit + own.lit.area;
-    totals.shadow = totals.shadow + own.shadow.area;
-    totals.penumbra = totals.penumbra + own.penumbra.area;
-    totals.umbra = totals.umbra + own.umbra.area;
+    // What is true is counted once, however often it is told.
+    if (block == tasks_.front().terms.block) {
+      totals.area =
+          totals.area + own.lit.area + own.shadow.area + own.penumbra.area + own.umbra.area;
+      totals.lit = totals.lit + own.lit.area;
+      totals.shadow = totals.shadow + own.shadow.area;
+      totals.penumbra = totals.penumbra + own.penumbra.area;
+      totals.umbra = totals.umbra + own.umbra.area;
+    }
     totals.missing_umbra = totals.missing_umbra + own.missing_umbra.area;
     totals.misclassified = totals.misclassified + own.misclassified.area;
     totals.uncovered = totals.uncovered + own.uncovered.area;
@@ -350,11 +393,31 @@ Report Certifier::run() {
   report_.tolerance = options_.strict ? 0 : options_.tolerance;
   report_.width = options_.strict ? 0 : options_.width.value_or(1e-9 * report_.diagonal);
   report_.clearance = options_.clearance;
-  match_lights();
+  shared_ = shared_claims(candidate_, answer_.scene());
+  if (!candidate_.lights.empty() || shared_.empty()) match_lights(candidate_, Block::kLights);
+  for (const Claims& block : shared_) {
+    tiled_.clear();
+    match_lights(block, block.lights.empty() ? Block::kCombined : block.lights.front().block);
+  }
   compare_all();
   sum_up();
   judge();
   return std::move(report_);
+}
+
+/// Every piece of a light against the answer of the scene in which it is a light.
+Expected<Report> certify_pieces(const ExactAnswer& answer, const Claims& candidate,
+                                CertifyOptions options) {
+  const auto pieces = scene_of_pieces(answer.scene(), answer.prepared(), candidate);
+  if (!pieces) return tl::unexpected(pieces.error());
+  const std::vector<std::uint32_t> wanted = std::exchange(options.lights, {});
+  for (std::uint32_t light = 0; light < pieces->source.size(); ++light) {
+    if (wanted.empty() || std::ranges::find(wanted, pieces->source[light]) != wanted.end()) {
+      options.lights.push_back(light);
+    }
+  }
+  const ExactAnswer of_pieces(pieces->scene, pieces->prepared);
+  return Certifier(of_pieces, candidate, options, pieces->gaps).run();
 }
 
 }  // namespace
@@ -396,6 +459,7 @@ Expected<Report> certify(const ExactAnswer& answer, const Claims& candidate,
   if (!(options.clearance >= 0)) {
     return fail(ErrorCode::kUsage, "clearance is negative", "scene units of at least 0");
   }
+  if (has_pieces(candidate)) return certify_pieces(answer, candidate, options);
   return Certifier(answer, candidate, options).run();
 }
 

@@ -5,14 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <ranges>
 #include <set>
 
 #include "gnomon/oracle/compare.h"
 #include "gnomon/oracle/verdict.h"
+#include "gnomon/result/claimed_pieces.h"
+#include "gnomon/result/shared_claims.h"
 #include "oracle/geometry/space_loop.h"
+#include "oracle/judge/light_volumes.h"
 #include "oracle/judge/witness_pieces.h"
-#include "oracle/visibility/area_solids.h"
 
 namespace gnomon::oracle {
 
@@ -42,20 +46,20 @@ class WitnessChecker {
     }
   }
 
-  WitnessReport run();
+  /// `problems`: that are known of the candidate.
+  WitnessReport run(const std::vector<std::string>& problems = {});
 
  private:
   void violation(const std::string& polygon, std::string text,
                  std::optional<std::uint64_t> fragment = {}) {
     ++report_.violations;
     if (report_.findings.size() < options_.most) {
-      report_.findings.push_back({light_id_, polygon, std::move(text), fragment});
+      report_.findings.push_back({light_id_, polygon, std::move(text), fragment, terms_.block});
     }
   }
   /// Parts whose plane a result lists on this side, by family; and others it may list there.
   std::map<PlaneId, std::vector<std::uint32_t>> families_on(std::uint32_t polygon, Side side,
                                                             std::set<PlaneId>& optional) const;
-  bool sees(std::uint32_t part, Side side) const;
   std::vector<Side> listed_sides(std::uint32_t polygon) const;
   void check_polygon(const ClaimedPolygon& polygon);
   using Families = std::map<PlaneId, std::vector<std::uint32_t>>;
@@ -72,36 +76,50 @@ class WitnessChecker {
   mpq_class allowed_distance(const ClaimedFragment& fragment) const {
     return fragment.exact ? mpq_class(0) : mpq_class(width_ * width_);
   }
-  /// A fragment that can be judged; else the violation has been told.
-  std::optional<Piece> piece_of(const ClaimedPolygon& polygon, std::size_t index,
-                                const Nearest& family);
+  /// A fragment in convex pieces; none, with the violation told, if it cannot be judged.
+  std::vector<Piece> pieces_of(const ClaimedPolygon& polygon, std::size_t index,
+                               const Nearest& family);
   void check_family(const ClaimedPolygon& polygon, const std::vector<std::uint32_t>& parts,
                     std::vector<Piece>& pieces);
   void check_shade(const ClaimedPolygon& polygon, const Piece& piece, const mpq_class& slack);
   void check_lit(const ClaimedPolygon& polygon, const Piece& piece, const mpq_class& slack);
-  /// Without area if parts of a caster shadow all of a piece.
-  mpq_class not_shadowed_by(const Piece& piece, std::uint32_t caster) const;
+  /// `rest`: the area that no piece covers.
   void check_fractions(const ClaimedPolygon& polygon, const std::vector<Piece>& pieces,
-                       const std::vector<std::uint32_t>& parts);
+                       const mpq_class& rest, const std::vector<std::uint32_t>& parts);
   void check_area_shade(const ClaimedPolygon& polygon, const Piece& piece, const mpq_class& slack);
   /// False, with the violation told, if a fragment that is not umbra sees less than it claims.
   bool is_seen(const ClaimedPolygon& polygon, const Piece& piece, const mpq_class& slack);
-  bool area_reason_holds(const ClaimedPolygon& polygon, const Piece& piece, bool behind) const;
+  bool area_reason_holds(const ClaimedPolygon& polygon, const Piece& piece, bool behind);
   /// The caster that a fragment names; none, with the violation told, if the scene has none such.
   std::optional<std::uint32_t> named_caster(const ClaimedPolygon& polygon, const Piece& piece);
-  bool is_apart(const Piece& piece, const std::vector<HalfSpace>& bounds) const {
-    return piece.is_apart(bounds, 1e-6 * diagonal_);
+  using ClassSet = std::array<bool, 4>;  // by LightState
+  /// The classes that what no fragment covers may have; nothing if fragments must cover everything.
+  std::optional<ClassSet> left_out() const;
+  bool is_told(LightState state) const {
+    return !terms_.listed || std::ranges::find(*terms_.listed, state) != terms_.listed->end();
+  }
+  /// Of a piece without a witness: that every point of it has one of the classes.
+  void check_classes(const ClaimedPolygon& polygon, const Piece& piece, const ClassSet& allowed,
+                     const mpq_class& slack);
+  void check_piece(const ClaimedPolygon& polygon, const Piece& piece, const mpq_class& slack);
+  void check_tiling(const ClaimedPolygon& polygon, const std::vector<std::uint32_t>& parts,
+                    std::vector<Piece>& pieces, const mpq_class& slack);
+  void check_overlaps(const ClaimedPolygon& polygon, const RationalPoint& normal,
+                      std::vector<Piece>& pieces, const mpq_class& slack);
+  /// Lights, polygons and sides that are not there.
+  void check_claims(const Claims& claims, Block block);
+  void check_light(const ClaimedLight& light);
+  void check_missing(const std::set<std::string>& polygons,
+                     const std::set<std::pair<std::string, Side>>& sides);
+  bool stopped() {
+    report_.interrupted =
+        report_.interrupted ||
+        (options_.interrupted && options_.interrupted->load(std::memory_order_relaxed));
+    return report_.interrupted;
   }
   const std::string& id_of(std::uint32_t part) const {
     return scene_.polygons[prepared_.parts[part].polygon].id;
   }
-  /// What of a piece is in a volume and in front of the light; `closed`: also if the receiver lies
-  /// in one of its planes.
-  Loop inside(const Piece& piece, const AreaSolids::Volume& volume, bool closed) const;
-  /// Without area if parts of a caster hold all of a piece that is in front of the light.
-  mpq_class not_hidden_by(const Piece& piece, std::uint32_t caster, Side side, bool all);
-  mpq_class shadowed_by(const Piece& piece, std::uint32_t part) const;
-
   const Scene& scene_;
   const PreparedScene& prepared_;
   const Claims& candidate_;
@@ -110,75 +128,36 @@ class WitnessChecker {
   double diagonal_ = 0;
   std::map<std::string, std::uint32_t> polygon_index_;
   std::string light_id_;
-  std::vector<Solid> solids_;
-  std::optional<AreaSolids> area_;  // of an area light
-  bool per_caster_umbra_ = false;
+  std::optional<LightVolumes> light_;
+  ClaimedTerms terms_;  // of the light
+  // First part and side of the families whose tiling by shared fragments is judged: once each.
+  std::set<std::pair<std::uint32_t, Side>> tiled_;
+  std::size_t polygons_ = 0, polygons_done_ = 0;  // for the progress
   WitnessReport report_;
 };
 
-Loop WitnessChecker::inside(const Piece& piece, const AreaSolids::Volume& volume,
-                            bool closed) const {
-  Loop rest = cut(piece.loop, area_->before_light());
-  for (std::size_t i = 0; i < volume.bounds.size() && !rest.empty(); ++i) {
-    const HalfSpace& half = volume.bounds[i];
-    if (!(closed && i > 0 && solids_[piece.part].lies_in(half))) rest = cut(rest, half);
-  }
-  return volume.empty ? Loop{} : rest;
-}
-
-mpq_class WitnessChecker::not_hidden_by(const Piece& piece, std::uint32_t caster, Side side,
-                                        bool all) {
-  std::vector<Loop> rest;
-  if (Loop front = cut(piece.loop, area_->before_light()); !front.empty()) {
-    rest.push_back(std::move(front));
-  }
-  for (std::size_t b = 0; b < area_->size(); ++b) {
-    const std::uint32_t part = area_->part_of(b);
-    if (prepared_.parts[part].polygon != caster || part == piece.part) continue;
-    const AreaSolids::Volume& volume =
-        all ? area_->umbra(b, piece.part, side) : area_->penumbra(b, piece.part, side);
-    if (volume.empty) continue;
-    std::vector<Loop> left;
-    for (Loop& loop : rest) {
-      for (std::size_t i = 0; i < volume.bounds.size() && !loop.empty(); ++i) {
-        const HalfSpace& half = volume.bounds[i];
-        if (all && i > 0 && solids_[piece.part].lies_in(half)) continue;
-        const HalfSpace beyond(space::negated(half.normal), half.base);
-        Loop inner = cut(loop, half);
-        Loop outer = inner.empty() ? loop : cut(loop, beyond);
-        if (!outer.empty()) left.push_back(std::move(outer));
-        loop = std::move(inner);
-      }
-    }
-    rest = std::move(left);
-  }
-  mpq_class open;
-  for (const Loop& loop : rest) open += area_along(solids_[piece.part].normal, loop);
-  return open;
-}
-
 bool WitnessChecker::is_seen(const ClaimedPolygon& polygon, const Piece& piece,
                              const mpq_class& slack) {
-  const RationalPoint& normal = solids_[piece.part].normal;
+  const RationalPoint& normal = light_->solid(piece.part).normal;
   const bool lit = piece.fragment->state == LightState::kLit;
   const std::string name = name_of(piece.fragment->state);
   const auto told = [&](std::string text) {
     violation(polygon.id, std::move(text), piece.index);
     return false;
   };
-  if (!area_->sees(piece.part, polygon.side)) {
+  if (!light_->sees(piece.part, polygon.side)) {
     return told(fmt::format("a fragment is {} on a side that sees nothing of the light", name));
   }
-  if (area_along(normal, cut(piece.loop, area_->behind_light())) > slack) {
+  if (area_along(normal, cut(piece.loop, light_->area().behind_light())) > slack) {
     return told(fmt::format("a {} fragment reaches behind the light", name));
   }
-  for (std::size_t b = 0; b < area_->size() && (lit || per_caster_umbra_); ++b) {
-    if (area_->part_of(b) == piece.part) continue;
-    if (is_apart(piece, area_->largest_penumbra(b).bounds)) continue;
-    const AreaSolids::Volume& volume = lit ? area_->penumbra(b, piece.part, polygon.side)
-                                           : area_->umbra(b, piece.part, polygon.side);
-    if (!(area_along(normal, inside(piece, volume, !lit)) > slack)) continue;
-    const std::string& caster = id_of(area_->part_of(b));
+  for (std::size_t b = 0; b < light_->area().size() && (lit || terms_.per_caster_umbra); ++b) {
+    if (light_->area().part_of(b) == piece.part) continue;
+    if (light_->is_apart(piece, light_->area().largest_penumbra(b).bounds)) continue;
+    const AreaSolids::Volume& volume = lit ? light_->area().penumbra(b, piece.part, polygon.side)
+                                           : light_->area().umbra(b, piece.part, polygon.side);
+    if (!(area_along(normal, light_->inside(piece, volume, !lit)) > slack)) continue;
+    const std::string& caster = id_of(light_->area().part_of(b));
     return told(lit ? fmt::format("a lit fragment is in the penumbra of '{}'", caster)
                     : fmt::format("a penumbra fragment is in the umbra of '{}'", caster));
   }
@@ -186,15 +165,15 @@ bool WitnessChecker::is_seen(const ClaimedPolygon& polygon, const Piece& piece,
 }
 
 bool WitnessChecker::area_reason_holds(const ClaimedPolygon& polygon, const Piece& piece,
-                                       bool behind) const {
+                                       bool behind) {
   if (piece.fragment->state != LightState::kUmbra) return false;
   switch (shadow_reason_by_name(piece.fragment->reason).value_or(ShadowReason::kNone)) {
     case ShadowReason::kBehindLight:
       return behind;
     case ShadowReason::kFacesAway:
-      return area_->faces_away(piece.part, polygon.side);
+      return light_->area().faces_away(piece.part, polygon.side);
     case ShadowReason::kLightInPlane:
-      return area_->light_in_plane(piece.part);
+      return light_->area().light_in_plane(piece.part);
     case ShadowReason::kNone:
       break;
   }
@@ -217,9 +196,9 @@ void WitnessChecker::check_area_shade(const ClaimedPolygon& polygon, const Piece
   if (!all && !is_seen(polygon, piece, slack)) return;
   if (fragment.state == LightState::kLit) return;
   ++report_.witnesses;
-  const bool sees = area_->sees(piece.part, polygon.side);
+  const bool sees = light_->sees(piece.part, polygon.side);
   const mpq_class behind =
-      area_along(solids_[piece.part].normal, cut(piece.loop, area_->behind_light()));
+      area_along(light_->solid(piece.part).normal, cut(piece.loop, light_->area().behind_light()));
   const mpq_class before = sees ? mpq_class(piece.area - behind) : mpq_class(0);
   if (!fragment.reason.empty()) {
     if (area_reason_holds(polygon, piece, before <= slack)) return;
@@ -236,7 +215,10 @@ void WitnessChecker::check_area_shade(const ClaimedPolygon& polygon, const Piece
     return;
   }
   const std::optional<std::uint32_t> caster = named_caster(polygon, piece);
-  if (caster && sees && not_hidden_by(piece, *caster, polygon.side, all) > slack) {
+  if (caster && sees &&
+      area_along(light_->solid(piece.part).normal,
+                 light_->not_hidden(piece, light_->before_light(piece), *caster, polygon.side,
+                                    all)) > slack) {
     violation(polygon.id,
               fmt::format("'{}' does not hide {} of the light from all of the fragment",
                           fragment.caster, all ? "all" : "part"),
@@ -244,60 +226,21 @@ void WitnessChecker::check_area_shade(const ClaimedPolygon& polygon, const Piece
   }
 }
 
-mpq_class WitnessChecker::shadowed_by(const Piece& piece, std::uint32_t part) const {
-  const Solid& caster = solids_[part];
-  if (!caster.casts || part == piece.part) return 0;
-  Loop rest = piece.loop;
-  for (const HalfSpace& half : caster.shadow) {
-    rest = cut(rest, half);
-    if (rest.empty()) return 0;
-  }
-  return area_along(solids_[piece.part].normal, rest);
-}
-
 void WitnessChecker::check_lit(const ClaimedPolygon& polygon, const Piece& piece,
                                const mpq_class& slack) {
-  for (std::uint32_t part = 0; part < solids_.size(); ++part) {
-    if (!solids_[part].casts || is_apart(piece, solids_[part].shadow)) continue;
-    if (shadowed_by(piece, part) > slack) {
+  for (std::uint32_t part = 0; part < light_->solids().size(); ++part) {
+    if (!light_->solid(part).casts || light_->is_apart(piece, light_->solid(part).shadow)) continue;
+    if (light_->shadowed_by(piece, part) > slack) {
       return violation(polygon.id, fmt::format("a lit fragment is shadowed by '{}'", id_of(part)),
                        piece.index);
     }
   }
 }
 
-/// The parts of one caster: their shadows may overlap where it is not planar, so the piece is cut
-/// down to what no part so far has taken.
-mpq_class WitnessChecker::not_shadowed_by(const Piece& piece, std::uint32_t caster) const {
-  std::vector<Loop> rest{piece.loop};
-  for (std::uint32_t part = prepared_.first_part[caster]; part < prepared_.first_part[caster + 1];
-       ++part) {
-    // A part in the receiver's plane shadows nothing of it, and its shadow cuts nothing off.
-    if (!solids_[part].casts || part == piece.part || solids_[part].holds(solids_[piece.part])) {
-      continue;
-    }
-    std::vector<Loop> left;
-    for (Loop& loop : rest) {
-      for (const HalfSpace& half : solids_[part].shadow) {
-        HalfSpace beyond = half;
-        for (mpq_class& component : beyond.normal) component = -component;
-        Loop outside = cut(loop, beyond);
-        if (!outside.empty()) left.push_back(std::move(outside));
-        loop = cut(loop, half);
-        if (loop.empty()) break;
-      }
-    }
-    rest = std::move(left);
-  }
-  mpq_class open;
-  for (const Loop& loop : rest) open += area_along(solids_[piece.part].normal, loop);
-  return open;
-}
-
 void WitnessChecker::check_shade(const ClaimedPolygon& polygon, const Piece& piece,
                                  const mpq_class& slack) {
   const ClaimedFragment& fragment = *piece.fragment;
-  const Solid& own = solids_[piece.part];
+  const Solid& own = light_->solid(piece.part);
   const bool faces = own.receives && (own.facing > 0) == (polygon.side == Side::kFront);
   if (fragment.state == LightState::kLit) {
     if (faces) return check_lit(polygon, piece, slack);
@@ -320,76 +263,148 @@ void WitnessChecker::check_shade(const ClaimedPolygon& polygon, const Piece& pie
     return;
   }
   const std::optional<std::uint32_t> caster = named_caster(polygon, piece);
-  if (caster && not_shadowed_by(piece, *caster) > slack) {
+  if (caster && area_along(own.normal, light_->not_shadowed(piece, *caster)) > slack) {
     violation(polygon.id, fmt::format("'{}' does not shadow all of the fragment", fragment.caster),
               piece.index);
   }
 }
 
-void WitnessChecker::check_family(const ClaimedPolygon& polygon,
+std::optional<WitnessChecker::ClassSet> WitnessChecker::left_out() const {
+  ClassSet classes{};
+  if (terms_.listed) {
+    for (const LightState state :
+         {LightState::kLit, LightState::kShadow, LightState::kPenumbra, LightState::kUmbra}) {
+      const bool known =
+          state == LightState::kLit || (state != LightState::kShadow) == light_->is_area();
+      classes[static_cast<std::size_t>(state)] = known && !is_told(state);
+    }
+    return classes;
+  }
+  if (!terms_.background) return std::nullopt;
+  classes[static_cast<std::size_t>(*terms_.background)] = true;
+  return classes;
+}
+
+void WitnessChecker::check_classes(const ClaimedPolygon& polygon, const Piece& piece,
+                                   const ClassSet& allowed, const mpq_class& slack) {
+  const std::array<mpq_class, 4> areas = light_->areas_of_classes(piece, polygon.side);
+  // Umbra may be called penumbra where it is not claimed per caster.
+  const bool umbra_is_penumbra =
+      !terms_.per_caster_umbra && allowed[static_cast<std::size_t>(LightState::kPenumbra)];
+  for (std::size_t c = 0; c < areas.size(); ++c) {
+    const auto state = static_cast<LightState>(c);
+    if (allowed[c] || (state == LightState::kUmbra && umbra_is_penumbra)) continue;
+    if (!(areas[c] > slack)) continue;
+    const std::string what = piece.fragment
+                                 ? fmt::format("a {} fragment", name_of(piece.fragment->state))
+                                 : std::string("what no fragment covers");
+    violation(polygon.id, fmt::format("some of {} is {}", what, name_of(state)),
+              piece.fragment ? std::optional<std::uint64_t>(piece.index) : std::nullopt);
+    return;
+  }
+}
+
+void WitnessChecker::check_piece(const ClaimedPolygon& polygon, const Piece& piece,
+                                 const mpq_class& slack) {
+  const LightState state = piece.fragment->state;
+  if (!is_told(state)) return check_classes(polygon, piece, *left_out(), slack);
+  if (terms_.block != Block::kLights) {
+    ClassSet own{};
+    own[static_cast<std::size_t>(state)] = true;
+    return check_classes(polygon, piece, own, slack);
+  }
+  light_->is_area() ? check_area_shade(polygon, piece, slack) : check_shade(polygon, piece, slack);
+}
+
+/// Pairs, swept along x. Of an overlay only those that say different things of one level.
+void WitnessChecker::check_overlaps(const ClaimedPolygon& polygon, const RationalPoint& normal,
+                                    std::vector<Piece>& pieces, const mpq_class& slack) {
+  std::ranges::sort(pieces, {}, [](const Piece& piece) { return piece.low[0]; });
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const ClaimedFragment& own = *pieces[i].fragment;
+    for (std::size_t j = i + 1; j < pieces.size() && pieces[j].low[0] <= pieces[i].high[0]; ++j) {
+      const ClaimedFragment& other = *pieces[j].fragment;
+      if (&own == &other || !pieces[i].overlaps_box_of(pieces[j])) continue;
+      if (terms_.cover == Cover::kOverlay &&
+          (own.level != other.level || own.state == other.state)) {
+        continue;
+      }
+      Loop rest = pieces[i].loop;
+      for (const HalfSpace& wall : pieces[j].walls_of(normal)) {
+        rest = cut(rest, wall);
+        if (rest.empty()) break;
+      }
+      if (rest.empty() ||
+          !(area_along(normal, rest) > (own.exact && other.exact ? mpq_class(0) : slack))) {
+        continue;
+      }
+      violation(polygon.id, fmt::format("the fragment overlaps fragment {}", pieces[j].index),
+                pieces[i].index);
+    }
+  }
+}
+
+/// `slack`: of rounded loops.
+void WitnessChecker::check_tiling(const ClaimedPolygon& polygon,
                                   const std::vector<std::uint32_t>& parts,
-                                  std::vector<Piece>& pieces) {
-  const RationalPoint& normal = solids_[parts.front()].normal;
+                                  std::vector<Piece>& pieces, const mpq_class& slack) {
+  const RationalPoint& normal = light_->solid(parts.front()).normal;
   mpq_class whole, sum;
   bool exact = true;
-  for (std::uint32_t part : parts) whole += area_along(normal, solids_[part].loop);
-  const auto slack_of = [&](bool is_exact) {
-    return is_exact ? mpq_class(0) : mpq_class(tolerance_ * whole);
-  };
+  for (std::uint32_t part : parts) whole += area_along(normal, light_->solid(part).loop);
   for (Piece& piece : pieces) {
     exact = exact && piece.fragment->exact;
     sum += piece.area;
     mpq_class inside;
     for (std::uint32_t part : parts) {
       Loop rest = piece.loop;
-      for (const HalfSpace& wall : solids_[part].walls) {
+      for (const HalfSpace& wall : light_->solid(part).walls) {
         if (!rest.empty()) rest = cut(rest, wall);
       }
       if (!rest.empty()) inside += area_along(normal, rest);
     }
-    if (abs(mpq_class(piece.area - inside)) > slack_of(piece.fragment->exact)) {
+    if (abs(mpq_class(piece.area - inside)) > (piece.fragment->exact ? mpq_class(0) : slack)) {
       violation(polygon.id, "a fragment leaves the polygon", piece.index);
     }
   }
-  if (abs(mpq_class(whole - sum)) > slack_of(exact)) {
+  if (!left_out() && abs(mpq_class(whole - sum)) > (exact ? mpq_class(0) : slack)) {
     violation(polygon.id, "the fragments' areas do not add up to the polygon's");
   }
-  // Pairs, swept along x.
-  std::sort(pieces.begin(), pieces.end(),
-            [](const Piece& a, const Piece& b) { return a.low[0] < b.low[0]; });
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    for (std::size_t j = i + 1; j < pieces.size() && pieces[j].low[0] <= pieces[i].high[0]; ++j) {
-      bool apart = false;
-      for (int k = 1; k < 3; ++k) {
-        apart =
-            apart || pieces[i].high[k] < pieces[j].low[k] || pieces[j].high[k] < pieces[i].low[k];
-      }
-      if (apart) continue;
-      Loop rest = pieces[i].loop;
-      for (const HalfSpace& wall : pieces[j].walls_of(normal)) {
-        rest = cut(rest, wall);
-        if (rest.empty()) break;
-      }
-      const bool both = pieces[i].fragment->exact && pieces[j].fragment->exact;
-      if (!rest.empty() && area_along(normal, rest) > slack_of(both)) {
-        violation(polygon.id, fmt::format("the fragment overlaps fragment {}", pieces[j].index),
-                  pieces[i].index);
-      }
-    }
-  }
+}
+
+void WitnessChecker::check_family(const ClaimedPolygon& polygon,
+                                  const std::vector<std::uint32_t>& parts,
+                                  std::vector<Piece>& pieces) {
+  const bool reached = light_->sees(parts.front(), polygon.side);
+  if (terms_.block == Block::kOverlay && !reached) return;
+  const RationalPoint& normal = light_->solid(parts.front()).normal;
+  mpq_class whole;
+  for (std::uint32_t part : parts) whole += area_along(normal, light_->solid(part).loop);
+  const mpq_class slack = tolerance_ * whole;
+  // Shared fragments tile a side for all lights or for none.
+  const bool tiles = terms_.block == Block::kLights ||
+                     (reached && tiled_.emplace(parts.front(), polygon.side).second);
+  if (tiles) check_tiling(polygon, parts, pieces, slack);
+  // Loops of one level may overlap under one of a higher level.
+  if (terms_.cover == Cover::kOverlay) pieces = cut_to_visible(std::move(pieces), normal);
+  if (tiles) check_overlaps(polygon, normal, pieces, slack);
+  bool exact = true;
   for (const Piece& piece : pieces) {
-    const mpq_class slack = slack_of(piece.fragment->exact);
-    if (area_) {
-      check_area_shade(polygon, piece, slack);
-    } else {
-      check_shade(polygon, piece, slack);
+    exact = exact && piece.fragment->exact;
+    check_piece(polygon, piece, piece.fragment->exact ? mpq_class(0) : slack);
+  }
+  mpq_class rest_area;
+  if (const std::optional<ClassSet> allowed = left_out()) {
+    for (const Piece& rest : left_over(parts, light_->solids(), pieces)) {
+      rest_area += rest.area;
+      check_classes(polygon, rest, *allowed, exact ? mpq_class(0) : slack);
     }
   }
-  check_fractions(polygon, pieces, parts);
+  check_fractions(polygon, pieces, rest_area, parts);
 }
 
 void WitnessChecker::check_fractions(const ClaimedPolygon& polygon,
-                                     const std::vector<Piece>& pieces,
+                                     const std::vector<Piece>& pieces, const mpq_class& rest,
                                      const std::vector<std::uint32_t>& parts) {
   if (!polygon.lit_fraction && !polygon.shadow_fraction && !polygon.penumbra_fraction &&
       !polygon.umbra_fraction) {
@@ -398,23 +413,21 @@ void WitnessChecker::check_fractions(const ClaimedPolygon& polygon,
   const std::uint32_t index = prepared_.parts[parts.front()].polygon;
   if (parts.size() != prepared_.first_part[index + 1] - prepared_.first_part[index]) return;
   std::array<mpq_class, 4> areas;  // by LightState
+  if (terms_.background) areas[static_cast<std::size_t>(*terms_.background)] = rest;
   bool exact = true;
   for (const Piece& piece : pieces) {
     areas[static_cast<std::size_t>(piece.fragment->state)] += piece.area;
     exact = exact && piece.fragment->exact;
   }
-  const mpq_class whole = [&] {
-    mpq_class sum;
-    for (std::uint32_t part : parts) {
-      sum += area_along(solids_[parts.front()].normal, solids_[part].loop);
-    }
-    return sum;
-  }();
+  mpq_class whole;
+  for (std::uint32_t part : parts) {
+    whole += area_along(light_->solid(parts.front()).normal, light_->solid(part).loop);
+  }
   const mpq_class slack = exact ? mpq_class(0) : tolerance_;
   const auto claim = [&](const std::optional<mpq_class>& claimed, LightState shade) {
     const mpq_class& area = areas[static_cast<std::size_t>(shade)];
     const char* name = name_of(shade);
-    if (claimed && abs(mpq_class(*claimed - area / whole)) > slack) {
+    if (claimed && is_told(shade) && abs(mpq_class(*claimed - area / whole)) > slack) {
       violation(polygon.id,
                 fmt::format("the {} fraction is claimed as {}, but the fragments say {}", name,
                             claimed->get_str(), mpq_class(area / whole).get_str()));
@@ -426,12 +439,6 @@ void WitnessChecker::check_fractions(const ClaimedPolygon& polygon,
   claim(polygon.umbra_fraction, LightState::kUmbra);
 }
 
-bool WitnessChecker::sees(std::uint32_t part, Side side) const {
-  if (area_) return area_->sees(part, side);
-  const Solid& solid = solids_[part];
-  return solid.receives && (side == Side::kFront ? solid.facing > 0 : solid.facing < 0);
-}
-
 /// A polygon is listed once for each side that some part of it sees the light from, or with its
 /// front.
 std::vector<Side> WitnessChecker::listed_sides(std::uint32_t polygon) const {
@@ -439,7 +446,7 @@ std::vector<Side> WitnessChecker::listed_sides(std::uint32_t polygon) const {
   for (const Side side : {Side::kFront, Side::kBack}) {
     for (std::uint32_t part = prepared_.first_part[polygon];
          part < prepared_.first_part[polygon + 1]; ++part) {
-      if (!sees(part, side)) continue;
+      if (!light_->sees(part, side)) continue;
       sides.push_back(side);
       break;
     }
@@ -461,7 +468,7 @@ std::map<PlaneId, std::vector<std::uint32_t>> WitnessChecker::families_on(
   for (const auto& [plane, parts] : families) {
     const auto seen_from = [&, &family = parts](Side from) {
       return std::any_of(family.begin(), family.end(),
-                         [&](std::uint32_t part) { return sees(part, from); });
+                         [&](std::uint32_t part) { return light_->sees(part, from); });
     };
     const bool dark = !seen_from(Side::kFront) && !seen_from(Side::kBack);
     if (!seen_from(side) && !(dark && side == first)) optional.insert(plane);
@@ -471,7 +478,7 @@ std::map<PlaneId, std::vector<std::uint32_t>> WitnessChecker::families_on(
 
 WitnessChecker::Nearest WitnessChecker::distance_to(const ClaimedFragment& fragment, PlaneId plane,
                                                     const std::vector<std::uint32_t>& parts) const {
-  const Solid& solid = solids_[parts.front()];
+  const Solid& solid = light_->solid(parts.front());
   Nearest own{&parts, plane, 0, false};
   RationalPoint centre;
   for (const RationalPoint& point : fragment.loop) {
@@ -481,7 +488,7 @@ WitnessChecker::Nearest WitnessChecker::distance_to(const ClaimedFragment& fragm
   }
   own.distance /= dot(solid.normal, solid.normal);
   own.around = std::ranges::any_of(parts, [&](std::uint32_t part) {
-    return std::ranges::all_of(solids_[part].walls,
+    return std::ranges::all_of(light_->solid(part).walls,
                                [&](const HalfSpace& wall) { return wall.value(centre) >= 0; });
   });
   return own;
@@ -504,23 +511,32 @@ WitnessChecker::Nearest WitnessChecker::nearest_family(const ClaimedFragment& fr
   return best;
 }
 
-std::optional<Piece> WitnessChecker::piece_of(const ClaimedPolygon& polygon, std::size_t index,
-                                              const Nearest& family) {
+std::vector<Piece> WitnessChecker::pieces_of(const ClaimedPolygon& polygon, std::size_t index,
+                                             const Nearest& family) {
   const ClaimedFragment& fragment = polygon.fragments[index];
   const auto told = [&](const char* text) {
     violation(polygon.id, text, index);
-    return std::nullopt;
+    return std::vector<Piece>();
   };
   if (!family.parts) return told("nothing of the polygon is classified on this side");
   if (family.distance > allowed_distance(fragment)) {
     return told("a fragment does not lie in the polygon's plane");
   }
   const std::uint32_t part = family.parts->front();
-  Piece piece(fragment, index, part, solids_[part], family.distance == 0);
-  if (fragment.exact && !piece.is_convex(solids_[part].normal)) {
-    return told("a fragment is not convex");
+  const Solid& solid = light_->solid(part);
+  const bool in_plane = family.distance == 0;
+  Piece piece(fragment, index, part, solid, in_plane);
+  if (fragment.exact && !piece.is_convex(solid.normal)) return told("a fragment is not convex");
+  if (fragment.holes.empty()) return {std::move(piece)};
+  for (const RationalLoop& hole : fragment.holes) {
+    ClaimedFragment shape;
+    shape.loop = hole;
+    if (hole.size() < 3) return told("a hole of a fragment has fewer than three vertices");
+    if (fragment.exact && !Piece(shape, index, part, solid, in_plane).is_convex(solid.normal)) {
+      return told("a hole of a fragment is not convex");
+    }
   }
-  return piece;
+  return without_holes(piece, solid, in_plane);
 }
 
 void WitnessChecker::check_polygon(const ClaimedPolygon& polygon) {
@@ -537,10 +553,11 @@ void WitnessChecker::check_polygon(const ClaimedPolygon& polygon) {
     const ClaimedFragment& fragment = polygon.fragments[i];
     ++report_.fragments;
     if (fragment.exact) ++report_.exact_fragments;
-    if (fragment.state != LightState::kLit && (fragment.state == LightState::kShadow) == !!area_) {
+    const bool area = light_->is_area();
+    if (fragment.state != LightState::kLit && (fragment.state == LightState::kShadow) == area) {
       violation(polygon.id,
-                area_ ? "a class that an area light does not have"
-                      : "a class that a point light does not have",
+                area ? "a class that an area light does not have"
+                     : "a class that a point light does not have",
                 i);
       continue;
     }
@@ -549,8 +566,7 @@ void WitnessChecker::check_polygon(const ClaimedPolygon& polygon) {
       continue;
     }
     const Nearest family = nearest_family(fragment, families);
-    std::optional<Piece> piece = piece_of(polygon, i, family);
-    if (piece) pieces[family.plane].push_back(std::move(*piece));
+    std::ranges::move(pieces_of(polygon, i, family), std::back_inserter(pieces[family.plane]));
   }
   for (const auto& [plane, parts] : families) {
     if (optional.contains(plane) && pieces[plane].empty()) continue;
@@ -558,74 +574,103 @@ void WitnessChecker::check_polygon(const ClaimedPolygon& polygon) {
   }
 }
 
-WitnessReport WitnessChecker::run() {
-  std::size_t all = 0, done = 0;
-  for (const ClaimedLight& light : candidate_.lights) all += light.polygons.size();
-  std::set<std::string> listed;
-  for (const ClaimedLight& light : candidate_.lights) {
-    light_id_ = light.id;
-    listed.insert(light.id);
-    const PreparedLight* own = nullptr;
-    for (const PreparedLight& prepared : prepared_.lights) {
-      if (scene_.lights[prepared.light].id == light.id) own = &prepared;
-    }
-    if (!own) {
-      violation({}, "no such light in the scene");
+/// Of an overlay, and where there is a background, what is not listed is background.
+void WitnessChecker::check_missing(const std::set<std::string>& polygons,
+                                   const std::set<std::pair<std::string, Side>>& sides) {
+  for (std::uint32_t p = 0; p < scene_.polygons.size(); ++p) {
+    if (prepared_.first_part[p] == prepared_.first_part[p + 1]) continue;
+    const std::string& id = scene_.polygons[p].id;
+    if (terms_.block == Block::kLights && !terms_.background && !polygons.contains(id)) {
+      violation(id, "the polygon is missing");
       continue;
     }
-    solids_ = solids_of(prepared_, *own);
-    area_.reset();
-    if (own->has_area()) {
-      std::vector<const Loop*> loops;
-      for (const Solid& solid : solids_) loops.push_back(&solid.loop);
-      area_.emplace(prepared_, *own, loops);
-    }
-    per_caster_umbra_ = light.per_caster_umbra;
-    std::set<std::string> polygons;
-    std::set<std::pair<std::string, Side>> sides;
-    for (const ClaimedPolygon& polygon : light.polygons) {
-      if (options_.interrupted && options_.interrupted->load(std::memory_order_relaxed)) {
-        report_.interrupted = true;
-        return std::move(report_);
-      }
-      polygons.insert(polygon.id);
-      // A foreign file that names no side means the only one.
-      std::optional<ClaimedPolygon> turned;
-      const auto known = polygon_index_.find(polygon.id);
-      if (area_ && !polygon.side_given && known != polygon_index_.end()) {
-        const std::vector<Side> listed_on = listed_sides(known->second);
-        if (listed_on.size() == 1 && listed_on[0] != polygon.side) {
-          turned = polygon;
-          turned->side = listed_on[0];
-        }
-      }
-      const ClaimedPolygon& judged = turned ? *turned : polygon;
-      if (area_ && !sides.emplace(judged.id, judged.side).second) {
-        violation(judged.id, fmt::format("its {} is listed twice", name_of(judged.side)));
-      }
-      check_polygon(judged);
-      if (options_.progress) {
-        options_.progress(static_cast<double>(++done) / static_cast<double>(all));
-      }
-    }
-    for (std::uint32_t p = 0; p < scene_.polygons.size() && !options_.subset; ++p) {
-      const bool has_parts = prepared_.first_part[p] != prepared_.first_part[p + 1];
-      if (has_parts && !polygons.contains(scene_.polygons[p].id)) {
-        violation(scene_.polygons[p].id, "the polygon is missing");
-        continue;
-      }
-      if (!has_parts || !area_) continue;
-      for (const Side side : listed_sides(p)) {
-        if (sides.contains({scene_.polygons[p].id, side})) continue;
-        violation(scene_.polygons[p].id, fmt::format("its {} is missing", name_of(side)));
+    for (const Side side : listed_sides(p)) {
+      if (sides.contains({id, side})) continue;
+      const auto part = prepared_.first_part[p];
+      const bool reached =
+          std::ranges::any_of(std::views::iota(part, prepared_.first_part[p + 1]),
+                              [&](std::uint32_t own) { return light_->sees(own, side); });
+      if (terms_.background) {
+        ClaimedPolygon nothing;
+        nothing.id = id;
+        nothing.side = side;
+        check_polygon(nothing);
+      } else if (reached || (terms_.block == Block::kLights && light_->is_area())) {
+        violation(id, fmt::format("its {} is missing", name_of(side)));
       }
     }
   }
+}
+
+void WitnessChecker::check_light(const ClaimedLight& light) {
+  const PreparedLight* own = nullptr;
+  for (const PreparedLight& prepared : prepared_.lights) {
+    if (scene_.lights[prepared.light].id == light.id) own = &prepared;
+  }
+  if (!own) return violation({}, "no such light in the scene");
+  light_.emplace(prepared_, *own, diagonal_);
+  std::set<std::string> polygons;
+  std::set<std::pair<std::string, Side>> sides;
+  for (const ClaimedPolygon& polygon : light.polygons) {
+    if (stopped()) return;
+    polygons.insert(polygon.id);
+    // A foreign file that names no side means the only one.
+    std::optional<ClaimedPolygon> turned;
+    const auto known = polygon_index_.find(polygon.id);
+    if (!polygon.side_given && known != polygon_index_.end()) {
+      const std::vector<Side> listed_on = listed_sides(known->second);
+      if (listed_on.size() == 1 && listed_on[0] != polygon.side) {
+        turned = polygon;
+        turned->side = listed_on[0];
+      }
+    }
+    const ClaimedPolygon& judged = turned ? *turned : polygon;
+    if (!sides.emplace(judged.id, judged.side).second) {
+      violation(judged.id, fmt::format("its {} is listed twice", name_of(judged.side)));
+    }
+    check_polygon(judged);
+    if (options_.progress) {
+      options_.progress(static_cast<double>(++polygons_done_) / static_cast<double>(polygons_));
+    }
+  }
+  if (!options_.subset || terms_.background) check_missing(polygons, sides);
+}
+
+void WitnessChecker::check_claims(const Claims& claims, Block block) {
+  light_id_.clear();
+  terms_ = {};
+  terms_.block = block;
+  for (const std::string& problem : claims.problems) violation({}, problem);
+  std::set<std::string> listed;
+  for (const ClaimedLight& light : claims.lights) {
+    if (stopped()) return;
+    light_id_ = light.id;
+    terms_ = light;
+    listed.insert(light.id);
+    check_light(light);
+  }
+  if (block != Block::kLights || options_.subset) return;
+  terms_ = {};
   for (const PreparedLight& light : prepared_.lights) {
     const std::string& id = scene_.lights[light.light].id;
-    if (options_.subset || listed.contains(id)) continue;
+    if (listed.contains(id)) continue;
     light_id_ = id;
     violation({}, "the light is missing");
+  }
+}
+
+WitnessReport WitnessChecker::run(const std::vector<std::string>& problems) {
+  for (const std::string& problem : problems) violation({}, problem);
+  const std::vector<Claims> shared = shared_claims(candidate_, scene_);
+  const auto count = [&](const Claims& claims) {
+    for (const ClaimedLight& light : claims.lights) polygons_ += light.polygons.size();
+  };
+  count(candidate_);
+  for (const Claims& block : shared) count(block);
+  if (!candidate_.lights.empty() || shared.empty()) check_claims(candidate_, Block::kLights);
+  for (const Claims& block : shared) {
+    tiled_.clear();
+    check_claims(block, block.lights.empty() ? Block::kCombined : block.lights.front().block);
   }
   return std::move(report_);
 }
@@ -634,7 +679,15 @@ WitnessReport WitnessChecker::run() {
 
 WitnessReport check_witnesses(const Scene& scene, const PreparedScene& prepared,
                               const Claims& candidate, const WitnessOptions& options) {
-  return WitnessChecker(scene, prepared, candidate, options).run();
+  if (!has_pieces(candidate)) return WitnessChecker(scene, prepared, candidate, options).run();
+  const auto pieces = scene_of_pieces(scene, prepared, candidate);
+  if (pieces) {
+    return WitnessChecker(pieces->scene, pieces->prepared, candidate, options).run(pieces->gaps);
+  }
+  WitnessReport report;
+  report.violations = 1;
+  report.findings.push_back({{}, {}, pieces.error().what, {}, Block::kLights});
+  return report;
 }
 
 }  // namespace gnomon::oracle

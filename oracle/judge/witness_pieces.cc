@@ -2,6 +2,8 @@
 #include "oracle/judge/witness_pieces.h"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <utility>
 
 #include "gnomon/oracle/enclosure.h"
@@ -93,6 +95,20 @@ Piece::Piece(const ClaimedFragment& claimed, std::size_t number, std::uint32_t o
       for (int k = 0; k < 3; ++k) point[k] -= height * normal[k];
     }
   }
+  measure(normal);
+}
+
+Piece::Piece(const Piece& whole, space::Loop own, const RationalPoint& normal)
+    : fragment(whole.fragment), index(whole.index), part(whole.part), loop(std::move(own)) {
+  measure(normal);
+}
+
+Piece::Piece(std::uint32_t of_part, space::Loop own, const RationalPoint& normal)
+    : part(of_part), loop(std::move(own)) {
+  measure(normal);
+}
+
+void Piece::measure(const RationalPoint& normal) {
   area = area_along(normal, loop);
   if (area < 0) {
     std::reverse(loop.begin(), loop.end());
@@ -108,6 +124,13 @@ Piece::Piece(const ClaimedFragment& claimed, std::size_t number, std::uint32_t o
       high[k] = std::max(high[k], round_up(corner[k]));
     }
   }
+}
+
+bool Piece::overlaps_box_of(const Piece& other) const {
+  for (int k = 0; k < 3; ++k) {
+    if (high[k] < other.low[k] || other.high[k] < low[k]) return false;
+  }
+  return true;
 }
 
 bool Piece::is_convex(const RationalPoint& normal) const {
@@ -137,6 +160,62 @@ const std::vector<HalfSpace>& Piece::walls_of(const RationalPoint& normal) {
     if (dot(inward, inward) != 0) walls_.emplace_back(std::move(inward), a);
   }
   return walls_;
+}
+
+namespace {
+
+std::vector<Piece> pieces_of(const Piece& whole, std::vector<space::Loop> loops,
+                             const RationalPoint& normal) {
+  std::vector<Piece> pieces;
+  for (space::Loop& loop : loops) pieces.emplace_back(whole, std::move(loop), normal);
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<Piece> without_holes(const Piece& piece, const Solid& solid, bool exact) {
+  std::vector<space::Loop> loops{piece.loop};
+  for (const RationalLoop& hole : piece.fragment->holes) {
+    ClaimedFragment shape;
+    shape.loop = hole;
+    Piece own(shape, 0, piece.part, solid, exact);
+    if (own.area == 0) continue;
+    loops = without(std::move(loops), own.walls_of(solid.normal));
+  }
+  return pieces_of(piece, std::move(loops), solid.normal);
+}
+
+std::vector<Piece> cut_to_visible(std::vector<Piece> pieces, const RationalPoint& normal) {
+  std::ranges::stable_sort(pieces, std::greater<>(),
+                           [](const Piece& piece) { return piece.fragment->level; });
+  std::vector<Piece> visible;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    std::vector<space::Loop> loops{pieces[i].loop};
+    for (std::size_t j = 0; j < i && !loops.empty(); ++j) {
+      if (pieces[j].fragment->level == pieces[i].fragment->level) break;
+      if (pieces[j].area == 0 || !pieces[j].overlaps_box_of(pieces[i])) continue;
+      loops = without(std::move(loops), pieces[j].walls_of(normal));
+    }
+    std::ranges::move(pieces_of(pieces[i], std::move(loops), normal), std::back_inserter(visible));
+  }
+  return visible;
+}
+
+std::vector<Piece> left_over(std::span<const std::uint32_t> parts, const std::vector<Solid>& solids,
+                             std::vector<Piece>& pieces) {
+  std::vector<Piece> left;
+  for (const std::uint32_t part : parts) {
+    // Parts of one plane may look to different sides: areas are along the first one's normal.
+    const RationalPoint& normal = solids[parts.front()].normal;
+    const Piece whole(parts.front(), solids[part].loop, normal);
+    std::vector<space::Loop> loops{whole.loop};
+    for (std::size_t i = 0; i < pieces.size() && !loops.empty(); ++i) {
+      if (pieces[i].area == 0 || !pieces[i].overlaps_box_of(whole)) continue;
+      loops = without(std::move(loops), pieces[i].walls_of(normal));
+    }
+    std::ranges::move(pieces_of(whole, std::move(loops), normal), std::back_inserter(left));
+  }
+  return left;
 }
 
 }  // namespace gnomon::oracle

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "gnomon/result/claims.h"
@@ -34,10 +35,10 @@ struct Solid {
 /// All parts under one light. Under an area light none receives or casts: AreaSolids knows that.
 std::vector<Solid> solids_of(const PreparedScene& scene, const PreparedLight& light);
 
-/// A claimed fragment in the plane of a part.
+/// A claimed fragment in the plane of a part, or a convex piece of it; or of what none covers.
 struct Piece {
-  const ClaimedFragment* fragment;
-  std::size_t index;                           // of the fragment in its polygon
+  const ClaimedFragment* fragment = nullptr;   // null: what none covers
+  std::size_t index = 0;                       // of the fragment in its polygon
   std::uint32_t part;                          // a part whose plane it lies in
   space::Loop loop;                            // oriented like that part
   mpq_class area;                              // along the part's normal
@@ -48,7 +49,12 @@ struct Piece {
   /// plane by a hair, which must not put them behind a caster that lies in it.
   Piece(const ClaimedFragment& claimed, std::size_t number, std::uint32_t of_part,
         const Solid& solid, bool exact);
+  /// Part of a piece. Requires: a convex loop inside of it, with its orientation.
+  Piece(const Piece& whole, space::Loop own, const RationalPoint& normal);
+  /// What no fragment covers.
+  Piece(std::uint32_t of_part, space::Loop own, const RationalPoint& normal);
 
+  bool overlaps_box_of(const Piece& other) const;
   bool is_convex(const RationalPoint& normal) const;
   /// By doubles: clearly outside of one of the half-spaces, and so of what they bound.
   bool is_apart(const std::vector<space::HalfSpace>& bounds, double margin) const;
@@ -57,8 +63,19 @@ struct Piece {
   const std::vector<space::HalfSpace>& walls_of(const RationalPoint& normal);
 
  private:
+  void measure(const RationalPoint& normal);
+
   std::vector<space::HalfSpace> walls_;
 };
+
+/// What of a fragment a convex loop is: all of it, without holes. Requires: convex holes.
+std::vector<Piece> without_holes(const Piece& piece, const Solid& solid, bool exact);
+/// Pieces painted over each other, cut down to what is seen of each: a piece of a higher level
+/// hides what it holds of lower ones.
+std::vector<Piece> cut_to_visible(std::vector<Piece> pieces, const RationalPoint& normal);
+/// What no piece holds of the parts, which are coplanar.
+std::vector<Piece> left_over(std::span<const std::uint32_t> parts, const std::vector<Solid>& solids,
+                             std::vector<Piece>& pieces);
 
 }  // namespace gnomon::oracle
 

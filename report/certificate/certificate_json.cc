@@ -35,6 +35,7 @@ void write_texts(JsonWriter& json, std::string_view name, const std::vector<std:
 
 void write_witness(JsonWriter& json, const oracle::Witness& witness) {
   json.begin_object();
+  if (witness.block != Block::kLights) json.member("block", name_of(witness.block));
   json.member("light", witness.light);
   json.member("polygon", witness.polygon);
   json.member("side", name_of(witness.side));
@@ -117,6 +118,7 @@ void write_wrong_polygons(JsonWriter& json, const Scene& scene, const oracle::Re
     for (const oracle::PolygonComparison& polygon : light.polygons) {
       if (!is_wrong(polygon)) continue;
       json.begin_object();
+      if (light.block != Block::kLights) json.member("block", name_of(light.block));
       json.member("light", light.id);
       json.member("polygon", polygon.polygon);
       json.member("side", name_of(polygon.side));

@@ -175,8 +175,10 @@ std::string conclusion(const Certificate& certificate) {
 }  // namespace
 
 std::string place_in_words(const oracle::Witness& witness) {
-  std::string text = "light " + witness.light + ", polygon " + witness.polygon + " (" +
-                     name_of(witness.side) + ")";
+  std::string text =
+      witness.block == Block::kLights ? "" : std::string(name_of(witness.block)) + ", ";
+  text += "light " + witness.light + ", polygon " + witness.polygon + " (" + name_of(witness.side) +
+          ")";
   if (witness.kind == oracle::ErrorKind::kNone) return text;
   text += ", at (" + rounded(witness.nearest[0], 9) + ", " + rounded(witness.nearest[1], 9) + ", " +
           rounded(witness.nearest[2], 9) + "): found " +

@@ -153,8 +153,8 @@ class ResultWriter {
     json_.member("id", light_id(light));
     // Umbra is where one caster alone hides all of the light.
     if (is_area(light)) json_.member("umbra", "per-caster");
-    if (light.cover != Cover::kPartition) json_.member("cover", name_of(light.cover));
-    if (light.background) json_.member("background", name_of(*light.background));
+    write_piece(light);
+    write_terms(light);
     const FacingShare facing = facing_share(prepared_, light);
     json_.key("facing");
     json_.begin_object(JsonLayout::kInline);
@@ -173,6 +173,35 @@ class ResultWriter {
     }
     json_.end_array();
     json_.end_object();
+  }
+
+  /// What a light's piece was cut from, and where it is.
+  void write_piece(const LightResult& light) {
+    if (light.piece == LightResult::kWhole) return;
+    json_.member("piece_of", scene_.lights[prepared_.lights[light.light].light].id);
+    write_loop("exact_loop", light.piece_loop,
+               [&](const auto& point) { write_exact_point(point); });
+  }
+
+  /// How fragments are meant: whether they are painted over each other, and what is true of all
+  /// that they leave out. One class that is left out is that of all the rest; of several, only
+  /// membership in the classes that are listed is told.
+  void write_terms(const LightResult& light) {
+    if (light.cover != Cover::kPartition) json_.member("cover", name_of(light.cover));
+    if (light.background) json_.member("background", name_of(*light.background));
+    if (!leaves_out(light)) return;
+    std::vector<LightState> listed, left;
+    for (const LightState state : light_states(is_area(light))) {
+      (is_listed(light, state) ? listed : left).push_back(state);
+    }
+    if (left.size() == 1) {
+      json_.member("background", name_of(left.front()));
+      return;
+    }
+    json_.key("listed");
+    json_.begin_array(JsonLayout::kInline);
+    for (const LightState state : listed) json_.value(name_of(state));
+    json_.end_array();
   }
 
   /// Polygon by polygon: all sides of a large scene at once would take more room than its result.
@@ -280,20 +309,25 @@ class ResultWriter {
       const PartSide& part = side.parts[i];
       if (part.reason != ShadowReason::kNone) {
         const LightState dark = side.area_light ? LightState::kUmbra : LightState::kShadow;
-        if (is_listed(dark)) write_whole_part(prepared_.parts[first + i], dark, part.reason);
+        if (is_listed(light, dark)) write_whole_part(prepared_.parts[first + i], dark, part.reason);
         continue;
       }
       for (std::uint32_t f = 0; f < part.result->fragment_count; ++f) {
         const Fragment& fragment = light.fragments[part.result->first_fragment + f];
-        if (is_listed(fragment.state)) write_fragment(light, fragment);
+        if (is_listed(light, fragment.state)) write_fragment(light, fragment);
       }
     }
     json_.end_array();
   }
 
+  /// Where loops hide others, or stand before a background, all of them are needed.
+  bool leaves_out(const LightResult& light) const {
+    return options_.only && light.cover == Cover::kPartition && !light.background;
+  }
+
   /// kShadow stands for all that is not lit.
-  bool is_listed(LightState state) const {
-    return !options_.only || *options_.only == state ||
+  bool is_listed(const LightResult& light, LightState state) const {
+    return !leaves_out(light) || *options_.only == state ||
            (*options_.only == LightState::kShadow && state != LightState::kLit);
   }
 

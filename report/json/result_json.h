@@ -30,7 +30,9 @@ struct ResultJsonOptions {
   /// For each light the bounds that deep_umbra_bounds() has of it, none for other lights; empty: do
   /// not write them.
   std::vector<std::vector<DeepUmbraBounds>> deep_umbra;
-  std::optional<LightState> only;  // list fragments of this class alone; kShadow: all not lit
+  /// List fragments of this class alone; kShadow: all not lit. Not of a light whose fragments are
+  /// painted over each other or have a background: they mean something together.
+  std::optional<LightState> only;
   /// Of the same result and with exact shares if exact_fractions, where someone has them already;
   /// else they are computed polygon by polygon.
   const SidesByLight* sides = nullptr;

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
 
 #include "report/sides/polygon_sides.h"
 
@@ -26,22 +29,26 @@ ClaimedFragment whole_part(const PreparedScene& prepared, std::uint32_t part, bo
   return fragment;
 }
 
-/// False if a vertex is no finite number.
-bool copy_loop(const LightResult& light, const Fragment& fragment,
-               std::vector<RationalPoint>& loop) {
-  const bool exact = !light.exact_points.empty();
-  loop.reserve(fragment.count);
-  for (std::uint32_t i = fragment.first; i < fragment.first + fragment.count; ++i) {
-    if (exact) {
-      loop.push_back(light.exact_points[i]);
-      continue;
+/// Loops as a kernel has put them out.
+struct OutputPoints {
+  const std::vector<std::array<double, 3>>& nearest;
+  const std::vector<std::array<mpq_class, 3>>& exact;
+
+  /// False if a vertex is no finite number.
+  bool copy(std::uint32_t first, std::uint32_t count, RationalLoop& loop) const {
+    loop.reserve(count);
+    for (std::uint32_t i = first; i < first + count; ++i) {
+      if (!exact.empty()) {
+        loop.push_back(exact[i]);
+        continue;
+      }
+      const std::array<double, 3>& point = nearest[i];
+      if (!std::ranges::all_of(point, [](double x) { return std::isfinite(x); })) return false;
+      loop.push_back({mpq_class(point[0]), mpq_class(point[1]), mpq_class(point[2])});
     }
-    const std::array<double, 3>& point = light.points[i];
-    if (!std::ranges::all_of(point, [](double x) { return std::isfinite(x); })) return false;
-    loop.push_back({mpq_class(point[0]), mpq_class(point[1]), mpq_class(point[2])});
+    return true;
   }
-  return true;
-}
+};
 
 /// What one light's result claims of one part.
 void add_part(const Scene& scene, const PreparedScene& prepared, const LightResult& light,
@@ -55,7 +62,9 @@ void add_part(const Scene& scene, const PreparedScene& prepared, const LightResu
     ClaimedFragment own;
     own.state = fragment.state;
     own.exact = exact && !light.exact_points.empty();
-    if (!copy_loop(light, fragment, own.loop)) continue;
+    const OutputPoints points{light.points, light.exact_points};
+    if (!points.copy(fragment.first, fragment.count, own.loop)) continue;
+    own.level = claimed.fragments.size();
     if (fragment.caster != Fragment::kNoCaster) {
       own.caster = scene.polygons[prepared.parts[fragment.caster].polygon].id;
     }
@@ -68,7 +77,11 @@ ClaimedLight claims_of_light(const Scene& scene, const PreparedScene& prepared,
                              const LightResult& light, bool exact,
                              const std::vector<ClassifiedSide>& sides) {
   ClaimedLight claimed;
-  claimed.id = scene.lights[prepared.lights[light.light].light].id;
+  claimed.id = light_name(scene, prepared, light);
+  if (light.piece != LightResult::kWhole) {
+    claimed.piece_of = scene.lights[prepared.lights[light.light].light].id;
+    claimed.piece_loop = light.piece_loop;
+  }
   claimed.per_caster_umbra = prepared.lights[light.light].has_area();
   claimed.cover = light.cover;
   claimed.background = light.background;
@@ -88,6 +101,59 @@ ClaimedLight claims_of_light(const Scene& scene, const PreparedScene& prepared,
   return claimed;
 }
 
+std::vector<std::string> ids_of(const Claims& claims, std::uint64_t bits) {
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < claims.lights.size(); ++i) {
+    if (bits >> i & 1) ids.push_back(claims.lights[i].id);
+  }
+  return ids;
+}
+
+/// Entries that are grouped by polygon and side. `fill` sets what lights do to a fragment, and gets
+/// the index of the group's first entry.
+template <class Entry, class Fill>
+std::optional<std::vector<SharedPolygon>> shared_polygons(const Scene& scene,
+                                                          const PreparedScene& prepared,
+                                                          const std::vector<Entry>& entries,
+                                                          const OutputPoints& points, bool exact,
+                                                          const Fill& fill) {
+  if (entries.empty()) return std::nullopt;
+  std::vector<SharedPolygon> polygons;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Entry& entry = entries[i];
+    const std::string& id = scene.polygons[prepared.parts[entry.part].polygon].id;
+    if (polygons.empty() || polygons.back().id != id || polygons.back().side != entry.side) {
+      polygons.push_back({id, entry.side, true, {}});
+      first = i;
+    }
+    SharedFragment fragment;
+    fragment.exact = exact && !points.exact.empty();
+    if (!points.copy(entry.first, entry.count, fragment.loop)) fragment.loop.clear();
+    fill(fragment, entry, first);
+    polygons.back().fragments.push_back(std::move(fragment));
+  }
+  return polygons;
+}
+
+/// What is told of several lights at once. Requires: claims of all lights of the result.
+void add_shared(const Scene& scene, const PreparedScene& prepared, const ShadowResult& result,
+                Claims& claims) {
+  claims.combined = shared_polygons(
+      scene, prepared, result.combined, {result.combined_points, result.combined_exact_points},
+      result.exact, [&](SharedFragment& fragment, const CombinedFragment& entry, std::size_t) {
+        fragment.lit_by = ids_of(claims, entry.lit_by);
+        fragment.penumbra_of = ids_of(claims, entry.penumbra_of);
+      });
+  claims.overlay = shared_polygons(
+      scene, prepared, result.overlay, {result.overlay_points, result.overlay_exact_points},
+      result.exact, [&](SharedFragment& fragment, const PaintedPolygon& entry, std::size_t first) {
+        fragment.level = entry.level;
+        fragment.dark_for = ids_of(claims, entry.dark_for);
+        if (entry.on != PaintedPolygon::kNoOwner) fragment.on = entry.on - first;
+      });
+}
+
 }  // namespace
 
 Claims claims_of(const Scene& scene, const PreparedScene& prepared, const ShadowResult& result,
@@ -98,6 +164,7 @@ Claims claims_of(const Scene& scene, const PreparedScene& prepared, const Shadow
     claims.lights.push_back(
         claims_of_light(scene, prepared, result.lights[i], result.exact, sides[i]));
   }
+  add_shared(scene, prepared, result, claims);
   return claims;
 }
 
@@ -109,6 +176,7 @@ Claims claims_of(const Scene& scene, const PreparedScene& prepared, const Shadow
     claims.lights.push_back(claims_of_light(scene, prepared, light, result.exact,
                                             classified_sides(prepared, light, claim_fractions)));
   }
+  add_shared(scene, prepared, result, claims);
   return claims;
 }
 

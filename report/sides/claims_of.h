@@ -14,8 +14,9 @@
 
 namespace gnomon::report {
 
-/// Uses LightResult::exact_points where they were kept, else `points`. A fragment with a vertex
-/// that is no finite number cannot be judged and is left out: its area counts as uncovered. Umbra
+/// Uses exact points where they were kept, else the nearest ones. A fragment with a vertex that is
+/// no finite number cannot be judged and is left out: its area counts as uncovered. What the result
+/// has of several lights at once is claimed besides, where it is not empty. Umbra
 /// of area lights is claimed per caster. `sides`: of the same result; the exact shares in them are
 /// claimed.
 Claims claims_of(const Scene& scene, const PreparedScene& prepared, const ShadowResult& result,

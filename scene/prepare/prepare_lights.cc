@@ -96,22 +96,6 @@ class LightMaker {
     return error;
   }
 
-  /// Vertices that do not change the set of points; lights have few vertices, so simply start over.
-  static void drop_needless(std::vector<std::size_t>& kept, std::vector<Point>& loop) {
-    for (std::size_t i = 0; loop.size() >= 3 && i < loop.size();) {
-      const std::size_t n = loop.size();
-      const Point& p = loop[(i + n - 1) % n];
-      const Point& q = loop[(i + 1) % n];
-      if (!cross(loop[i] - p, q - loop[i]).is_zero()) {
-        ++i;
-        continue;
-      }
-      kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
-      loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(i));
-      i = 0;
-    }
-  }
-
   /// Says how far the worst vertex is from the plane of the first three, and where it would lie in
   /// it.
   Error not_planar(std::uint32_t index, const std::vector<std::size_t>& kept,
@@ -154,6 +138,22 @@ class LightMaker {
 };
 
 }  // namespace
+
+// Lights have few vertices, so simply start over.
+void drop_needless(std::vector<std::size_t>& kept, std::vector<Point>& loop) {
+  for (std::size_t i = 0; loop.size() >= 3 && i < loop.size();) {
+    const std::size_t n = loop.size();
+    const Point& p = loop[(i + n - 1) % n];
+    const Point& q = loop[(i + 1) % n];
+    if (!cross(loop[i] - p, q - loop[i]).is_zero()) {
+      ++i;
+      continue;
+    }
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
+    loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(i));
+    i = 0;
+  }
+}
 
 std::optional<Error> prepare_lights(const Scene& scene, const ExactGrid& grid, std::size_t first,
                                     PreparedScene& out) {

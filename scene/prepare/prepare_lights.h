@@ -7,6 +7,7 @@
 
 #include "gnomon/scene/grid.h"
 #include "gnomon/scene/prepare.h"
+#include "scene/geometry/loop_geometry.h"
 
 namespace gnomon::scene_detail {
 
@@ -14,6 +15,9 @@ namespace gnomon::scene_detail {
 /// point lights' positions and the area lights' loops, in order.
 std::optional<Error> prepare_lights(const Scene& scene, const ExactGrid& grid, std::size_t first,
                                     PreparedScene& out);
+
+/// Drops vertices that do not change the set of points, and what `kept` has beside them.
+void drop_needless(std::vector<std::size_t>& kept, std::vector<Vec3<mpz_class>>& loop);
 
 }  // namespace gnomon::scene_detail
 

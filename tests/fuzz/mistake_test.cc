@@ -126,7 +126,9 @@ TEST(Mistakes, ApplySomewhere) {
   for (const MistakeInfo& info : mistakes()) {
     bool applies = info.mistake == Mistake::kTVerticesLeftIn;
     for (const KernelInfo& kernel : kernel_list()) {
-      for (const MethodId algorithm : {MethodId::kSvbsp, MethodId::kSectors, MethodId::kReceiver}) {
+      for (const Method& method : methods()) {
+        if (!method.lights.point) continue;
+        const MethodId algorithm = method.id;
         applies = applies || applies_to(info.mistake, kernel.id, algorithm);
         EXPECT_TRUE(applies_to(Mistake::kNone, kernel.id, algorithm));
       }

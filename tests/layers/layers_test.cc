@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The layers: kernel <- scene <- result <- algorithms <- (report, fuzz, cli, bench), and oracle <-
-// result; and in each component the order of its rooms. Reads the includes of every source of every
-// component. The oracle shares no predicate, no splitting and no tree with what it judges: of the
-// kernel it may use the four headers that hold no arithmetic.
+// The layers: kernel <- scene <- result <- algorithms <- (report, fuzz, comparison, cli, bench),
+// and oracle <- result; and in each component the order of its rooms. Reads the includes of every
+// source of every component. The oracle shares no predicate, no splitting and no tree with what it
+// judges: of the kernel it may use the four headers that hold no arithmetic.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,8 +35,14 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
         "kernel/geometry.h"}},
       {"report", {"kernel", "scene", "result", "algorithms", "oracle", "report"}},
       {"fuzz", {"kernel", "scene", "result", "algorithms", "oracle", "report", "fuzz"}},
-      {"cli", {"kernel", "scene", "result", "algorithms", "oracle", "report", "fuzz", "cli"}},
-      {"bench", {"kernel", "scene", "result", "algorithms", "oracle", "report", "fuzz", "bench"}},
+      {"comparison",
+       {"kernel", "scene", "result", "algorithms", "oracle", "report", "fuzz", "comparison"}},
+      {"cli",
+       {"kernel", "scene", "result", "algorithms", "oracle", "report", "fuzz", "comparison",
+        "cli"}},
+      {"bench",
+       {"kernel", "scene", "result", "algorithms", "oracle", "report", "fuzz", "comparison",
+        "bench"}},
   };
   return kAllowed;
 }
@@ -68,11 +74,11 @@ const std::map<std::string, std::vector<Room>>& rooms() {
       {"algorithms",
        {{"partition", {}},
         {"scene_bsp", {"partition"}},
-        {"one_light", {"partition", "scene_bsp"}},
-        {"svbsp", {"partition", "scene_bsp", "one_light"}},
-        {"svbsp_full", {"partition", "one_light", "svbsp"}},
-        {"basic", {"partition", "scene_bsp", "one_light"}},
-        {"tiling", {"partition", "one_light", "basic"}},
+        {"lights", {"partition", "scene_bsp"}},
+        {"svbsp", {"partition", "scene_bsp", "lights"}},
+        {"svbsp_full", {"partition", "lights", "svbsp"}},
+        {"basic", {"partition", "scene_bsp", "lights"}},
+        {"tiling", {"partition", "lights", "basic"}},
         {"two_pass", {"partition"}},
         {"sectors", {"partition", "two_pass"}},
         {"shadow_volumes", {"partition"}},

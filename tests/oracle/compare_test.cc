@@ -27,7 +27,9 @@ class Compare : public testing::Test {
     ClaimedPolygon polygon;
     polygon.id = "floor";
     polygon.fragments = std::move(fragments);
-    return compare_entry(answer_, 0, answer_.entries(0)[0], &polygon, {background}, {});
+    ClaimedTerms terms;
+    terms.background = background;
+    return compare_entry(answer_, 0, answer_.entries(0)[0], &polygon, terms, {});
   }
 
   BuiltScene built_;

@@ -38,6 +38,46 @@ TEST(Overlay, SharedEdgesOfOneLayerVanish) {
   EXPECT_EQ(area_where(overlay, [](const Winding& w) { return w[kLit] == 1; }), 8);
 }
 
+TEST(Overlay, MarkedLoopsAreToldApart) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    Overlay overlay;
+    overlay.add_loop(square(-1, -1, 20), kReceiver);
+    struct Square {
+      int x, y, size;
+    };
+    std::vector<Square> squares;
+    for (std::uint32_t mark = 0; mark < 12; ++mark) {
+      // Small coordinates: many edges lie on each other, and cancel in one layer.
+      squares.push_back({random.integer(0, 6), random.integer(0, 6), random.integer(1, 4)});
+      const std::vector<ChartPoint> loop =
+          square(squares[mark].x, squares[mark].y, squares[mark].size);
+      for (std::size_t i = 0; i < 4; ++i) {
+        overlay.add_edge(loop[i], loop[(i + 1) % 4], kLit, 1, mark);
+      }
+    }
+    overlay.build();
+    ASSERT_TRUE(overlay.consistent());
+    std::vector<std::vector<bool>> faces_of(squares.size(),
+                                            std::vector<bool>(overlay.faces().size()));
+    std::size_t visited = 0;
+    overlay.for_each_marked_face([&](std::uint32_t face, const Overlay::MarkWindings& marks) {
+      ++visited;
+      int sum = 0;
+      for (const Overlay::MarkWinding& own : marks) {
+        EXPECT_EQ(own.winding, 1);
+        sum += own.winding;
+        faces_of[own.mark][face] = true;
+      }
+      EXPECT_EQ(overlay.faces()[face].winding[kLit], sum);
+    });
+    EXPECT_EQ(visited, overlay.faces().size() - 1);
+    for (std::size_t mark = 0; mark < squares.size(); ++mark) {
+      EXPECT_EQ(overlay.exact_area(faces_of[mark]), squares[mark].size * squares[mark].size);
+    }
+  }
+}
+
 TEST(Overlay, HolesAndIslands) {
   Overlay overlay;
   overlay.add_loop(square(0, 0, 10), kReceiver);

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "gnomon/algorithms/shadows.h"
+#include "gnomon/result/read_claims.h"
 #include "gnomon/scene/read.h"
 #include "kernel/signs/nearest_double.h"
 #include "report/facts/facing.h"
@@ -171,6 +172,54 @@ TEST(ResultJson, ListsWhatIsPaintedOnEverySide) {
   EXPECT_STREQ(painted[1]["dark_for"][0].GetString(), "panel");
   EXPECT_EQ(painted[1]["loop"].Size(), 3u);
   EXPECT_EQ(painted[0]["loop"][1][0].GetDouble(), 10);
+}
+
+/// What the writer leaves out, it says.
+TEST(ResultJson, SaysWhatIsNotListed) {
+  const Classified all = classify(kAreaScene);
+  const auto terms = [&](LightState only) {
+    ResultJsonOptions options;
+    options.fragments = true;
+    options.only = only;
+    StringSink sink;
+    write_result_json(sink, all.scene, all.prepared, all.result, options);
+    const auto claims = parse_claims(sink.text(), "r.json", all.scene);
+    EXPECT_TRUE(claims) << to_string(claims.error());
+    return *claims;
+  };
+  using enum LightState;
+  Claims claims = terms(kShadow);
+  EXPECT_EQ(claims.lights[0].background, kLit);
+  EXPECT_EQ(claims.lights[1].background, kLit);
+  claims = terms(kLit);
+  EXPECT_EQ(claims.lights[0].listed, std::vector{kLit});
+  EXPECT_EQ(claims.lights[1].background, kShadow);
+  claims = terms(kUmbra);
+  EXPECT_EQ(claims.lights[0].listed, std::vector{kUmbra});
+  EXPECT_TRUE(claims.lights[1].listed && claims.lights[1].listed->empty());
+}
+
+TEST(CandidateFromResult, HasWhatIsToldOfSeveralLights) {
+  Classified all = classify(kAreaScene);
+  EXPECT_FALSE(claims_of(all.scene, all.prepared, all.result, "plane", false).combined);
+  all.result.combined_points = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}};
+  all.result.overlay_points = all.result.combined_points;
+  all.result.combined = {
+      {.part = all.prepared.first_part[2], .lit_by = 2, .penumbra_of = 1, .first = 0, .count = 3}};
+  const std::uint32_t floor = all.prepared.first_part[0], bent = all.prepared.first_part[2];
+  all.result.overlay = {{.part = floor, .level = 1, .dark_for = 2, .first = 0, .count = 3},
+                        {.part = bent, .level = 1, .dark_for = 2, .first = 0, .count = 3},
+                        {.part = bent, .level = 2, .dark_for = 2, .on = 1, .first = 0, .count = 3}};
+  const Claims claims = claims_of(all.scene, all.prepared, all.result, "plane", false);
+  const SharedPolygon& combined = claims.combined->at(0);
+  EXPECT_EQ(combined.id, "bent");
+  EXPECT_EQ(combined.fragments.at(0).lit_by, std::vector<std::string>{"zenith"});
+  EXPECT_EQ(combined.fragments[0].penumbra_of, std::vector<std::string>{"panel"});
+  EXPECT_EQ(combined.fragments[0].loop.at(2), (RationalPoint{2, 2, 0}));
+  ASSERT_EQ(claims.overlay->size(), 2u);
+  EXPECT_FALSE(claims.overlay->at(1).fragments.at(0).on);
+  EXPECT_EQ(claims.overlay->at(1).fragments.at(1).on, 0u);
+  EXPECT_EQ(claims.overlay->at(1).fragments[1].level, 2u);
 }
 
 TEST(CandidateFromResult, LeavesOutWhatHasNoCoordinates) {

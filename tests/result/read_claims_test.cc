@@ -79,6 +79,91 @@ TEST(ReadClaims, AreaLights) {
   EXPECT_NE(message(R"({"umbra": "deep", "lights": []})").find("/umbra"), std::string::npos);
 }
 
+TEST(ReadClaims, HowFragmentsAreMeant) {
+  const Expected<Claims> found = parse(R"({"cover": "overlay", "background": "lit", "lights": [
+      {"id": "a", "polygons": [{"id": "p", "fragments": [
+        {"class": "shadow", "loop": [[0,0,0],[3,0,0],[0,3,0]],
+         "holes": [[[1,1,0],[1.5,1,0],[1,1.5,0]]]},
+        {"class": "lit", "loop": [[9,9,9]], "exact_loop": [["1/3",0,0],[1,0,0],[0,1,0]],
+         "exact_holes": [[["1/7",0,0]]]}]}]},
+      {"id": "b", "background": "shadow", "cover": "partition", "polygons": []}]})");
+  ASSERT_TRUE(found.has_value()) << to_string(found.error());
+  const ClaimedLight& light = found->lights[0];
+  EXPECT_EQ(light.cover, Cover::kOverlay);
+  EXPECT_EQ(light.background, LightState::kLit);
+  EXPECT_FALSE(light.listed);
+  EXPECT_EQ(found->lights[1].cover, Cover::kPartition);
+  EXPECT_EQ(found->lights[1].background, LightState::kShadow);
+  const std::vector<ClaimedFragment>& fragments = light.polygons[0].fragments;
+  EXPECT_LT(fragments[0].level, fragments[1].level);
+  EXPECT_EQ(fragments[0].holes.at(0).at(1)[0], mpq_class(3, 2));
+  EXPECT_EQ(fragments[1].holes.at(0).at(0)[0], mpq_class(1, 7));
+
+  const Expected<Claims> listed =
+      parse(R"({"lights": [{"id": "a", "listed": ["penumbra", "umbra"], "polygons": []},
+                           {"id": "b", "listed": [], "polygons": []}]})");
+  ASSERT_TRUE(listed.has_value()) << to_string(listed.error());
+  EXPECT_EQ(listed->lights[0].listed->size(), 2u);
+  EXPECT_TRUE(listed->lights[1].listed->empty());
+
+  const auto light_of = [](const std::string& terms) {
+    return message(R"({"lights": [{"id": "a", "polygons": [], )" + terms + "}]}");
+  };
+  EXPECT_NE(light_of(R"("cover": "layers")").find("/lights/0/cover"), std::string::npos);
+  EXPECT_NE(light_of(R"("cover": "overlay")").find("background"), std::string::npos);
+  EXPECT_NE(light_of(R"("listed": ["lit", "dark"])").find("/lights/0/listed/1"), std::string::npos);
+  EXPECT_NE(light_of(R"("listed": ["lit"], "background": "lit")").find("/lights/0"),
+            std::string::npos);
+}
+
+TEST(ReadClaims, PiecesOfLights) {
+  const Expected<Claims> found = parse(R"({"lights": [{"id": "a/0", "piece_of": "a",
+      "exact_loop": [["1/3",0,0],[1,0,0],[0,1,0]], "polygons": []}]})");
+  ASSERT_TRUE(found.has_value()) << to_string(found.error());
+  EXPECT_EQ(found->lights[0].piece_of, "a");
+  EXPECT_EQ(found->lights[0].piece_loop.at(0)[0], mpq_class(1, 3));
+  EXPECT_NE(message(R"({"lights": [{"id": "a/0", "piece_of": "a", "polygons": []}]})")
+                .find("\"loop\" is missing"),
+            std::string::npos);
+}
+
+TEST(ReadClaims, SeveralLightsAtOnce) {
+  const Expected<Claims> found = parse(R"({
+      "combined": [{"id": "p", "side": "back", "fragments": [
+        {"lit_by": ["a", "b"], "penumbra_of": ["c"], "loop": [[0,0,0],[1,0,0],[0,1,0]]},
+        {"lit_by": [], "loop": [], "exact_loop": [["1/3",0,0]]}]}],
+      "overlay": [{"id": "p", "painted": [
+        {"level": 2, "dark_for": ["a"], "on": 1, "loop": [[0,0,0],[1,0,0],[0,1,0]]},
+        {"level": 1, "dark_for": ["a"], "on": -1, "loop": [[0,0,0],[1,0,0],[0,1,0]]}]}]})");
+  ASSERT_TRUE(found.has_value()) << to_string(found.error());
+  const SharedPolygon& combined = found->combined->at(0);
+  EXPECT_EQ(combined.side, Side::kBack);
+  EXPECT_EQ(combined.fragments.at(0).lit_by, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(combined.fragments[0].penumbra_of, (std::vector<std::string>{"c"}));
+  EXPECT_FALSE(combined.fragments[0].exact);
+  EXPECT_TRUE(combined.fragments[1].exact);
+  EXPECT_EQ(combined.fragments[1].loop.at(0)[0], mpq_class(1, 3));
+  const SharedPolygon& overlay = found->overlay->at(0);
+  EXPECT_FALSE(overlay.side_given);
+  EXPECT_EQ(overlay.fragments.at(0).level, 2u);
+  EXPECT_EQ(overlay.fragments[0].on, 1u);
+  EXPECT_FALSE(overlay.fragments[1].on);
+
+  const auto at = [](const std::string& text, const std::string& place) {
+    EXPECT_NE(message(text).find(place), std::string::npos) << message(text);
+  };
+  at(R"({"combined": 1})", "/combined");
+  at(R"({"combined": [{"id": "p", "fragments": [{"loop": []}]}]})", "/combined/0/fragments/0");
+  at(R"({"combined": [{"id": "p", "fragments": [{"lit_by": ["a", 2], "loop": []}]}]})",
+     "/combined/0/fragments/0/lit_by/1");
+  const std::string painted = R"({"overlay": [{"id": "p", "painted": [{"dark_for": [], "loop": [])";
+  at(painted + "}]}]}", "/overlay/0/painted/0");
+  at(painted + R"(, "level": -1}]}]})", "/overlay/0/painted/0/level");
+  at(painted + R"(, "level": 1.5}]}]})", "/overlay/0/painted/0/level");
+  at(painted + R"(, "level": 1, "on": -2}]}]})", "/overlay/0/painted/0/on");
+  at(painted + R"(, "level": 1, "on": 1e9}]}]})", "/overlay/0/painted/0/on");
+}
+
 TEST(ReadClaims, EveryErrorHasAPlace) {
   EXPECT_EQ(message(""), "r.json:1:1: the file is empty; expected a result in JSON, UTF-8");
   EXPECT_NE(message("{\n \"lights\": [1,\n").find("r.json:3:1"), std::string::npos);

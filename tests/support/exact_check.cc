@@ -245,10 +245,7 @@ std::string check_methods(const Case& scene) {
       if (wrong.empty() && !is_first) wrong = compare_results(scene, first, *result);
       if (wrong.empty() && kernel == KernelId::kPlane) {
         wrong = check_bounds(scene, *result, options);
-        // The oracle reads fragments that tile.
-        if (wrong.empty() && method.values.cover == Cover::kPartition) {
-          wrong = compare_fragments(scene, *result);
-        }
+        if (wrong.empty()) wrong = compare_fragments(scene, *result);
       }
       if (!wrong.empty()) return text_of(method) + ": " + wrong;
       if (is_first) first = std::move(*result);

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gnomon/algorithms/work_counts.h"
 
@@ -57,12 +58,23 @@ struct Method {
   bool leaves_out_steps = false;  // runs without the balanced prefix, and without merging fragments
   bool overlays = false;          // shadows painted over polygons (Cover::kOverlay)
   bool threads = false;           // runs on several
+  bool names_casters = true;      // of every fragment in shadow, the polygon that hides it
   std::span<const std::string_view> options = {};  // names of method_option()
   std::span<const Counter> counters = {};          // those that it fills
 };
 
 /// In the order of the documents; kAutomatic is no row.
 std::span<const Method> methods();
+/// Where a method finds its regions, in words: "object space".
+std::string_view name_of(Domain domain);
+/// What a scene must be, in words: "closed meshes", ...; none if any scene will do.
+std::vector<std::string_view> names_of(const MethodNeeds& needs);
+/// "point, directional", "area", or all three.
+std::string name_of(LightKinds lights);
+/// What the method can besides classifying, in words: "combined", "explain", "overlay", "threads",
+/// "witness".
+std::vector<std::string_view> abilities(const Method& method);
+
 /// Requires: not kAutomatic.
 const Method& method_info(MethodId id);
 /// The method that is chosen by this name; none for "auto".

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/algorithms/method.h"
 #include "gnomon/algorithms/work_counts.h"
 #include "gnomon/kernel/sign.h"
 #include "gnomon/kernel/stage_counts.h"
@@ -59,7 +60,8 @@ struct LightResult {
   std::uint32_t light = 0;  // index into PreparedScene::lights
   // MethodId::kPieces: one result a piece of the light, in order of the pieces; else kWhole.
   std::uint32_t piece = kWhole;
-  // Of that piece, counter-clockwise seen from its front, scene units: if exact points are kept.
+  MethodId method = MethodId::kAutomatic;  // the one that ran
+  // Of that piece, counter-clockwise seen from its front, scene units.
   std::vector<std::array<mpq_class, 3>> piece_loop;
   // Point and directional lights: one a part, in order. Area lights: one for each side of a part
   // that sees the light, front before back, or one with kFront and a reason if none does.

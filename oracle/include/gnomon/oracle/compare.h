@@ -36,6 +36,7 @@ struct Witness {
   Enclosure width;                  // of the region around it, scene units
   std::optional<double> clearance;  // scene units; none: no single vertex is known to change it
   std::string text;                 // one sentence
+  Block block = Block::kLights;     // of the candidate
 };
 
 /// A maximal connected region in which the candidate is wrong in any way.
@@ -72,12 +73,6 @@ struct PolygonComparison {
   /// The same without ill-conditioned regions: what the verdict looks at.
   AreaShare judged_misclassified, judged_uncovered, judged_overlapping, judged_outside;
   Enclosure judged_width;
-};
-
-/// What is claimed of one polygon side besides its fragments.
-struct ClaimedTerms {
-  std::optional<LightState> background;  // class of all that no fragment covers
-  bool per_caster_umbra = false;         // ClaimedLight::per_caster_umbra
 };
 
 /// `candidate` may be null: nothing was found. Requires: `entry` is one of answer.entries(light).

@@ -32,6 +32,7 @@ struct ReceiverGroup {
   bool light_in_plane = false;
   bool optional = false;     // of another side than the entry's: may be listed here, as shadow
   Side side = Side::kFront;  // area lights: the entry's
+  bool tiling = true;        // false: whether fragments tile it is judged under another light
 };
 
 /// One polygon side that a result lists.

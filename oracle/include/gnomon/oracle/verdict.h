@@ -7,6 +7,9 @@
 //                     every vertex off its plane is at most `width`;
 //   failed            otherwise, or if something is missing, unknown or listed twice.
 //
+// What a candidate tells of several lights at once (Claims::combined, Claims::overlay) is judged
+// light by light besides; whether shared fragments tile a side is judged once.
+//
 // Umbra of an area light that a candidate calls penumbra is a cost, told and not judged.
 //
 // Above `most_pairs` pairs of parts (a stated limit: the exact regions grow with the square of the
@@ -52,6 +55,7 @@ struct CertifyOptions {
 
 struct LightComparison {
   std::string id;
+  Block block = Block::kLights;  // of the candidate, which may tell of a light in several
   std::vector<PolygonComparison> polygons;  // in order of the scene, front before back
 };
 
@@ -93,7 +97,9 @@ struct Report {
   }
 };
 
-/// Errors: kUsage (tolerance, width or clearance negative or NaN). An interrupted run is a report.
+/// Pieces of a light are judged as lights, and must tile it. Errors: kUsage (tolerance, width or
+/// clearance negative or NaN); kGeometry (a piece of a light that is none). An interrupted run is a
+/// report.
 Expected<Report> certify(const ExactAnswer& answer, const Claims& candidate,
                          const CertifyOptions& options);
 Expected<Report> certify(const Scene& scene, const PreparedScene& prepared, const Claims& candidate,

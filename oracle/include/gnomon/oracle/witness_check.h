@@ -10,7 +10,10 @@
 //   of the light from a lit fragment; if umbra is claimed per caster, none hides all of it from any
 //   area of a penumbra fragment;
 //   - claimed fractions are those of the fragments.
-// A result that passes is right: its fragments tile every polygon and each has its proof.
+// What names no witness (fragments of several lights at once, and what no fragment covers) must
+// have its class by what all casters together do to it. Loops painted over each other are cut down
+// to what is seen of each. Holes are cut out; they must be convex, as loops must. A result that
+// passes is right: its fragments tile every polygon and each has its proof.
 //
 // Exactness: exact on exact loops. Rounded loops are judged within `tolerance` of the polygon's
 // area and `width` off its plane.
@@ -34,6 +37,7 @@ struct WitnessFinding {
   std::string light, polygon;
   std::string text;                       // one sentence
   std::optional<std::uint64_t> fragment;  // index in the polygon's list
+  Block block = Block::kLights;           // that the claim stands in
 };
 
 struct WitnessReport {
@@ -52,6 +56,7 @@ struct WitnessOptions {
   const std::atomic<bool>* interrupted = nullptr;
 };
 
+/// Pieces of a light are checked as lights, and must tile it.
 WitnessReport check_witnesses(const Scene& scene, const PreparedScene& prepared,
                               const Claims& candidate, const WitnessOptions& options = {});
 

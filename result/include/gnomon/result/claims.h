@@ -8,6 +8,8 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,12 +21,22 @@ namespace gnomon {
 
 using RationalPoint = std::array<mpq_class, 3>;
 
-struct ClaimedFragment {
+using RationalLoop = std::vector<RationalPoint>;
+
+/// A region of a polygon's side: a loop without its holes.
+struct ClaimedShape {
+  bool exact = false;  // the loops claim to be exact, not rounded to doubles
+  RationalLoop loop;   // any orientation, not closed (first point not repeated)
+  std::vector<RationalLoop> holes;
+};
+
+struct ClaimedFragment : ClaimedShape {
   LightState state = LightState::kLit;
-  bool exact = false;               // the loop claims to be exact, not rounded to doubles
-  std::vector<RationalPoint> loop;  // any orientation, not closed (first point not repeated)
-  std::string caster;               // polygon id of the witness, empty if none is named
-  std::string reason;               // as written, the name of a ShadowReason or not; or empty
+  std::string caster;  // polygon id of the witness, empty if none is named
+  std::string reason;  // as written, the name of a ShadowReason or not; or empty
+  /// Cover::kOverlay: of the fragments that hold a point, those of the highest level tell its
+  /// class.
+  std::uint64_t level = 0;
 };
 
 /// One side of a polygon.
@@ -37,20 +49,54 @@ struct ClaimedPolygon {
   std::vector<ClaimedFragment> fragments;
 };
 
-struct ClaimedLight {
-  std::string id;
+/// How the fragments of a light are meant.
+struct ClaimedTerms {
   std::optional<LightState> background;  // everything not covered has this class
-  Cover cover = Cover::kPartition;       // what the fragments of a side mean together
-  // Area lights: umbra is claimed where one caster alone hides all of the light, and nowhere else
-  // ("umbra": "per-caster"). Otherwise it may be claimed wherever no light arrives, and need not
-  // be.
+  /// Only membership in these classes is told: what no fragment covers, or one of another class, is
+  /// in none of them.
+  std::optional<std::vector<LightState>> listed;
+  Cover cover = Cover::kPartition;
+  /// Area lights: umbra is claimed where one caster alone hides all of the light, and nowhere else
+  /// ("umbra": "per-caster"). Otherwise it may be claimed wherever no light arrives, and need not
+  /// be.
   bool per_caster_umbra = false;
+  /// kLights: fragments name what hides the light, and every side is listed. Else they name
+  /// nothing, and sides that no light reaches may be missing; of kOverlay, what lies on a side that
+  /// this light does not reach tells of other lights alone.
+  Block block = Block::kLights;
+};
+
+struct ClaimedLight : ClaimedTerms {
+  std::string id;
   std::vector<ClaimedPolygon> polygons;
+  std::string piece_of;     // id of the area light that this light is a piece of, or empty
+  RationalLoop piece_loop;  // of such a piece, counter-clockwise seen from its front
+};
+
+/// A region of a polygon's side and what several lights do to it.
+struct SharedFragment : ClaimedShape {
+  std::vector<std::string> lit_by, penumbra_of;  // Block::kCombined: ids of lights
+  // Block::kOverlay.
+  std::uint64_t level = 0;
+  std::vector<std::string> dark_for;  // ids of lights
+  std::optional<std::size_t> on;      // the fragment of the same side that it was cut from
+};
+
+struct SharedPolygon {
+  std::string id;
+  Side side = Side::kFront;
+  bool side_given = true;
+  std::vector<SharedFragment> fragments;
 };
 
 struct Claims {
   std::string name;  // kernel or file, for messages
   std::vector<ClaimedLight> lights;
+  /// What is told of several lights at once; none: nothing is. shared_claims.h has it light by
+  /// light.
+  std::optional<std::vector<SharedPolygon>> combined, overlay;
+  /// What is wrong whatever the scene looks like, in sentences: each fails the claims.
+  std::vector<std::string> problems;
 };
 
 }  // namespace gnomon

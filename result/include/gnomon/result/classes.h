@@ -26,6 +26,10 @@ enum class ShadowReason : std::uint8_t { kNone, kFacesAway, kLightInPlane, kBehi
 /// point tells its class.
 enum class Cover : std::uint8_t { kPartition, kOverlay };
 
+/// Where a result tells of its lights. kLights: light by light. kCombined: fragments with the
+/// lights that reach them. kOverlay: shadows of several lights painted on shadows.
+enum class Block : std::uint8_t { kLights, kCombined, kOverlay };
+
 /// "lit", "shadow", "penumbra", "umbra".
 const char* name_of(LightState state);
 /// "front" or "back", as a polygon's side. Requires: not kOn.
@@ -34,6 +38,8 @@ const char* name_of(Side side);
 const char* name_of(ShadowReason reason);
 /// "partition" or "overlay".
 const char* name_of(Cover cover);
+/// "lights", "combined" or "overlay": the key in a result file.
+const char* name_of(Block block);
 
 /// The value with that name; none if no value has it. kNone has no name.
 std::optional<LightState> light_state_by_name(std::string_view name);

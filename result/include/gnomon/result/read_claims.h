@@ -2,9 +2,12 @@
 // Reads a result file (docs: formats, "Result"), ours or a foreign program's.
 //
 // Needs lights[].id, polygons[].id, `side` where both sides count, and fragments[].{class, loop};
-// `background` lets a light list one class only, `"umbra": "per-caster"` says what umbra means
-// (both also for all lights at the top); unknown keys are ignored. `exact_loop` with coordinates as
-// "p/q" is preferred to `loop`. Coordinates mean what the scene's numbers mean.
+// `background` lets a light list one class only, `listed` lets it tell of some classes alone,
+// `cover` says whether loops are painted over each other, `"umbra": "per-caster"` what umbra means
+// (all also for all lights at the top). `combined` and `overlay` tell of several lights at once;
+// with either `lights` may be missing. Unknown keys are ignored. `exact_loop` and `exact_holes`
+// with coordinates as "p/q" are preferred to `loop` and `holes`. Coordinates mean what the scene's
+// numbers mean.
 #ifndef GNOMON_RESULT_READ_CLAIMS_H
 #define GNOMON_RESULT_READ_CLAIMS_H
 

@@ -4,8 +4,8 @@
 // exported.
 //
 // Exactness: on exact kernels fractions are certified enclosures, and exact rationals on request.
-#ifndef GNOMON_ALGORITHMS_ONE_LIGHT_LIGHT_SINK_H
-#define GNOMON_ALGORITHMS_ONE_LIGHT_LIGHT_SINK_H
+#ifndef GNOMON_ALGORITHMS_LIGHTS_LIGHT_SINK_H
+#define GNOMON_ALGORITHMS_LIGHTS_LIGHT_SINK_H
 
 #include <algorithm>
 #include <cstdint>
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/one_light/light_scene.h"
+#include "algorithms/lights/light_scene.h"
 #include "algorithms/partition/classified_loop.h"
 #include "algorithms/partition/fractions.h"
 
@@ -160,4 +160,4 @@ void LightSink<Space>::measure(PartResult& part, std::span<const ClassifiedLoop>
 
 }  // namespace gnomon
 
-#endif  // GNOMON_ALGORITHMS_ONE_LIGHT_LIGHT_SINK_H
+#endif  // GNOMON_ALGORITHMS_LIGHTS_LIGHT_SINK_H

@@ -2,8 +2,8 @@
 // The scene in order as seen from a light: the nodes of the scene BSP front to back, and of each
 // node the pieces that face the light. They are coplanar, so that none of them shadows another; no
 // piece of a later group is in front of one of an earlier group.
-#ifndef GNOMON_ALGORITHMS_ONE_LIGHT_LIGHT_GROUPS_H
-#define GNOMON_ALGORITHMS_ONE_LIGHT_LIGHT_GROUPS_H
+#ifndef GNOMON_ALGORITHMS_LIGHTS_LIGHT_GROUPS_H
+#define GNOMON_ALGORITHMS_LIGHTS_LIGHT_GROUPS_H
 
 #include <cstdint>
 #include <deque>
@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/one_light/light_scene.h"
+#include "algorithms/lights/light_scene.h"
 #include "algorithms/scene_bsp/scene_bsp.h"
 #include "algorithms/scene_bsp/scene_bsp.inl.h"
 
@@ -92,4 +92,4 @@ class LightProgress {
 
 }  // namespace gnomon
 
-#endif  // GNOMON_ALGORITHMS_ONE_LIGHT_LIGHT_GROUPS_H
+#endif  // GNOMON_ALGORITHMS_LIGHTS_LIGHT_GROUPS_H

@@ -2,8 +2,8 @@
 // A prepared scene as one point or directional light sees it: what every method that works in light
 // space starts from. Which parts face the light, and parts and pieces of them as loops of its light
 // space, counter-clockwise seen from the light.
-#ifndef GNOMON_ALGORITHMS_ONE_LIGHT_LIGHT_SCENE_H
-#define GNOMON_ALGORITHMS_ONE_LIGHT_LIGHT_SCENE_H
+#ifndef GNOMON_ALGORITHMS_LIGHTS_LIGHT_SCENE_H
+#define GNOMON_ALGORITHMS_LIGHTS_LIGHT_SCENE_H
 
 #include <cstdint>
 
@@ -71,4 +71,4 @@ struct LightScene {
 
 }  // namespace gnomon
 
-#endif  // GNOMON_ALGORITHMS_ONE_LIGHT_LIGHT_SCENE_H
+#endif  // GNOMON_ALGORITHMS_LIGHTS_LIGHT_SCENE_H

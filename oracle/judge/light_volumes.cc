@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "oracle/judge/light_volumes.h"
+
+#include <utility>
+
+namespace gnomon::oracle {
+
+using space::area_along;
+using space::cut;
+using space::HalfSpace;
+using space::Loop;
+using space::without;
+
+LightVolumes::LightVolumes(const PreparedScene& scene, const PreparedLight& light, double diagonal)
+    : scene_(scene), diagonal_(diagonal), solids_(solids_of(scene, light)) {
+  if (!light.has_area()) return;
+  std::vector<const Loop*> loops;
+  for (const Solid& solid : solids_) loops.push_back(&solid.loop);
+  area_.emplace(scene, light, loops);
+}
+
+bool LightVolumes::sees(std::uint32_t part, Side side) const {
+  if (area_) return area_->sees(part, side);
+  const Solid& solid = solids_[part];
+  return solid.receives && (side == Side::kFront ? solid.facing > 0 : solid.facing < 0);
+}
+
+std::vector<Loop> LightVolumes::not_shadowed(const Piece& piece,
+                                             std::optional<std::uint32_t> caster) const {
+  std::vector<Loop> rest{piece.loop};
+  const std::uint32_t first = caster ? scene_.first_part[*caster] : 0;
+  const auto last =
+      caster ? scene_.first_part[*caster + 1] : static_cast<std::uint32_t>(solids_.size());
+  for (std::uint32_t part = first; part < last && !rest.empty(); ++part) {
+    const Solid& solid = solids_[part];
+    // A part in the receiver's plane shadows nothing of it, and its shadow cuts nothing off.
+    if (!solid.casts || part == piece.part || solid.holds(solids_[piece.part])) continue;
+    if (is_apart(piece, solid.shadow)) continue;
+    rest = without(std::move(rest), solid.shadow);
+  }
+  return rest;
+}
+
+mpq_class LightVolumes::shadowed_by(const Piece& piece, std::uint32_t part) const {
+  const Solid& caster = solids_[part];
+  if (!caster.casts || part == piece.part) return 0;
+  Loop rest = piece.loop;
+  for (const HalfSpace& half : caster.shadow) {
+    rest = cut(rest, half);
+    if (rest.empty()) return 0;
+  }
+  return area_along(solids_[piece.part].normal, rest);
+}
+
+std::vector<Loop> LightVolumes::before_light(const Piece& piece) const {
+  std::vector<Loop> loops;
+  if (Loop front = cut(piece.loop, area_->before_light()); !front.empty()) {
+    loops.push_back(std::move(front));
+  }
+  return loops;
+}
+
+std::vector<Loop> LightVolumes::not_hidden(const Piece& piece, std::vector<Loop> loops,
+                                           std::optional<std::uint32_t> caster, Side side,
+                                           bool all) {
+  for (std::size_t b = 0; b < area_->size() && !loops.empty(); ++b) {
+    const std::uint32_t part = area_->part_of(b);
+    if ((caster && scene_.parts[part].polygon != *caster) || part == piece.part) continue;
+    if (is_apart(piece, area_->largest_penumbra(b).bounds)) continue;
+    const AreaSolids::Volume& volume =
+        all ? area_->umbra(b, piece.part, side) : area_->penumbra(b, piece.part, side);
+    if (volume.empty) continue;
+    std::vector<HalfSpace> bounds;
+    for (std::size_t i = 0; i < volume.bounds.size(); ++i) {
+      const HalfSpace& half = volume.bounds[i];
+      // Umbra volumes are closed: what lies in one of their planes is inside of it.
+      if (!(all && i > 0 && solids_[piece.part].lies_in(half))) bounds.push_back(half);
+    }
+    loops = without(std::move(loops), bounds);
+  }
+  return loops;
+}
+
+Loop LightVolumes::inside(const Piece& piece, const AreaSolids::Volume& volume, bool closed) const {
+  Loop rest = cut(piece.loop, area_->before_light());
+  for (std::size_t i = 0; i < volume.bounds.size() && !rest.empty(); ++i) {
+    const HalfSpace& half = volume.bounds[i];
+    if (!(closed && i > 0 && solids_[piece.part].lies_in(half))) rest = cut(rest, half);
+  }
+  return volume.empty ? Loop{} : rest;
+}
+
+std::array<mpq_class, 4> LightVolumes::areas_of_classes(const Piece& piece, Side side) {
+  std::array<mpq_class, 4> areas;
+  const auto area_of = [&](LightState state) -> mpq_class& {
+    return areas[static_cast<std::size_t>(state)];
+  };
+  const RationalPoint& normal = solids_[piece.part].normal;
+  const bool reached = sees(piece.part, side);
+  if (!area_) {
+    if (reached) area_of(LightState::kLit) = area_along(normal, not_shadowed(piece, std::nullopt));
+    area_of(LightState::kShadow) = piece.area - area_of(LightState::kLit);
+    return areas;
+  }
+  std::vector<Loop> rest;
+  if (reached) rest = not_hidden(piece, before_light(piece), std::nullopt, side, true);
+  const mpq_class partly = area_along(normal, rest);
+  area_of(LightState::kUmbra) = piece.area - partly;
+  rest = not_hidden(piece, std::move(rest), std::nullopt, side, false);
+  area_of(LightState::kLit) = area_along(normal, rest);
+  area_of(LightState::kPenumbra) = partly - area_of(LightState::kLit);
+  return areas;
+}
+
+}  // namespace gnomon::oracle

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What one light reaches, for the checker of claims (witness_check.h): how much of a convex piece
+// of a polygon casters shadow, and how much they hide part or all of the light from, by cutting the
+// piece by their volumes.
+//
+// Exactness: exact, in rational numbers of scene units. Doubles only put aside what is clearly
+// apart.
+#ifndef GNOMON_ORACLE_JUDGE_LIGHT_VOLUMES_H
+#define GNOMON_ORACLE_JUDGE_LIGHT_VOLUMES_H
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gnomon/kernel/sign.h"
+#include "gnomon/result/classes.h"
+#include "oracle/judge/witness_pieces.h"
+#include "oracle/visibility/area_solids.h"
+
+namespace gnomon::oracle {
+
+class LightVolumes {
+ public:
+  /// Keeps a reference to the scene. `diagonal`: of its box, scene units.
+  LightVolumes(const PreparedScene& scene, const PreparedLight& light, double diagonal);
+  LightVolumes(const LightVolumes&) = delete;
+  LightVolumes& operator=(const LightVolumes&) = delete;
+
+  const std::vector<Solid>& solids() const { return solids_; }
+  const Solid& solid(std::uint32_t part) const { return solids_[part]; }
+  bool is_area() const { return area_.has_value(); }
+  /// Requires: an area light.
+  AreaSolids& area() { return *area_; }
+  bool sees(std::uint32_t part, Side side) const;
+
+  /// What of a piece is not in the shadow of the parts of one caster, or of any. Requires: a point
+  /// or directional light.
+  std::vector<space::Loop> not_shadowed(const Piece& piece,
+                                        std::optional<std::uint32_t> caster) const;
+  /// What of a piece one part shadows, along the piece's normal. Requires: as above.
+  mpq_class shadowed_by(const Piece& piece, std::uint32_t part) const;
+  /// What of loops of a piece in front of the light is in no penumbra volume, or if `all` no umbra
+  /// volume, of the parts of one caster, or of any. Requires: an area light.
+  std::vector<space::Loop> not_hidden(const Piece& piece, std::vector<space::Loop> loops,
+                                      std::optional<std::uint32_t> caster, Side side, bool all);
+  /// The piece in front of the light's plane. Requires: an area light.
+  std::vector<space::Loop> before_light(const Piece& piece) const;
+  /// What of a piece is in a volume and in front of the light; `closed`: also if the receiver lies
+  /// in one of its planes. Requires: an area light.
+  space::Loop inside(const Piece& piece, const AreaSolids::Volume& volume, bool closed) const;
+
+  /// The area of each class in a piece, along its normal: by one caster alone where it is umbra.
+  std::array<mpq_class, 4> areas_of_classes(const Piece& piece, Side side);  // by LightState
+
+  bool is_apart(const Piece& piece, const std::vector<space::HalfSpace>& bounds) const {
+    return piece.is_apart(bounds, 1e-6 * diagonal_);
+  }
+
+ private:
+  const PreparedScene& scene_;
+  double diagonal_;
+  std::vector<Solid> solids_;
+  std::optional<AreaSolids> area_;
+};
+
+}  // namespace gnomon::oracle
+
+#endif  // GNOMON_ORACLE_JUDGE_LIGHT_VOLUMES_H
