@@ -211,7 +211,8 @@ void slater(Extent extent) {
   fmt::print(
       "\nSlater 1992, Table 3: recursive tetrahedron on a ground of one polygon, ours / printed. "
       "Output: pieces of the\nscene BSP (all polygons) and shadow polygons; basic and tiling by "
-      "cover=overlay. Time: CPU, median of 9, scene BSP and\nshadows by svbsp / SparcStation 1+.\n");
+      "cover=overlay. Time: CPU, median of 9, scene BSP and\nshadows by svbsp / SparcStation "
+      "1+.\n");
   const std::array<TetrahedronRow, 3> rows{
       {{3, "65", "83", "0.4", {{"basic", 158}, {"tiling", 158}, {"svbsp", 178}}},
        {4, "257", "299", "1.6", {{"basic", 649}, {"tiling", 649}, {"svbsp", 773}}},

@@ -174,9 +174,10 @@ class GroupRun {
   void put_out(const Loop& loop) {
     const std::uint64_t cuts = volumes_.cuts();
     if (overlays()) {
-      const std::uint64_t polygons = volumes_.paint(loop, near_, [&](VolumeId id, const Loop& inside) {
-        painted_.add_shadow(inside, volumes_.caster(id));
-      });
+      const std::uint64_t polygons =
+          volumes_.paint(loop, near_, [&](VolumeId id, const Loop& inside) {
+            painted_.add_shadow(inside, volumes_.caster(id));
+          });
       counts_[Counter::kClips] += volumes_.cuts() - cuts;
       counts_[Counter::kNulled] += near_.size() - polygons;
       counts_[Counter::kShadowPolygons] += polygons;

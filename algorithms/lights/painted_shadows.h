@@ -51,8 +51,8 @@ class PaintedShadows {
     const auto paint_on = [&](const CarriedLoop<Vertex>& target, std::uint32_t owner,
                               std::uint32_t level, std::uint64_t dark_for) {
       paint(carrier_.to_light(target, range.part, side, run), [&](const LoopView<Vertex>& inside) {
-        painted.push_back(
-            {carrier_.from_light(inside, target, side, run), level + 1, dark_for | bit, owner, run});
+        painted.push_back({carrier_.from_light(inside, target, side, run), level + 1,
+                           dark_for | bit, owner, run});
       });
     };
     paint_on(whole, PaintedPolygon::kNoOwner, 0, 0);
@@ -99,7 +99,7 @@ class PaintedShadows {
   struct Painted {
     CarriedLoop<Vertex> loop;
     std::uint32_t level = 1;
-    std::uint64_t dark_for = 0;  // bit i: run i
+    std::uint64_t dark_for = 0;                      // bit i: run i
     std::uint32_t owner = PaintedPolygon::kNoOwner;  // of the same piece
     std::uint32_t run = 0;                           // whose shadow it is
   };

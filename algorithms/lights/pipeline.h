@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Several lights in a pipeline (Chin & Feiner 1989, sec. 5; Slater 1992, sec. 8): the fragments that
-// one light leaves are classified by the next, front to back from that light, so that each fragment
-// at the end carries the set of lights that reach all of it.
+// Several lights in a pipeline (Chin & Feiner 1989, sec. 5; Slater 1992, sec. 8): the fragments
+// that one light leaves are classified by the next, front to back from that light, so that each
+// fragment at the end carries the set of lights that reach all of it.
 //
 // Shadows grow from the scene's own polygons, never from fragments of earlier lights (the "more
 // coherent fragments" of 1989, sec. 6): planes stay of bounded degree, and what a light does not

@@ -81,7 +81,8 @@ class ConeClip {
     return ConePlace::kCut;
   }
 
-  /// Of the last loop that was inside or cut; fewer than three vertices: vanished (rounded kernels).
+  /// Of the last loop that was inside or cut; fewer than three vertices: vanished (rounded
+  /// kernels).
   const LoopRange& inside() const { return inside_; }
   std::span<const LoopRange> outside() const { return outside_; }
   /// Cuts by a plane so far.

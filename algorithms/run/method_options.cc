@@ -16,7 +16,8 @@ constexpr std::uint32_t kMostTiles = 1024;
 
 /// Reads one of two words into `value`.
 template <class T>
-bool read_word(T& value, std::string_view text, const std::array<std::pair<std::string_view, T>, 2>& words) {
+bool read_word(T& value, std::string_view text,
+               const std::array<std::pair<std::string_view, T>, 2>& words) {
   for (const auto& [word, meaning] : words) {
     if (word != text) continue;
     value = meaning;
@@ -127,10 +128,10 @@ Expected<MethodSelection> parse_method(std::string_view text) {
     const MethodOption& option = *method_option(option_name);
     const std::string_view value = equals == std::string_view::npos ? "" : item.substr(equals + 1);
     if (!option.read(selection.values, value)) {
-      return fail(ErrorCode::kUsage,
-                  std::string(text) + ": '" + std::string(value) + "' is no value of " +
-                      option_name,
-                  std::string(option.values));
+      return fail(
+          ErrorCode::kUsage,
+          std::string(text) + ": '" + std::string(value) + "' is no value of " + option_name,
+          std::string(option.values));
     }
   }
   return selection;

@@ -7,12 +7,12 @@
 #include <array>
 #include <cstddef>
 
-#include "algorithms/tiling/by_volumes.h"
 #include "algorithms/run/by_receiver.h"
 #include "algorithms/run/on_every_kernel.h"
 #include "algorithms/sectors/by_sectors.h"
 #include "algorithms/svbsp/by_svbsp.h"
 #include "algorithms/svbsp_full/by_svbsp_full.h"
+#include "algorithms/tiling/by_volumes.h"
 
 namespace gnomon {
 
@@ -27,9 +27,9 @@ constexpr std::array kSvbspCounters = {kScenePieces, kShadowPolygons, kNodes, kD
 constexpr std::array kBasicCounters = {kScenePieces, kVolumes, kTests,  kCovered,
                                        kDied,        kClips,   kNulled, kShadowPolygons};
 constexpr std::array kTilingCounters = {
-    kScenePieces,    kVolumes,   kTests,           kCovered,    kDied,
-    kClips,          kNulled,    kShadowPolygons,  kTileWrites, kClosedTiles,
-    kTileBytes,      kMeanMet,   kFirstQuartileMet, kMedianMet,  kThirdQuartileMet};
+    kScenePieces,      kVolumes,        kTests,           kCovered,     kDied,      kClips,
+    kNulled,           kShadowPolygons, kTileWrites,      kClosedTiles, kTileBytes, kMeanMet,
+    kFirstQuartileMet, kMedianMet,      kThirdQuartileMet};
 constexpr std::array kSvbspFullCounters = {kVolumes, kShadowPolygons, kNodes, kDepth};
 constexpr std::array kTwoPassCounters = {kClips, kShadowPolygons, kLists, kLongestList,
                                          kDeepestStack};

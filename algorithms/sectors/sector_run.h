@@ -195,8 +195,8 @@ RunOutcome SectorRun<Space>::run(const std::function<void(double)>& progress) {
   constexpr std::uint32_t kSmallestTask = 256, kLargestTask = 16384, kTasks = 128;
   std::atomic<std::uint64_t> pieces = 0;
   std::atomic<bool> stopped = false, no_ieee = false;
-  const SectorContext context{scene_, options_, rules_, facing_, charts_,
-                              light_, areas_,   sums_,  pieces,  stopped, leaf_method_};
+  const SectorContext context{scene_, options_, rules_, facing_, charts_,     light_,
+                              areas_, sums_,    pieces, stopped, leaf_method_};
   LoopStore<Vertex> loops;
   std::vector<SectorItem> items = import(loops);
   Tree planner(context, std::move(space_));

@@ -143,9 +143,8 @@ void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* task
         }
         frame.located = true;
       }
-      const std::uint32_t open_end = context_->leaf_method == LeafMethod::kSubtract
-                                         ? cull(frame.begin, frame.end)
-                                         : frame.end;
+      const std::uint32_t open_end =
+          context_->leaf_method == LeafMethod::kSubtract ? cull(frame.begin, frame.end) : frame.end;
       const std::uint32_t open = open_end - frame.begin;
       if (open > 0 && tasks != nullptr && open <= task_size) {
         tasks->push_back({frame.cell, frame.begin, open_end, {}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The method two-pass in a leaf of the tree of light space: the polygons of the cell clip each other
-// (algorithms/two_pass). Without cells there is one leaf, which holds all of them. Bodies of
+// The method two-pass in a leaf of the tree of light space: the polygons of the cell clip each
+// other (algorithms/two_pass). Without cells there is one leaf, which holds all of them. Bodies of
 // sector_tree.h.
 #ifndef GNOMON_ALGORITHMS_SECTORS_TWO_PASS_LEAF_H
 #define GNOMON_ALGORITHMS_SECTORS_TWO_PASS_LEAF_H
@@ -24,9 +24,9 @@ void SectorTree<Space>::clip_lists(std::uint32_t begin, std::uint32_t end) {
     const float nearest = item.z_high < kInfinity ? item.z_high : -kInfinity;
     pieces_.push_back({{item.first, item.count, item.part}, i, item, nearest});
   }
-  lists_.run({space_, context_->scene, context_->facing, loops_, context_->rules, output_.work},
-             pieces_, [&](PlaneRef edge) { return is_cell_plane(edge); }, [&] { return stopped(); },
-             clipped_);
+  lists_.run(
+      {space_, context_->scene, context_->facing, loops_, context_->rules, output_.work}, pieces_,
+      [&](PlaneRef edge) { return is_cell_plane(edge); }, [&] { return stopped(); }, clipped_);
   output_.vanished += lists_.take_vanished();
   static_assert(ClippedPiece::kLit == kAllLit);
   // What has one class and caster all over is decided as a whole; the cells above may join it.

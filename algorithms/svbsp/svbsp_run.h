@@ -71,8 +71,8 @@ class SvbspRun {
     result.dropped_slivers = vanished_;
     counts_[Counter::kNodes] = tree_.node_count();
     counts_[Counter::kDepth] = tree_.depth();
-    counts_[Counter::kShadowPolygons] = static_cast<std::uint64_t>(std::ranges::count(
-        output_.fragments, LightState::kShadow, &ClassifiedLoop::state));
+    counts_[Counter::kShadowPolygons] = static_cast<std::uint64_t>(
+        std::ranges::count(output_.fragments, LightState::kShadow, &ClassifiedLoop::state));
     result.work = counts_;
     return LightSink<Space>(light_).finish(output_, std::move(result));
   }

@@ -86,7 +86,7 @@ class FullVolumeTree {
   }
   enum class Pass : std::uint8_t { kInsert, kClassify };
   struct Node {
-    PlaneRef plane;                    // of an edge
+    PlaneRef plane;                     // of an edge
     std::uint32_t caster = kNoSupport;  // else: the support plane of this part
     std::int32_t front = kOut, back = kOut;
   };
@@ -150,8 +150,8 @@ struct FullVolumeTree<Space>::Cells {
     if (support == loop.support) {
       return tree.light_.rules.on_goes_to_its_own_side ? Placement::kFront : Placement::kBack;
     }
-    const Side nearer = tree.light_.facing.plane_signs[support] == Sign::kPositive ? Side::kFront
-                                                                                   : Side::kBack;
+    const Side nearer =
+        tree.light_.facing.plane_signs[support] == Sign::kPositive ? Side::kFront : Side::kBack;
     bool any_nearer = false, any_behind = false;
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       const Side side = space.side_of_support(support, loop.corner(i));

@@ -95,8 +95,8 @@ class SvbspFullRun {
   LightScene<Space>& light_;
   InsertionOrder order_;
   FullVolumeTree<Space> tree_;
-  LoopStore<Vertex> loops_;         // of all facing parts; their edges are shadow planes
-  std::vector<LoopRange> ranges_;   // by part
+  LoopStore<Vertex> loops_;        // of all facing parts; their edges are shadow planes
+  std::vector<LoopRange> ranges_;  // by part
   ClassifiedLoops<Vertex> output_;
   WorkCounts counts_;
 };

@@ -86,9 +86,7 @@ Extremes extremes(const Shadow& shadow, std::span<const VertexId> vertices, int 
 
 TileBorders::TileBorders(const PreparedScene& scene, const LightPoint& light,
                          std::span<const std::uint32_t> parts, std::uint32_t tiles)
-    : tiles_(tiles),
-      directional_(light.directional),
-      grid_bits_(scene.geometry.grid.bits()) {
+    : tiles_(tiles), directional_(light.directional), grid_bits_(scene.geometry.grid.bits()) {
   if (!directional_ || parts.empty()) return;
   std::vector<VertexId> vertices;
   for (const std::uint32_t part : parts) {

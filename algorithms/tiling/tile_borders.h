@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Where the tiles are (Slater 1992, sec. 5). Around a point light: on the six faces of an axis cube,
-// each of n rows and n columns; face k is the cone of directions whose component w has sign s and
-// is the largest. A directional light has one face, the bounding rectangle of all facing vertices
-// in its chart.
+// Where the tiles are (Slater 1992, sec. 5). Around a point light: on the six faces of an axis
+// cube, each of n rows and n columns; face k is the cone of directions whose component w has sign s
+// and is the largest. A directional light has one face, the bounding rectangle of all facing
+// vertices in its chart.
 //
 // Exactness: every border between tiles is a plane through the light with integer coefficients, the
 // same on every kernel. All facing polygons are inside the faces' outer borders, exactly.

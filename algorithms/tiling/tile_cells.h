@@ -56,7 +56,7 @@ class TileCells {
   };
   struct Node {
     Cell cell;
-    PlaneRef plane;  // not valid(): a leaf
+    PlaneRef plane;                    // not valid(): a leaf
     std::uint32_t begin = 0, end = 0;  // members_: the volumes that meet it
     std::int32_t front = kUnmade, back = kUnmade;
   };

@@ -226,8 +226,8 @@ void TileGrid<Space>::descend(const LoopRange& loop, const TileBlock& block, Pla
       case Placement::kSpanning: {
         ++cuts_;
         work_.reserve_more(2 * std::size_t{piece.loop.count} + 4);
-        const SplitChildren children = make_children(
-            space_, plane, work_.view(piece.loop, support), record_, crossings_, work_);
+        const SplitChildren children = make_children(space_, plane, work_.view(piece.loop, support),
+                                                     record_, crossings_, work_);
         if (children.back.count >= 3) stack_.push_back({children.back, piece.block.below()});
         if (children.front.count >= 3) stack_.push_back({children.front, piece.block.above()});
         break;

@@ -87,7 +87,8 @@ class ListClipping {
       WorkCounts& counts = setting.counts;
       ++counts[Counter::kLists];
       counts.at_least(Counter::kLongestList, pieces);
-      const std::uint32_t clip = here.clip == kNone ? nearest_caster(setting, here.begin) : here.clip;
+      const std::uint32_t clip =
+          here.clip == kNone ? nearest_caster(setting, here.begin) : here.clip;
       if (clip == kNone) {
         put_out_lit(std::span(pool_).subspan(here.begin), output);
         pool_.resize(here.begin);
@@ -158,8 +159,8 @@ class ListClipping {
       if (i == clip) continue;
       ListPiece piece = pool_[i];
       if (!piece.box.overlaps(by.box) ||
-          clip_.clip(setting.space, planes_, piece.loop, plane_of(setting, piece),
-                     setting.loops) == ConePlace::kOutside) {
+          clip_.clip(setting.space, planes_, piece.loop, plane_of(setting, piece), setting.loops) ==
+              ConePlace::kOutside) {
         outside_.push_back(piece);
         continue;
       }
@@ -264,7 +265,8 @@ class ListClipping {
 
   std::vector<ListPiece> pool_;  // of the lists on the stack, one after another
   std::vector<List> stack_;
-  std::uint32_t first_cut_ = kNone;  // the planes that cut supports of this run are numbered from here
+  std::uint32_t first_cut_ =
+      kNone;  // the planes that cut supports of this run are numbered from here
   std::uint64_t vanished_ = 0;
   // Workspace, kept to save allocations.
   std::vector<ListPiece> outside_, near_, coplanar_;

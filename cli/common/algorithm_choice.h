@@ -49,10 +49,10 @@ struct AlgorithmChoice {
   friend bool operator==(const AlgorithmChoice&, const AlgorithmChoice&) = default;
 };
 
-/// NAME[:option=value,...]. `auto` is sectors and receiver; where one of `needs` was given, the first method of point lights
-/// that can serve it stands for sectors, unless sectors was asked for by name. Errors: kUsage, for
-/// an unknown name (`also`: what the command takes besides), and for a method that cannot do what
-/// was asked.
+/// NAME[:option=value,...]. `auto` is sectors and receiver; where one of `needs` was given, the
+/// first method of point lights that can serve it stands for sectors, unless sectors was asked for
+/// by name. Errors: kUsage, for an unknown name (`also`: what the command takes besides), and for a
+/// method that cannot do what was asked.
 Expected<AlgorithmChoice> parse_algorithm_choice(std::string_view name,
                                                  std::initializer_list<NeedyOption> needs = {},
                                                  std::string_view also = {});

@@ -3,6 +3,8 @@
 #ifndef GNOMON_FUZZ_CHECK_FAILURE_JSON_H
 #define GNOMON_FUZZ_CHECK_FAILURE_JSON_H
 
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "fuzz/check/property.h"
@@ -33,7 +35,10 @@ inline Failure read_failure(JsonMembers& members) {
   members.read("light", failure.light);
   members.read("polygon", failure.polygon);
   members.read("text", failure.text);
-  members.read("width", failure.width);
+  // A region without bounds has no width that JSON could tell: it is null.
+  std::optional<double> width;
+  members.read("width", width);
+  failure.width = width.value_or(std::numeric_limits<double>::infinity());
   members.read("share", failure.share);
   if (const auto known = property_by_id(property)) {
     failure.property = *known;

@@ -32,8 +32,8 @@ struct Subject {
 };
 
 /// KERNEL[+identity][+thin][/ALGORITHM[/AREA-ALGORITHM]][~MISTAKE], such as "double+identity",
-/// "plane/svbsp/merged", "plane/tiling:tiles=8" or "plane/svbsp~coplanar-in-sequence"; algorithms that are the default are
-/// left out. A foreign program's name is "command:" and its command line.
+/// "plane/svbsp/merged", "plane/tiling:tiles=8" or "plane/svbsp~coplanar-in-sequence"; algorithms
+/// that are the default are left out. A foreign program's name is "command:" and its command line.
 std::string name_of(const Subject& subject);
 /// Errors: kUsage, with the names that there are; for a mistake that changes nothing of what that
 /// kernel and those algorithms do.

@@ -30,10 +30,10 @@ enum class Mistake : std::uint8_t {
   kStraddlingLightFaces,         // an area light on both sides of a plane taken as in front of it
   kSliversDropped,               // thin fragments left out
   kOnSwapped,                    // what lies on a plane put on the other side
-  kCoplanarDiesEarly,      // a volume dropped before all of the new one's plane have received it
-  kTileClosedEarly,        // a tile closed before all of the new one's plane have received
-  kClosedTileKeepsDead,    // a closed tile that keeps naming a volume that was dropped
-  kSupportBeforeEdges,     // a support plane above the edges of its volume
+  kCoplanarDiesEarly,    // a volume dropped before all of the new one's plane have received it
+  kTileClosedEarly,      // a tile closed before all of the new one's plane have received
+  kClosedTileKeepsDead,  // a closed tile that keeps naming a volume that was dropped
+  kSupportBeforeEdges,   // a support plane above the edges of its volume
 };
 
 struct MistakeInfo {

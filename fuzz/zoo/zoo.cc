@@ -46,8 +46,8 @@ constexpr std::array kZoo = {
              "misclassified"},
     ZooEntry{"closed-tile-keeps-dead", Mistake::kClosedTileKeepsDead, "plane/tiling:tiles=32",
              "family-small-lattice", "misclassified"},
-    ZooEntry{"support-before-edges", Mistake::kSupportBeforeEdges, "plane/svbsp-full",
-             kPointScenes, "misclassified"},
+    ZooEntry{"support-before-edges", Mistake::kSupportBeforeEdges, "plane/svbsp-full", kPointScenes,
+             "misclassified"},
     ZooEntry{"area-on-swapped", Mistake::kOnSwapped, "plane", kAreaScenes, "misclassified"},
 };
 

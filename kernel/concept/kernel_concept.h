@@ -72,7 +72,8 @@ concept LightSpaceModel = DecisionSpace<S> && SceneSpaceModel<typename S::SceneS
   { space.import_edge(ref, plane, reversed, vertex, vertex) } -> std::same_as<PlaneRef>;
   { constant.import_vertex(scene_vertex) } -> std::same_as<typename S::Vertex>;
   constant.finish_vertex(vertex, ref, ref);
-  /// The plane through the light of a fragment's edge, given by the plane that made it and its ends.
+  /// The plane through the light of a fragment's edge, given by the plane that made it and its
+  /// ends.
   { space.shadow_plane(ref, vertex, vertex) } -> std::same_as<PlaneRef>;
   { space.add_prefix_plane(prefix) } -> std::same_as<PlaneRef>;
   { constant.position(corner) } -> std::same_as<std::array<Ball, 3>>;
@@ -104,8 +105,8 @@ concept SectorSpaceModel = LightSpaceModel<S> &&
   { space.side_of_support(plane, corner) } -> std::same_as<Side>;
   /// A plane that cuts support plane `first` where `second` does; its front is the part of `first`
   /// in front of `second`. Not for planes that do not meet in a line. It cuts loops of `first`
-  /// only, since it may be `second` itself: what else is to be cut there wants shadow_plane() of the
-  /// edge that it made.
+  /// only, since it may be `second` itself: what else is to be cut there wants shadow_plane() of
+  /// the edge that it made.
   { space.cut_of_supports(plane, plane) } -> std::same_as<PlaneRef>;
   { constant.chart_point(chart, corner) } -> std::same_as<ChartPoint>;
 };

@@ -2,6 +2,7 @@
 #include "oracle/judge/witness_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <utility>
@@ -145,9 +146,16 @@ bool Piece::is_convex(const RationalPoint& normal) const {
 }
 
 bool Piece::is_apart(const std::vector<HalfSpace>& bounds, double margin) const {
+  const auto largest = [](const std::array<double, 3>& p) {
+    return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
+  };
+  // Corner and base were rounded, which far from the origin is more than any margin: three terms of
+  // at most half a unit each, for both, and the rounding of the sum.
+  constexpr double kRounding = 0x1p-49;
   return std::ranges::any_of(bounds, [&](const HalfSpace& half) {
     return std::ranges::all_of(corners, [&](const std::array<double, 3>& corner) {
-      return half.near_value(corner) < -margin;
+      const double error_bound = kRounding * (largest(corner) + largest(half.near_base));
+      return half.near_value(corner) < -margin - error_bound;
     });
   });
 }

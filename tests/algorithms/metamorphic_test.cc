@@ -214,13 +214,12 @@ TEST_P(Metamorphic, EachLightForItself) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, Metamorphic,
-                         testing::Combine(testing::ValuesIn(kPlanarFamilies),
-                                          testing::ValuesIn(object_methods())),
-                         [](const auto& info) {
-                           return std::get<0>(info.param) + "_" +
-                                  test_name_of({std::get<1>(info.param), {}});
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Families, Metamorphic,
+    testing::Combine(testing::ValuesIn(kPlanarFamilies), testing::ValuesIn(object_methods())),
+    [](const auto& info) {
+      return std::get<0>(info.param) + "_" + test_name_of({std::get<1>(info.param), {}});
+    });
 
 /// Scenes large enough for the balanced prefix and for cells, which small ones do without.
 struct LargeScene {

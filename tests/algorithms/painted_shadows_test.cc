@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Covers by overlay: shadow polygons over a whole polygon, lit details on a dark one, and several
-// lights as shadows painted on shadows. The judges find the exact answer in them, and how many there
-// are is worked out by hand.
+// lights as shadows painted on shadows. The judges find the exact answer in them, and how many
+// there are is worked out by hand.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -32,7 +32,11 @@ Scene suns_over_quad(std::size_t suns) {
   return parse_scene(R"({"format": "gnomon-scene", "version": 1, "two_sided": true,
     "vertices": [[-8,-8,0], [8,-8,0], [8,8,0], [-8,8,0], [-1,-1,2], [1,-1,2], [1,1,2], [-1,1,2]],
     "polygons": [{"id": "floor", "loop": [0,1,2,3]}, {"id": "quad", "loop": [4,5,6,7]}],
-    "lights": [)" + lights + "]}", "suns.json").value().scene;
+    "lights": [)" + lights +
+                         "]}",
+                     "suns.json")
+      .value()
+      .scene;
 }
 
 ShadowOptions options_of(const std::string& method, KernelId kernel = KernelId::kPlane) {
@@ -94,8 +98,8 @@ TEST(PaintedShadows, AreTheExactAnswerOfEveryLight) {
   for (const Scene& scene : scenes_of_several_lights()) {
     const auto made = Case::make(scene);
     ASSERT_TRUE(made);
-    for (const std::string method : {"basic:cover=overlay", "tiling:tiles=4,cover=overlay",
-                                     "basic:cover=overlay,prune=off"}) {
+    for (const std::string method :
+         {"basic:cover=overlay", "tiling:tiles=4,cover=overlay", "basic:cover=overlay,prune=off"}) {
       for (const KernelId kernel : {KernelId::kPlane, KernelId::kRational, KernelId::kEpeck}) {
         if (!has_kernel(kernel)) continue;
         SCOPED_TRACE(scene.name + ", " + method + ", " + std::string(kernel_info(kernel).name));

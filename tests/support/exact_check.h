@@ -21,8 +21,8 @@ inline const std::vector<KernelId> kExactKernels = {KernelId::kPlane, KernelId::
 std::string check_exact(const Case& scene);
 
 /// As check_exact(), for every method of method_variants() under point and directional lights on
-/// every exact kernel: fractions that are the oracle's, add up to exactly 1 and lie in their bounds;
-/// witnesses that hold; fragments that the oracle calls identical.
+/// every exact kernel: fractions that are the oracle's, add up to exactly 1 and lie in their
+/// bounds; witnesses that hold; fragments that the oracle calls identical.
 std::string check_methods(const Case& scene);
 
 /// Exact lit fraction of each part under each light (parts of light 0, then of light 1, ...).

@@ -58,9 +58,7 @@ ShadowOptions options_by_name(const std::string& name, MethodId algorithm) {
   return options;
 }
 
-std::string name_of(MethodId algorithm) {
-  return std::string(method_info(algorithm).name);
-}
+std::string name_of(MethodId algorithm) { return std::string(method_info(algorithm).name); }
 
 ShadowOptions with_small_cells(ShadowOptions options) {
   options.method.point = MethodId::kSectors;
