@@ -485,10 +485,11 @@ TEST(LightSideOfSupport, IsExactForCrossings) {
 TEST(LightSideOfSupport, FollowsTheEndsOfAnEdge) {
   LightExample example(kSmall);
   // Both ends of the first edge of `high`, z = 6, are in front of z = 4, and so is all between
-  // them: that the edge is its own is known (twice), and two integers of degree 3 answer.
+  // them: that the edge is its own is known (twice), two integers of degree 3 answer, and two more
+  // tell that the vertex is between its ends.
   const auto made = unknown_vertex();
   EXPECT_EQ(example.depth(kLow, {example.edge(kHigh, 0), made, example.edge(kGround, 0), kHigh}),
-            (Answer{Side::kFront, "2x identity, 2x 64"}));
+            (Answer{Side::kFront, "2x identity, 4x 64"}));
 }
 
 }  // namespace
