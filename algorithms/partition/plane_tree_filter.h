@@ -10,8 +10,10 @@
 #ifndef GNOMON_ALGORITHMS_PARTITION_PLANE_TREE_FILTER_H
 #define GNOMON_ALGORITHMS_PARTITION_PLANE_TREE_FILTER_H
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "algorithms/partition/classified_loop.h"
@@ -51,6 +53,21 @@ inline std::int32_t descend(TreePlace& at, const NodeAt& node_at, const Placemen
         return link;
     }
   }
+}
+
+/// Nodes on the longest way from the root, which nodes[0] stands for, to a cell; links to nodes are
+/// not negative. Requires: a node comes after its parent. O(nodes).
+template <class Node>
+std::uint64_t depth_of(std::span<const Node> nodes) {
+  std::vector<std::uint32_t> depth(nodes.size(), 0);
+  std::uint32_t most = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    most = std::max(most, depth[i]);
+    for (const std::int32_t link : {nodes[i].front, nodes[i].back}) {
+      if (link >= 0) depth[static_cast<std::size_t>(link)] = depth[i] + 1;
+    }
+  }
+  return most;
 }
 
 /// PlaneTreeFilter does the walk, and keeps its workspace.

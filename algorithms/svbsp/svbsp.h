@@ -50,7 +50,7 @@ class SvbspTree {
 
   std::uint64_t node_count() const { return nodes_.size() - 1; }
   /// Nodes on the longest way from the root to a cell. O(nodes).
-  std::uint64_t depth() const;
+  std::uint64_t depth() const { return depth_of(std::span<const Node>(nodes_)); }
   /// Children with fewer than three vertices that were dropped (rounded kernels).
   std::uint64_t vanished() const { return filter_.vanished(); }
 

@@ -28,20 +28,6 @@ void SvbspTree<Space>::plant(const PrefixTree& prefix) {
 }
 
 template <LightSpaceModel Space>
-std::uint64_t SvbspTree<Space>::depth() const {
-  // A node is made after its parent, whose number is smaller.
-  std::vector<std::uint32_t> depth(nodes_.size(), 0);
-  std::uint32_t most = 0;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    most = std::max(most, depth[i]);
-    for (const std::int32_t link : {nodes_[i].front, nodes_[i].back}) {
-      if (link >= 0) depth[static_cast<std::size_t>(link)] = depth[i] + 1;
-    }
-  }
-  return most;
-}
-
-template <LightSpaceModel Space>
 struct SvbspTree<Space>::Cells {
   SvbspTree& tree;
   const LoopView<Vertex>& original;  // the polygon

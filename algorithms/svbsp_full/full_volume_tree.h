@@ -60,18 +60,7 @@ class FullVolumeTree {
 
   std::uint64_t node_count() const { return nodes_.size() - 1; }
   /// Nodes on the longest way from the root to a cell. O(nodes).
-  std::uint64_t depth() const {
-    // A node is made after its parent, whose number is smaller.
-    std::vector<std::uint32_t> depth(nodes_.size(), 0);
-    std::uint32_t most = 0;
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      most = std::max(most, depth[i]);
-      for (const std::int32_t link : {nodes_[i].front, nodes_[i].back}) {
-        if (link >= 0) depth[static_cast<std::size_t>(link)] = depth[i] + 1;
-      }
-    }
-    return most;
-  }
+  std::uint64_t depth() const { return depth_of(std::span<const Node>(nodes_)); }
   /// Children with fewer than three vertices that were dropped (rounded kernels).
   std::uint64_t vanished() const { return filter_.vanished(); }
 
