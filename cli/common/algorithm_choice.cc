@@ -62,6 +62,10 @@ Expected<AlgorithmChoice> parse_algorithm_choice(std::string_view name,
                                                  std::string_view also) {
   AlgorithmChoice choice{.point = automatic_method(needs)};
   if (name == kAutomaticName) return choice;
+  if (name.substr(0, name.find(':')) == kAutomaticName) {
+    return fail(ErrorCode::kUsage, "--algorithm " + std::string(name) + ": auto has no options",
+                "an algorithm by its name");
+  }
   auto selection = parse_method(name);
   if (!selection) {
     Error error = std::move(selection.error());

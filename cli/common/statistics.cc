@@ -3,6 +3,8 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
+
 #include "gnomon/algorithms/method.h"
 #include "gnomon/kernel/precision_plan.h"
 #include "report/sides/polygon_sides.h"
@@ -61,10 +63,12 @@ std::string statistics_text(const LoadedScene& loaded, const ShadowResult& resul
             grouped(result.bsp_nodes) + " nodes, depth " + grouped(result.bsp_depth) + '\n';
   }
   for (const LightResult& light : result.lights) {
+    const bool counts_nodes =
+        has_bsp || std::ranges::count(method_info(light.method).counters, Counter::kNodes) > 0;
     text += "light " + report::light_name(loaded.scene, loaded.prepared, light) + ": " +
             grouped(light.facing_parts) + " parts and " + grouped(light.facing_edges) +
             " edges face it, " + grouped(light.tree_nodes) +
-            (has_bsp ? " tree nodes, " : " cells, ") + grouped(light.fragment_total) +
+            (counts_nodes ? " tree nodes, " : " cells, ") + grouped(light.fragment_total) +
             " fragments\n";
     const std::string work = report::work_text(method_info(light.method).counters, light.work);
     if (!work.empty()) {
