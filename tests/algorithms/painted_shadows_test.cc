@@ -79,6 +79,13 @@ TEST(PaintedShadows, OneGeneratorAndSeveralLightsPaintEverySetOnce) {
   }
 }
 
+constexpr std::size_t kSmall = 12;  // polygons
+
+/// Slow kernels are asked about small scenes.
+bool is_asked(KernelId kernel, const Scene& scene) {
+  return has_kernel(kernel) && (kernel == KernelId::kPlane || scene.polygons.size() <= kSmall);
+}
+
 /// Scenes with several point lights and suns, some of them degenerate.
 std::vector<Scene> scenes_of_several_lights() {
   std::vector<Scene> scenes;
@@ -101,7 +108,7 @@ TEST(PaintedShadows, AreTheExactAnswerOfEveryLight) {
     for (const std::string method :
          {"basic:cover=overlay", "tiling:tiles=4,cover=overlay", "basic:cover=overlay,prune=off"}) {
       for (const KernelId kernel : {KernelId::kPlane, KernelId::kRational, KernelId::kEpeck}) {
-        if (!has_kernel(kernel)) continue;
+        if (!is_asked(kernel, scene)) continue;
         SCOPED_TRACE(scene.name + ", " + method + ", " + std::string(kernel_info(kernel).name));
         ShadowOptions options = options_of(method, kernel);
         options.output.combined = true;
@@ -132,7 +139,7 @@ TEST(PaintedShadows, PartitionsOfSeveralLightsAreExact) {
     const auto made = Case::make(scene);
     for (const std::string method : {"svbsp", "basic", "tiling:tiles=4"}) {
       for (const KernelId kernel : {KernelId::kPlane, KernelId::kRational, KernelId::kEpeck}) {
-        if (!has_kernel(kernel)) continue;
+        if (!is_asked(kernel, scene)) continue;
         SCOPED_TRACE(scene.name + ", " + method + ", " + std::string(kernel_info(kernel).name));
         ShadowOptions options = options_of(method, kernel);
         options.output.combined = true;
@@ -151,7 +158,7 @@ TEST(Overlays, OfOneLightAreTheExactAnswer) {
          {"basic:cover=overlay", "tiling:cover=overlay", "tiling:tiles=3,cover=overlay",
           "two-pass:cover=overlay", "two-pass:cells=off,cover=overlay"}) {
       for (const KernelId kernel : {KernelId::kPlane, KernelId::kRational, KernelId::kEpeck}) {
-        if (!has_kernel(kernel)) continue;
+        if (!is_asked(kernel, scene)) continue;
         SCOPED_TRACE(scene.name + ", " + method + ", " + std::string(kernel_info(kernel).name));
         const ShadowResult result =
             compute_shadows(made->prepared(), options_of(method, kernel)).value();
