@@ -328,6 +328,13 @@ double ShadingMesh::shade(std::uint32_t sample) const {
 Expected<ShadingMesh> make_shading_mesh_by(const PreparedScene& scene, const ShadowResult& result,
                                            const ShadeFunction& shade,
                                            const ShadingOptions& options, const Rules& rules) {
+  // A mesh has a face a fragment, and nothing where no fragment is.
+  const bool painted = std::ranges::any_of(
+      result.lights, [](const LightResult& light) { return light.cover == Cover::kOverlay; });
+  if (painted) {
+    return fail(ErrorCode::kUsage, "shadows painted over polygons cannot be shaded",
+                "fragments that tile them: cover=partition");
+  }
   return MeshMaker(scene, result, shade, options, rules).make();
 }
 

@@ -169,7 +169,8 @@ class CertifyRun {
       run.dropped_slivers += light.dropped_slivers;
     }
     auto candidate = report::claims_of(loaded_.scene, loaded_.prepared, *result, run.name, false);
-    if (options_.combined && !candidate.combined) candidate.combined.emplace();
+    auto& together = algorithm.paints() ? candidate.overlay : candidate.combined;
+    if (options_.combined && !together) together.emplace();  // no light reaches anything
     const bool explained =
         options_.explain && !kernel.exact() && algorithm.point == MethodId::kSvbsp;
     return judge(std::move(run), std::move(candidate),

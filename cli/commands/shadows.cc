@@ -110,9 +110,8 @@ int run_shadows(const ShadowsOptions& options) {
   json_options.fragments = options.fragments;
   json_options.exact_fractions = options.exact_fractions;
   json_options.exact_loops = options.exact_loops;
-  const bool painted = algorithm->options.cover == Cover::kOverlay;
-  json_options.combined = options.combined && !painted;
-  json_options.overlay = options.combined && painted;
+  json_options.combined = options.combined && !algorithm->paints();
+  json_options.overlay = options.combined && algorithm->paints();
   json_options.interrupted = &interrupted();
   if (options.lit_only) json_options.only = LightState::kLit;
   if (options.shadow_only) json_options.only = LightState::kShadow;

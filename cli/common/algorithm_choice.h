@@ -39,6 +39,8 @@ struct AlgorithmChoice {
   MethodId area = MethodId::kReceiver;
   MethodOptionValues options = {};  // of both
 
+  /// Whether shadows are painted over polygons that stay whole.
+  bool paints() const { return options.cover == Cover::kOverlay; }
   void apply(MethodChoice& method) const {
     method.point = point;
     method.area = area;

@@ -65,7 +65,9 @@ bool boxes_meet(const ShadedLoop& a, const ShadedLoop& b) {
 class ShadedPolygons {
  public:
   explicit ShadedPolygons(const ClaimedLight& light)
-      : background_(light.background), per_caster_umbra_(light.per_caster_umbra) {
+      : background_(light.background),
+        cover_(light.cover),
+        per_caster_umbra_(light.per_caster_umbra) {
     for (const ClaimedPolygon& polygon : light.polygons) {
       std::vector<ShadedLoop> loops;
       for (const ClaimedFragment& fragment : polygon.fragments) {
@@ -89,11 +91,13 @@ class ShadedPolygons {
     return found == loops_.end() ? nullptr : &found->second;
   }
   std::optional<LightState> background() const { return background_; }
+  Cover cover() const { return cover_; }
   /// Else umbra may be called penumbra: a cost, no difference.
   bool per_caster_umbra() const { return per_caster_umbra_; }
 
  private:
   std::optional<LightState> background_;
+  Cover cover_;
   bool per_caster_umbra_;
   std::map<std::pair<std::string, Side>, std::vector<ShadedLoop>> loops_;
 };
@@ -220,7 +224,7 @@ class Painter {
       fill(piece.loop, colour(base, normal, centre, view), view);
     } else {
       paint_fragments(
-          piece, normal, *loops,
+          piece, normal, *loops, shown.cover(),
           [&](std::optional<LightState> shade) {
             if (!shade && shown.background()) shade = base;
             return shade ? colour(*shade, normal, centre, view) : kMissing;
@@ -238,7 +242,7 @@ class Painter {
   /// since it would shine through along the edges of what covers it.
   template <class ColourOf>
   void paint_fragments(const OrderedPiece& piece, const Vector& normal,
-                       const std::vector<ShadedLoop>& loops, const ColourOf& colour_of,
+                       const std::vector<ShadedLoop>& loops, Cover cover, const ColourOf& colour_of,
                        const View& view) {
     constexpr double kAll = 0.99999;
     const Vector& on_plane = piece.loop.front();
@@ -254,7 +258,8 @@ class Painter {
       covered += length(area_vector(cut));
       seen.emplace_back(shaded.state, std::move(cut));
     }
-    if (covered < kAll * length(area_vector(piece.loop))) {
+    // Loops that overlap may add up to the whole and yet leave some of it out.
+    if (cover == Cover::kOverlay || covered < kAll * length(area_vector(piece.loop))) {
       fill(piece.loop, colour_of(std::nullopt), view);
     }
     for (const auto& [shade, loop] : seen) fill(loop, colour_of(shade), view, options_.fragments);

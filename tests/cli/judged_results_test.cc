@@ -114,6 +114,30 @@ TEST_F(JudgedResults, ListsOfSomeClassesAlone) {
                        "\"listed\": [\"umbra\"]", "\"listed\": [\"umbra\", \"penumbra\"]"));
 }
 
+TEST_F(JudgedResults, ShadowsPaintedOnShadows) {
+  for (const std::string method : {"basic:cover=overlay", "tiling:tiles=4,cover=overlay"}) {
+    const std::string result =
+        written("touching", {"--combined", "--exact-loops", "--algorithm", method});
+    EXPECT_THAT(result, HasSubstr("\"overlay\""));
+    expect_right("touching", result);
+    const RunResult own = run_gnomon({"certify", example("touching"), "--kernel", "plane",
+                                      "--combined", "--strict", "--algorithm", method});
+    EXPECT_EQ(own.status, 0) << own.out;
+  }
+}
+
+// A mesh has a face a fragment; where a result has none, nothing would be lit.
+TEST_F(JudgedResults, PaintedShadowsAreNotShaded) {
+  const std::string mesh = (directory_.path() / "mesh.ply").string();
+  for (const std::string method : {"basic:cover=overlay", "two-pass:cover=overlay"}) {
+    const RunResult run =
+        run_gnomon({"shadows", example("pinwheel"), "--algorithm", method, "--illuminate", "--mesh",
+                    mesh, "-o", (directory_.path() / "result.json").string()});
+    EXPECT_EQ(run.status, 2) << method;
+    EXPECT_THAT(run.err, HasSubstr("cover=partition"));
+  }
+}
+
 TEST_F(JudgedResults, PiecesOfALight) {
   const std::string result = written("panel-contacts", {"--pieces", "--exact-loops"});
   EXPECT_THAT(result, HasSubstr("\"piece_of\": \"panel\""));

@@ -21,6 +21,7 @@
 #include "fuzz/generate/soups.h"
 #include "gnomon/algorithms/painters_order.h"
 #include "gnomon/scene/generate.h"
+#include "gnomon/scene/read.h"
 #include "report/pictures/picture.h"
 #include "report/pictures/view.h"
 #include "report/text/text_sink.h"
@@ -255,6 +256,44 @@ TEST(PictureOrder, Soups) {
     scenes.push_back(fuzz::make_soup(fuzz::Soup::kUniform, false, random));
   }
   expect_right(scenes);
+}
+
+// Two loops over the same half add up to the whole area of the polygon: the other half is lit.
+TEST(Pictures, PaintedShadowsThatOverlapLeaveTheBackground) {
+  const Scene scene = parse_scene(R"({"format": "gnomon-scene", "version": 1,
+    "vertices": [[0,0,0], [2,0,0], [2,2,0], [0,2,0]],
+    "polygons": [{"id": "floor", "loop": [0,1,2,3]}],
+    "lights": [{"id": "sun", "type": "directional", "to_light": [0, 0, 1]}]})",
+                                  "floor.json")
+                          .value()
+                          .scene;
+  const PreparedScene prepared = prepare(scene).value();
+  ClaimedLight light;
+  light.id = "sun";
+  light.cover = Cover::kOverlay;
+  light.background = LightState::kLit;
+  ClaimedPolygon& floor = light.polygons.emplace_back();
+  floor.id = "floor";
+  for (int i = 0; i < 2; ++i) {
+    ClaimedFragment& half = floor.fragments.emplace_back();
+    half.state = LightState::kShadow;
+    half.loop = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}};
+  }
+  report::PictureOptions options;
+  options.camera.eye = {1, 1, 5};
+  options.camera.look_at = {1, 1, 0};
+  options.camera.up = {0, 1, 0};
+  options.legend = false;
+  report::Panel panel;
+  panel.light = 0;
+  panel.shown = &light;
+  report::StringSink sink;
+  report::paint_scene(scene, prepared, back_to_front(prepared, options.camera.eye), {panel},
+                      options)
+      .write(sink);
+  const std::vector<PaintedPath> paths = painted_paths(sink.text());
+  EXPECT_EQ(std::ranges::count_if(paths, &PaintedPath::warm), 1);
+  EXPECT_EQ(std::ranges::count_if(paths, [](const PaintedPath& path) { return !path.warm; }), 2);
 }
 
 }  // namespace
