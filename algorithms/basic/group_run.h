@@ -75,7 +75,7 @@ class GroupRun {
 
   /// Puts out what becomes of a loop on the present target, and counts nothing.
   void classify(const Loop& loop, ClassifiedLoops<Vertex>& output) {
-    if (const VolumeId cover = find_near(loop); cover != kNoVolume) {
+    if (const VolumeId cover = find_near_uncounted(loop); cover != kNoVolume) {
       output.add_shadow(loop, volumes_.caster(cover));
     } else {
       candidates_.subtract(loop, near_, output);
@@ -84,7 +84,7 @@ class GroupRun {
   /// Calls put(inside) for each shadow polygon on a loop on the present target.
   template <class Put>
   void paint(const Loop& loop, const Put& put) {
-    if (find_near(loop) != kNoVolume) {
+    if (find_near_uncounted(loop) != kNoVolume) {
       put(loop);
     } else {
       volumes_.paint(loop, near_, [&](VolumeId, const Loop& inside) { put(inside); });
@@ -132,34 +132,35 @@ class GroupRun {
   /// Phase 1: what of a target is in the shadow of the volumes so far.
   void receive(Target& target) {
     const Loop loop = view(target);
-    near_.clear();
-    for (const VolumeId id : candidates_.of_target(loop)) {
-      if (id >= first_own_) continue;  // of its own plane
-      ++counts_[Counter::kTests];
-      const ConePlace place = volumes_.place(id, loop);
-      if (place == ConePlace::kOutside) {
-        ++counts_[Counter::kNulled];
-        continue;
-      }
-      near_.push_back(id);
-      if (place != ConePlace::kInside || !options_.prune) continue;
-      target.covered = true;
+    const VolumeId cover = find_near(loop, candidates_.of_target(loop), counts_);
+    target.covered = cover != kNoVolume;
+    if (target.covered) {
       ++counts_[Counter::kCovered];
-      put_out_covered(loop, id);
-      return;
+      put_out_covered(loop, cover);
+    } else {
+      put_out(loop);
     }
-    put_out(loop);
   }
 
-  /// Finds the volumes that a loop may have something inside of, or one that holds all of it.
-  VolumeId find_near(const Loop& loop) {
+  /// Finds the candidates that a loop may have something inside of, or one that holds all of it.
+  VolumeId find_near(const Loop& loop, std::span<const VolumeId> candidates, WorkCounts& counts) {
     near_.clear();
-    for (const VolumeId id : candidates_.met_by(loop)) {
-      const ConePlace place = id < first_own_ ? volumes_.place(id, loop) : ConePlace::kOutside;
+    for (const VolumeId id : candidates) {
+      if (id >= first_own_) continue;  // of its own plane
+      ++counts[Counter::kTests];
+      const ConePlace place = volumes_.place(id, loop);
       if (place == ConePlace::kInside && options_.prune) return id;
-      if (place != ConePlace::kOutside) near_.push_back(id);
+      if (place == ConePlace::kOutside) {
+        ++counts[Counter::kNulled];
+      } else {
+        near_.push_back(id);
+      }
     }
     return kNoVolume;
+  }
+  VolumeId find_near_uncounted(const Loop& loop) {
+    WorkCounts unused;
+    return find_near(loop, candidates_.met_by(loop), unused);
   }
 
   void put_out_covered(const Loop& loop, VolumeId id) {

@@ -197,7 +197,6 @@ class SectorTree {
   bool covers(const SectorItem& item) const;
   bool is_behind(const SectorItem& item, std::uint32_t part);
   Relation relation(const SectorItem& receiver, const SectorItem& caster);
-  bool any_nearer(const SectorItem& item, PlaneId plane, bool& any_behind);
   bool split(Frame& frame, std::uint32_t open_end);
   bool split_by_sector_plane(Frame& frame, std::uint32_t open_end);
   PlaneRef next_sector_plane(const SectorCell& cell, SectorCell& above, SectorCell& below) const;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "algorithms/partition/depth.h"
 #include "algorithms/sectors/float_filters.h"
 #include "algorithms/sectors/sector_tree.h"
 
@@ -21,22 +22,6 @@ bool SectorTree<Space>::covers(const SectorItem& item) const {
     if (!is_cell_plane(loops_.edge(item.first + i))) return false;
   }
   return true;
-}
-
-// Whether a vertex of the item is nearer to the light than the plane, and whether one is behind it.
-template <SectorSpaceModel Space>
-bool SectorTree<Space>::any_nearer(const SectorItem& item, PlaneId plane, bool& any_behind) {
-  const LoopView<Vertex> loop = view(item);
-  const Side nearer =
-      context_->facing.plane_signs[plane] == Sign::kPositive ? Side::kFront : Side::kBack;
-  bool any = false;
-  any_behind = false;
-  for (std::uint32_t i = 0; i < loop.size(); ++i) {
-    const Side side = space_.side_of_support(plane, loop.corner(i));
-    any |= side == nearer;
-    any_behind |= side == opposite(nearer);
-  }
-  return any;
 }
 
 /// Whether no vertex of the item is nearer than the part's plane and one is behind it.
@@ -71,13 +56,12 @@ typename SectorTree<Space>::Relation SectorTree<Space>::relation(const SectorIte
   if (own == other) {
     return context_->rules.on_goes_to_its_own_side ? Relation::kNone : Relation::kBehind;
   }
-  bool behind = false;
-  const bool nearer = any_nearer(receiver, other, behind);
-  if (!behind) return Relation::kNone;
-  if (!nearer) return Relation::kBehind;
-  const bool caster_nearer = any_nearer(caster, own, behind);
-  if (!caster_nearer) return Relation::kNone;
-  return behind ? Relation::kCrossing : Relation::kBehind;
+  const DepthSides of_receiver = depth_sides(space_, context_->facing, other, view(receiver));
+  if (!of_receiver.behind) return Relation::kNone;
+  if (!of_receiver.nearer) return Relation::kBehind;
+  const DepthSides of_caster = depth_sides(space_, context_->facing, own, view(caster));
+  if (!of_caster.nearer) return Relation::kNone;
+  return of_caster.behind ? Relation::kCrossing : Relation::kBehind;
 }
 
 /// Keeps the undecided items of [begin, end) in front; returns their end.
@@ -190,10 +174,9 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
     }
     if (how == Relation::kCrossing) {
       const auto& parts = context_->scene.parts;
-      const PlaneId other = parts[caster.part].plane;
-      const PlaneRef front = space_.cut_of_supports(parts[item.part].plane, other);
-      const bool faces = context_->facing.plane_signs[other] == Sign::kPositive;
-      caster_planes_.push_back(faces ? -front : front);  // behind the caster
+      // Behind the caster.
+      caster_planes_.push_back(
+          -depth_cut(space_, context_->facing, parts[item.part].plane, parts[caster.part].plane));
     }
     still_lit_.clear();
     for (LitPiece& piece : lit_) {

@@ -23,7 +23,7 @@
 #include "algorithms/partition/plane_tree_filter.h"
 #include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
-#include "algorithms/svbsp/balanced_prefix.h"
+#include "algorithms/svbsp/in_out_tree.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "kernel/concept/kernel_concept.h"
 
@@ -43,7 +43,7 @@ class SvbspTree {
   SvbspTree(Space& space, bool merge_siblings, const Rules& rules = {});
 
   /// Puts the balanced prefix at the top. Requires: nothing inserted yet.
-  void plant(const PrefixTree& prefix);
+  void plant(const PrefixTree& prefix) { plant_prefix(*space_, prefix, nodes_); }
 
   /// Filters a loop that is counter-clockwise seen from the light.
   void filter(const LoopView<Vertex>& loop, FilterActions actions, ClassifiedLoops<Vertex>& output);
@@ -55,17 +55,9 @@ class SvbspTree {
   std::uint64_t vanished() const { return filter_.vanished(); }
 
  private:
-  // Cells are encoded in the child links: OUT, or IN with its caster.
-  static constexpr std::int32_t kOut = -1;
-  static constexpr std::int32_t in_cell(std::uint32_t caster) {
-    return -2 - static_cast<std::int32_t>(caster);
-  }
-  static constexpr std::uint32_t caster_of(std::int32_t cell) {
-    return static_cast<std::uint32_t>(-2 - cell);
-  }
   struct Node {
     PlaneRef plane;
-    std::int32_t front = kOut, back = kOut;
+    std::int32_t front = kOutCell, back = kOutCell;
   };
   struct Cells;  // what PlaneTreeFilter asks of this tree while it filters one polygon
 

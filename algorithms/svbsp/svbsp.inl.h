@@ -15,19 +15,6 @@ SvbspTree<Space>::SvbspTree(Space& space, bool merge_siblings, const Rules& rule
     : space_(&space), rules_(rules), nodes_(1), filter_(merge_siblings) {}
 
 template <LightSpaceModel Space>
-void SvbspTree<Space>::plant(const PrefixTree& prefix) {
-  if (prefix.nodes.empty()) return;
-  const auto link = [](std::int32_t planned) {
-    return planned == PrefixNode::kLeaf ? kOut : planned + 1;  // after the sentinel
-  };
-  for (const PrefixNode& planned : prefix.nodes) {
-    nodes_.push_back(
-        {space_->add_prefix_plane(planned.plane), link(planned.front), link(planned.back)});
-  }
-  nodes_[0].front = 1;
-}
-
-template <LightSpaceModel Space>
 struct SvbspTree<Space>::Cells {
   SvbspTree& tree;
   const LoopView<Vertex>& original;  // the polygon
@@ -47,13 +34,13 @@ struct SvbspTree<Space>::Cells {
   void at_cell(TreePlace at, const LoopView<Vertex>& fragment) const {
     const std::int32_t cell = tree.child(at);
     if (actions.classify) {
-      if (cell == kOut) {
+      if (cell == kOutCell) {
         output.add_lit(fragment);
       } else {
-        output.add_shadow(fragment, caster_of(cell));
+        output.add_shadow(fragment, caster_of_cell(cell));
       }
     }
-    if (cell == kOut && actions.insert) tree.insert(at, fragment, original);
+    if (cell == kOutCell && actions.insert) tree.insert(at, fragment, original);
   }
 };
 
@@ -76,7 +63,7 @@ void SvbspTree<Space>::insert(TreePlace at, const LoopView<Vertex>& fragment,
     const PlaneRef plane =
         space_->shadow_plane(edge, fragment.vertices[i], fragment.vertices[fragment.next(i)]);
     const auto node = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back({plane, kOut, kOut});
+    nodes_.push_back({plane, kOutCell, kOutCell});
     child(at) = static_cast<std::int32_t>(node);
     at = {node, true};
   }

@@ -33,8 +33,6 @@ class SvbspRun {
   explicit SvbspRun(LightScene<Space>& light)
       : light_(light), tree_(light.space, light.options.output.merge, light.rules) {}
 
-  /// The tree is smaller than a fragment's loop; this keeps it from outgrowing them.
-  static constexpr std::uint64_t kMostNodesAFragment = 8;
   /// A space whose scene space has planes of fragments (build_scene_bsp) also says on which side of
   /// one the light is.
   static constexpr bool kFragmentPlanes = requires(const Space& space, LoopView<SceneVertex> loop) {
@@ -56,8 +54,7 @@ class SvbspRun {
           }
           counts_[Counter::kScenePieces] += pieces.size();
           filter_group(bsp, pieces);
-          const std::uint64_t most = light_.options.limits.fragments;
-          return output_.fragments.size() > most || tree_.node_count() / kMostNodesAFragment > most
+          return exceeds(light_.options.limits, output_.fragments.size(), tree_.node_count())
                      ? RunOutcome::kTooManyFragments
                      : RunOutcome::kDone;
         });

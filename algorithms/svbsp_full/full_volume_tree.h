@@ -24,9 +24,10 @@
 
 #include "algorithms/lights/light_scene.h"
 #include "algorithms/partition/classified_loop.h"
+#include "algorithms/partition/depth.h"
 #include "algorithms/partition/fragment_stays.h"
 #include "algorithms/partition/plane_tree_filter.h"
-#include "algorithms/svbsp/balanced_prefix.h"
+#include "algorithms/svbsp/in_out_tree.h"
 
 namespace gnomon {
 
@@ -40,17 +41,7 @@ class FullVolumeTree {
       : light_(light), nodes_(1), filter_(light.options.output.merge) {}
 
   /// Puts the balanced prefix at the top. Requires: nothing inserted yet.
-  void plant(const PrefixTree& prefix) {
-    if (prefix.nodes.empty()) return;
-    const auto link = [](std::int32_t planned) {
-      return planned == PrefixNode::kLeaf ? kOut : planned + 1;  // after the sentinel
-    };
-    for (const PrefixNode& planned : prefix.nodes) {
-      nodes_.push_back({light_.space.add_prefix_plane(planned.plane), kNoSupport,
-                        link(planned.front), link(planned.back)});
-    }
-    nodes_[0].front = 1;
-  }
+  void plant(const PrefixTree& prefix) { plant_prefix(light_.space, prefix, nodes_); }
   /// Pass 1: adds the volume of a whole polygon that casts. Its edges are shadow planes.
   void insert(const Loop& caster) { filter(caster, Pass::kInsert, unused_); }
   /// Pass 2: puts out the fragments of a polygon.
@@ -65,19 +56,12 @@ class FullVolumeTree {
   std::uint64_t vanished() const { return filter_.vanished(); }
 
  private:
-  static constexpr std::int32_t kOut = -1;
   static constexpr std::uint32_t kNoSupport = 0xffffffffu;
-  static constexpr std::int32_t in_cell(std::uint32_t caster) {
-    return -2 - static_cast<std::int32_t>(caster);
-  }
-  static constexpr std::uint32_t caster_of(std::int32_t cell) {
-    return static_cast<std::uint32_t>(-2 - cell);
-  }
   enum class Pass : std::uint8_t { kInsert, kClassify };
   struct Node {
     PlaneRef plane;                     // of an edge
     std::uint32_t caster = kNoSupport;  // else: the support plane of this part
-    std::int32_t front = kOut, back = kOut;
+    std::int32_t front = kOutCell, back = kOutCell;
   };
   struct Cells;
 
@@ -127,9 +111,7 @@ struct FullVolumeTree<Space>::Cells {
     const Node& node = tree.nodes_[index];
     if (node.caster == kNoSupport) return node.plane;
     LightScene<Space>& light = tree.light_;
-    const PlaneId support = light.plane_of(node.caster);
-    const PlaneRef front = light.space.cut_of_supports(loop.support, support);
-    return light.facing.plane_signs[support] == Sign::kPositive ? front : -front;
+    return depth_cut(light.space, light.facing, loop.support, light.plane_of(node.caster));
   }
   Placement placement(SplitRecord& record, std::uint32_t index, const Loop& loop) const {
     const Node& node = tree.nodes_[index];
@@ -139,17 +121,9 @@ struct FullVolumeTree<Space>::Cells {
     if (support == loop.support) {
       return tree.light_.rules.on_goes_to_its_own_side ? Placement::kFront : Placement::kBack;
     }
-    const Side nearer =
-        tree.light_.facing.plane_signs[support] == Sign::kPositive ? Side::kFront : Side::kBack;
-    bool any_nearer = false, any_behind = false;
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const Side side = space.side_of_support(support, loop.corner(i));
-      any_nearer |= side == nearer;
-      any_behind |= side == opposite(nearer);
-    }
-    if (!any_behind) return Placement::kFront;
-    if (!any_nearer) return Placement::kBack;
-    // Only planes that meet in a line have corners on both sides.
+    const DepthSides sides = depth_sides(space, tree.light_.facing, support, loop);
+    if (!sides.behind) return Placement::kFront;
+    if (!sides.nearer) return Placement::kBack;
     return record.decide(space, plane(index, loop), loop);
   }
   bool is_kept(const Loop& loop) const {
@@ -158,11 +132,11 @@ struct FullVolumeTree<Space>::Cells {
   void at_cell(TreePlace at, const Loop& fragment) const {
     const std::int32_t cell = tree.child(at);
     if (pass == Pass::kInsert) {
-      if (cell == kOut) tree.hang_volume(at, fragment, original);
-    } else if (cell == kOut) {
+      if (cell == kOutCell) tree.hang_volume(at, fragment, original);
+    } else if (cell == kOutCell) {
       output.add_lit(fragment);
     } else {
-      output.add_shadow(fragment, caster_of(cell));
+      output.add_shadow(fragment, caster_of_cell(cell));
     }
   }
 };

@@ -69,9 +69,6 @@ class SvbspFullRun {
   }
 
  private:
-  /// The tree is smaller than a fragment's loop; this keeps it from outgrowing them.
-  static constexpr std::uint64_t kMostNodesAFragment = 8;
-
   void import_parts() {
     ranges_.resize(light_.scene.parts.size());
     for (const std::uint32_t part : light_.facing.parts) {
@@ -86,8 +83,7 @@ class SvbspFullRun {
     if (done % 64 == 0 && interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) {
       return RunOutcome::kInterrupted;
     }
-    const std::uint64_t most = light_.options.limits.fragments;
-    return output_.fragments.size() > most || tree_.node_count() / kMostNodesAFragment > most
+    return exceeds(light_.options.limits, output_.fragments.size(), tree_.node_count())
                ? RunOutcome::kTooManyFragments
                : RunOutcome::kDone;
   }

@@ -25,6 +25,7 @@
 
 #include "algorithms/partition/chart_box.h"
 #include "algorithms/partition/cone_clip.h"
+#include "algorithms/partition/depth.h"
 #include "algorithms/partition/import_export.h"
 #include "gnomon/algorithms/work_counts.h"
 
@@ -193,26 +194,17 @@ class ListClipping {
       }
       return;
     }
-    const bool positive = setting.facing.plane_signs[other] == Sign::kPositive;
-    const Side nearer = positive ? Side::kFront : Side::kBack;
-    const LoopView<Vertex> loop = setting.loops.view(piece.loop, own);
-    bool any_nearer = false, any_behind = false;
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      const Side side = setting.space.side_of_support(other, loop.corner(i));
-      any_nearer |= side == nearer;
-      any_behind |= side == opposite(nearer);
-    }
-    if (!any_nearer && !any_behind) {
+    const DepthSides sides =
+        depth_sides(setting.space, setting.facing, other, setting.loops.view(piece.loop, own));
+    if (!sides.nearer && !sides.behind) {
       coplanar_.push_back(piece);
-    } else if (!any_nearer) {
+    } else if (!sides.nearer) {
       put_behind(piece.loop);
-    } else if (!any_behind) {
+    } else if (!sides.behind) {
       near_.push_back(piece);
     } else {
-      // Only planes that meet in a line have corners on both sides.
-      const PlaneRef cut = setting.space.cut_of_supports(own, other);
-      first_cut_ = std::min(first_cut_, cut.index());
-      const PlaneRef front = positive ? cut : -cut;
+      const PlaneRef front = depth_cut(setting.space, setting.facing, own, other);
+      first_cut_ = std::min(first_cut_, front.index());
       const Placement placement =
           record_.decide(setting.space, front, setting.loops.view(piece.loop, own));
       if (placement != Placement::kSpanning) {  // a rounded kernel that contradicts itself

@@ -74,23 +74,13 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& 
 }
 
 Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const CertifyCommandOptions& options) {
-  if (auto several = several_algorithms(options.algorithm); !several.empty()) {
-    // As with auto: what cannot combine lights leaves them to the first that can.
-    const auto combining = std::ranges::find_if(methods(), [](const Method& method) {
-      return method.lights.point && method.combines_lights;
-    });
-    for (AlgorithmChoice& choice : several) {
-      if (options.combined && !method_info(choice.point).combines_lights) {
-        choice.point = combining->id;
-      }
-    }
+  const NeedyOption combined{"--combined", options.combined, &Method::combines_lights};
+  if (auto several = several_algorithms(options.algorithm, {combined}); !several.empty()) {
     return several;
   }
-  const auto algorithm =
-      parse_algorithm_choice(options.algorithm,
-                             {{"--combined", options.combined, &Method::combines_lights},
-                              {"--explain", options.explain, &Method::explains}},
-                             "both, all");
+  const auto algorithm = parse_algorithm_choice(
+      options.algorithm, {combined, {"--explain", options.explain, &Method::explains}},
+      "both, all");
   if (!algorithm) return tl::unexpected(algorithm.error());
   return std::vector{*algorithm};
 }
@@ -453,9 +443,9 @@ void add_certify_command(CLI::App& app, Action& action) {
   command
       .add_option("--leaks", options->leaks, "Fail with more invented and lost regions than this")
       ->type_name("N");
-  command.add_flag(
-      "--combined", options->combined,
-      "Also judge each kernel's fragments of all lights together (svbsp, or receiver)");
+  command.add_flag("--combined", options->combined,
+                   "Also judge each kernel's fragments of all lights together\n(" +
+                       methods_that(&Method::combines_lights) + ")");
   command.add_flag("--subset", options->subset,
                    "A candidate need not have all lights and polygons");
   command

@@ -178,8 +178,8 @@ void add_shadows_command(CLI::App& app, Action& action) {
   command.add_flag("--exact-loops", options->exact_loops,
                    "Write fragments with exact rational coordinates (exact kernels)");
   command.add_flag("--combined", options->combined,
-                   "Also write fragments with the set of lights that reach each of them (svbsp,\n"
-                   "receiver or merged)");
+                   "Also write fragments with the set of lights that reach each of them\n(" +
+                       methods_that(&Method::combines_lights) + ")");
   command.add_flag("--pieces", options->pieces,
                    "Area lights cut by the planes of all polygons first, classes for each piece\n"
                    "(Chin & Feiner 1992 cut by fewer planes)");

@@ -20,13 +20,16 @@ std::string described(LightKinds lights) {
   return text;
 }
 
+bool can_serve(const Method& method, std::initializer_list<NeedyOption> needs) {
+  return std::ranges::all_of(
+      needs, [&](const NeedyOption& option) { return !option.given || method.*option.ability; });
+}
+
 /// The method that `auto` takes for point and directional lights: the first that can do all that is
 /// needed.
 MethodId automatic_method(std::initializer_list<NeedyOption> needs) {
   for (const Method& method : methods()) {
-    const bool can = std::ranges::all_of(
-        needs, [&](const NeedyOption& option) { return !option.given || method.*option.ability; });
-    if (method.lights.point && can) return method.id;
+    if (method.lights.point && can_serve(method, needs)) return method.id;
   }
   return MethodId::kSectors;
 }
@@ -93,7 +96,10 @@ Expected<AlgorithmChoice> parse_algorithm_choice(std::string_view name,
   return choice;
 }
 
-std::vector<AlgorithmChoice> several_algorithms(std::string_view name) {
+namespace {
+
+/// What `both` and `all` stand for, whatever the methods can do.
+std::vector<AlgorithmChoice> choices_named(std::string_view name) {
   if (name == kBothName) {
     return {{.point = MethodId::kSectors, .area = MethodId::kReceiver},
             {.point = MethodId::kSvbsp, .area = MethodId::kMerged}};
@@ -113,6 +119,26 @@ std::vector<AlgorithmChoice> several_algorithms(std::string_view name) {
   }
   for (std::size_t i = choices.size(); i < area.size(); ++i) choices.push_back({.area = area[i]});
   return choices;
+}
+
+}  // namespace
+
+std::vector<AlgorithmChoice> several_algorithms(std::string_view name,
+                                                std::initializer_list<NeedyOption> needs) {
+  std::vector<AlgorithmChoice> choices = choices_named(name);
+  for (AlgorithmChoice& choice : choices) {
+    if (!can_serve(method_info(choice.point), needs)) choice.point = automatic_method(needs);
+  }
+  return choices;
+}
+
+std::string methods_that(bool Method::*ability) {
+  std::string names;
+  for (const Method& method : methods()) {
+    if (!method.chosen_by_name || !(method.*ability)) continue;
+    names += (names.empty() ? "" : ", ") + std::string(method.name);
+  }
+  return names;
 }
 
 void drop_repeats(std::vector<AlgorithmChoice>& choices, const LoadedScene& loaded) {

@@ -60,8 +60,12 @@ Expected<AlgorithmChoice> parse_algorithm_choice(std::string_view name,
                                                  std::string_view also = {});
 
 /// The methods that `both` (sectors and receiver, then svbsp and merged) or `all` (every method
-/// that takes lights of the scene) stands for; none if `name` is neither.
-std::vector<AlgorithmChoice> several_algorithms(std::string_view name);
+/// that takes lights of the scene) stands for; none if `name` is neither. As with `auto`, a method
+/// of point lights that cannot serve one of `needs` gives way to the first that can.
+std::vector<AlgorithmChoice> several_algorithms(std::string_view name,
+                                                std::initializer_list<NeedyOption> needs = {});
+/// Names of the methods that can do this, joined by ", ".
+std::string methods_that(bool Method::*ability);
 
 /// Leaves out choices that are the same methods as one before for the lights that there are.
 void drop_repeats(std::vector<AlgorithmChoice>& choices, const LoadedScene& loaded);
