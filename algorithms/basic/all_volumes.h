@@ -19,12 +19,16 @@ class AllVolumes {
 
   AllVolumes(LightScene<Space>&, VolumeList<Space>& volumes) : volumes_(volumes) {}
 
-  /// Valid until the next call of any function.
-  std::span<const VolumeId> of_target(const Loop&) { return alive(); }
-  /// The same for any other loop: one on the target, or a piece that casts.
-  std::span<const VolumeId> met_by(const Loop&) { return alive(); }
-  /// Requires: met_by() was asked for it last.
-  void insert(VolumeId id) { alive_.push_back(id); }
+  /// Where in light space a loop is: nothing that helps here.
+  struct Place {};
+  Place find(const Loop&) { return {}; }
+  /// The living volumes. Valid until the next call of any function.
+  std::span<const VolumeId> at(const Place&) {
+    std::erase_if(alive_, [&](VolumeId id) { return !volumes_.is_alive(id); });
+    return alive_;
+  }
+  void count_target(std::size_t) const {}
+  void insert(VolumeId id, const Place&) { alive_.push_back(id); }
   std::uint64_t subtract(const Loop& target, std::span<const VolumeId> volumes,
                          ClassifiedLoops<typename Space::Vertex>& output) {
     return volumes_.subtract(target, volumes, output);
@@ -33,11 +37,6 @@ class AllVolumes {
   std::uint64_t vanished() const { return 0; }
 
  private:
-  std::span<const VolumeId> alive() {
-    std::erase_if(alive_, [&](VolumeId id) { return !volumes_.is_alive(id); });
-    return alive_;
-  }
-
   VolumeList<Space>& volumes_;
   std::vector<VolumeId> alive_;
 };

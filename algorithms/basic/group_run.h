@@ -107,6 +107,7 @@ class GroupRun {
   struct Target {
     LoopRange loop;  // in group_loops_
     std::uint32_t piece = 0;
+    typename Candidates::Place place;  // of the loop
     bool covered = false;
     VolumeId volume = kNoVolume;
     bool inserted = false;
@@ -124,15 +125,19 @@ class GroupRun {
     group_loops_.clear();
     for (const std::uint32_t index : group) {
       const LoopRange& piece = bsp.pieces[index];
-      targets_.push_back(
-          {light_.import(bsp.loops.view(piece, light_.plane_of(piece.part)), group_loops_), index});
+      Target& target = targets_.emplace_back();
+      target.loop = light_.import(bsp.loops.view(piece, light_.plane_of(piece.part)), group_loops_);
+      target.piece = index;
     }
+    for (Target& target : targets_) target.place = candidates_.find(view(target));
   }
 
   /// Phase 1: what of a target is in the shadow of the volumes so far.
   void receive(Target& target) {
     const Loop loop = view(target);
-    const VolumeId cover = find_near(loop, candidates_.of_target(loop), counts_);
+    const std::span<const VolumeId> candidates = candidates_.at(target.place);
+    candidates_.count_target(candidates.size());
+    const VolumeId cover = find_near(loop, candidates, counts_);
     target.covered = cover != kNoVolume;
     if (target.covered) {
       ++counts_[Counter::kCovered];
@@ -160,7 +165,7 @@ class GroupRun {
   }
   VolumeId find_near_uncounted(const Loop& loop) {
     WorkCounts unused;
-    return find_near(loop, candidates_.met_by(loop), unused);
+    return find_near(loop, candidates_.at(candidates_.find(loop)), unused);
   }
 
   void put_out_covered(const Loop& loop, VolumeId id) {
@@ -202,15 +207,14 @@ class GroupRun {
       ++counts_[Counter::kVolumes];
     }
     const VolumeId own = target.volume;
-    const std::span<const VolumeId> met = candidates_.met_by(volumes_.loop(own));
     if (steps.kill && options_.prune) {
-      for (const VolumeId other : met) {
+      for (const VolumeId other : candidates_.at(target.place)) {
         if (other == own || !volumes_.holds(own, volumes_.loop(other))) continue;
         volumes_.kill(other);
         ++counts_[Counter::kDied];
       }
     }
-    if (steps.insert) candidates_.insert(own);
+    if (steps.insert) candidates_.insert(own, target.place);
     target.inserted = steps.insert;
   }
 

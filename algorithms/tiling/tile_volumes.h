@@ -28,22 +28,35 @@ class TileVolumes {
         lists_(grid_.borders().faces(), tiles),
         cells_(light, grid_, volumes) {}
 
-  /// S(p), ascending. Valid until the next call of any function.
-  std::span<const VolumeId> of_target(const Loop& target) {
-    name_volumes(target);
-    if (volumes_.size() > 0) {
-      shares_.push_back(static_cast<std::uint32_t>(named_.size() * kMillion / volumes_.size()));
-    }
+  /// Where in light space a loop is: the tiles that it meets.
+  using Place = std::vector<MetTiles>;
+  Place find(const Loop& loop) {
+    Place met;
+    grid_.find(loop, met);
+    return met;
+  }
+  /// S(p), ascending: the living volumes that tiles name. Valid until the next call of any
+  /// function.
+  std::span<const VolumeId> at(const Place& met) {
+    named_.clear();
+    ++stamp_;
+    stamps_.resize(volumes_.size(), 0);
+    lists_.for_each_entry(met, [&](VolumeId id) {
+      if (stamps_[id] == stamp_ || !volumes_.is_alive(id)) return;
+      stamps_[id] = stamp_;
+      named_.push_back(id);
+    });
+    std::ranges::sort(named_);
     return named_;
   }
-  /// The same for any other loop: one on the target, or a piece that casts.
-  std::span<const VolumeId> met_by(const Loop& piece) {
-    name_volumes(piece);
-    return named_;
+  /// Remembers p_i of a target that is tested against so many volumes.
+  void count_target(std::size_t named) {
+    if (volumes_.size() == 0) return;
+    shares_.push_back(static_cast<std::uint32_t>(named * kMillion / volumes_.size()));
   }
-  /// Writes the volume into the tiles that it meets. Requires: met_by() was asked for it last.
-  void insert(VolumeId id) {
-    lists_.write(id, met_, light_.rules.closed_tiles_pass_to_the_killer,
+  /// Writes the volume of a piece into the tiles that the piece meets.
+  void insert(VolumeId id, const Place& met) {
+    lists_.write(id, met, light_.rules.closed_tiles_pass_to_the_killer,
                  [&](VolumeId other) { return volumes_.is_alive(other); });
   }
   std::uint64_t subtract(const Loop& target, std::span<const VolumeId> volumes,
@@ -71,27 +84,11 @@ class TileVolumes {
  private:
   static constexpr std::uint64_t kMillion = 1'000'000;
 
-  /// Finds the tiles that a loop meets and the volumes that they name.
-  void name_volumes(const Loop& loop) {
-    met_.clear();
-    grid_.find(loop, met_);
-    named_.clear();
-    ++stamp_;
-    stamps_.resize(volumes_.size(), 0);
-    lists_.for_each_entry(met_, [&](VolumeId id) {
-      if (stamps_[id] == stamp_ || !volumes_.is_alive(id)) return;
-      stamps_[id] = stamp_;
-      named_.push_back(id);
-    });
-    std::ranges::sort(named_);
-  }
-
   LightScene<Space>& light_;
   VolumeList<Space>& volumes_;
   TileGrid<Space> grid_;
   TileLists lists_;
   TileCells<Space> cells_;
-  std::vector<MetTiles> met_;
   std::vector<VolumeId> named_;
   std::vector<std::uint64_t> stamps_;  // by volume: the last target that met it
   std::uint64_t stamp_ = 0;
