@@ -78,22 +78,24 @@ class ListClipping {
                                             : kLeastWork + kWorkAPair * size * size;
     while (!stack_.empty() && !stopped()) {
       const List here = stack_.back();
-      const std::uint64_t pieces = pool_.size() - here.begin;
-      if (pieces > work_left) {
-        put_out_lit(pool_, output);
-        return;
-      }
-      work_left -= pieces;
       stack_.pop_back();
       WorkCounts& counts = setting.counts;
       ++counts[Counter::kLists];
-      counts.at_least(Counter::kLongestList, pieces);
+      counts.at_least(Counter::kLongestList, pool_.size() - here.begin);
       const std::uint32_t clip =
           here.clip == kNone ? nearest_caster(setting, here.begin) : here.clip;
       if (clip == kNone) {
         put_out_lit(std::span(pool_).subspan(here.begin), output);
         pool_.resize(here.begin);
         continue;
+      }
+      if constexpr (!Space::kExact) {
+        const std::uint64_t work = work_of(here.begin, clip);
+        if (work > work_left) {
+          put_out_lit(pool_, output);
+          return;
+        }
+        work_left -= work;
       }
       sort_by(setting, here.begin, clip, bounds_all, output);
       const ListPiece by = pool_[clip];
@@ -110,8 +112,8 @@ class ListClipping {
 
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  /// In pieces that are looked at: at the least, and for each pair of a list's polygons.
-  static constexpr std::uint64_t kLeastWork = 4096, kWorkAPair = 16;
+  /// In corners that are asked about an edge: at the least, and for each pair of polygons.
+  static constexpr std::uint64_t kLeastWork = 1 << 15, kWorkAPair = 256;
   struct List {
     std::uint32_t begin = 0;     // in pool_; the list on top of the stack ends where the pool ends
     std::uint32_t clip = kNone;  // in pool_: the piece that clips, if it was handed down
@@ -119,6 +121,11 @@ class ListClipping {
     std::uint32_t most = 0;      // how often at most, if the kernel does not contradict itself
   };
 
+  std::uint64_t work_of(std::uint32_t begin, std::uint32_t clip) const {
+    std::uint64_t corners = 0;
+    for (auto i = begin; i < pool_.size(); ++i) corners += pool_[i].loop.count;
+    return corners * pool_[clip].loop.count;
+  }
   std::uint32_t nearest_caster(const Setting& setting, std::uint32_t begin) const {
     std::uint32_t best = kNone;
     for (auto i = begin; i < pool_.size(); ++i) {

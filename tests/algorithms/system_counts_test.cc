@@ -14,6 +14,7 @@
 #include "fuzz/generate/families.h"
 #include "fuzz/generate/scene_pen.h"
 #include "gnomon/algorithms/method_options.h"
+#include "gnomon/scene/read.h"
 #include "method_variants.h"
 
 namespace gnomon::test {
@@ -321,6 +322,31 @@ TEST(SystemCounts, WithoutPruningEveryPairIsTested) {
     }
   }
   EXPECT_GT(checked, 100u);
+}
+
+// Found by a campaign on epick: points that were rounded lie on both sides of each other's planes,
+// and loops that cut each other gained corners for minutes. Lists end when 256 n^2 + 2^15 corners
+// have been asked about an edge, n = 4 polygons; epick makes 229 cuts by then.
+TEST(SystemCounts, RoundedListsThatContradictEachOtherEnd) {
+  const auto scene = Case::make(
+      parse_scene(R"({"format": "gnomon-scene", "version": 1, "two_sided": true, "vertices": [
+        [0,9,0], [-4,-9,0], [-4,-10,0], [-4,7,-4], [6,-5,4], [6,-4,4], [-4,8,-4], [3,-4,9],
+        [-1,2,-9], [-2,2,-10], [2,-4,8], [11,-10,7], [-7,8,-3], [-8,9,-3], [10,-9,7]],
+        "polygons": [{"loop": [0,1,2]}, {"loop": [3,4,5,6]}, {"loop": [7,8,9,10]},
+                     {"loop": [11,12,13,14]}],
+        "lights": [{"id": "sun", "type": "directional", "to_light": [-2,-2,3]}]})",
+                  "contradictions.json")
+          .value()
+          .scene);
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(check_methods(*scene), "");
+  for (const KernelInfo& kernel : kernel_list()) {
+    if (kernel.exact || !has_kernel(kernel.id)) continue;
+    for (const std::string method : {"two-pass", "two-pass:cells=off"}) {
+      EXPECT_LE(solved(*scene, method, kernel.id).work[Counter::kClips], (256 * 16 + (1 << 15)) / 2)
+          << kernel.name;
+    }
+  }
 }
 
 TEST(SystemCounts, OneTileTestsWhatBasicTests) {
