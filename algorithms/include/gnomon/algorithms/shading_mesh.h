@@ -154,8 +154,8 @@ struct ShadingMesh {
 /// `result` needs exact points: combined_exact_points of several lights (ShadowOptions::combined),
 /// exact_points of one. Runs on the threads of the caller's task arena (oneTBB). Errors: kUsage (a
 /// rounded kernel's result, no exact points, Cover::kOverlay), kLimit (max_faces, a step 2^40 times
-/// smaller than the scene), kInterrupted. Cost: O(n log n) exact operations for n corners, and as many calls of
-/// `shade` as the stats say.
+/// smaller than the scene), kInterrupted. Cost: O(n log n) exact operations for n corners, and as
+/// many calls of `shade` as the stats say.
 Expected<ShadingMesh> make_shading_mesh(const PreparedScene& scene, const ShadowResult& result,
                                         const ShadeFunction& shade, const ShadingOptions& options);
 
