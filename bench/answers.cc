@@ -36,14 +36,9 @@ ExactAnswers exact_answers(const ShadowResult& result) {
   ExactAnswers answers;
   answers.checksum = comparison::exact_checksum(result);
   for (const LightResult& light : result.lights) {
-    for (std::size_t i = 0; i < light.parts.size(); ++i) {
-      const PartResult& part = light.parts[i];
-      answers.lit.push_back(part.exact_lit.get_d());
-      mpq_class sum = part.exact_lit + part.exact_shadow;
-      if (!light.area_fractions.empty()) {
-        const AreaFractions& area = light.area_fractions[i];
-        sum += area.exact_penumbra + area.exact_umbra;
-      }
+    for (const ExactFractions& part : light.exact_fractions) {
+      answers.lit.push_back(part.lit.get_d());
+      const mpq_class sum = part.lit + part.shadow + part.penumbra + part.umbra;
       if (sum != 1) answers.sums_to_one = false;
     }
   }

@@ -12,15 +12,15 @@ namespace gnomon::comparison {
 
 namespace {
 
-/// `lit` and `penumbra` say the fraction of a part, and of its penumbra, as text.
+/// `lit` and `penumbra` say the fraction of one of a light's parts, and of its penumbra, as text.
 template <class Lit, class Penumbra>
 std::string checksum(const ShadowResult& result, const Lit& lit, const Penumbra& penumbra) {
   TextHash hash;
   for (const LightResult& light : result.lights) {
     for (std::size_t i = 0; i < light.parts.size(); ++i) {
       const PartResult& part = light.parts[i];
-      hash.add(fmt::format("{} {} {}\n", light.light, part.part, lit(part)));
-      if (!light.area_fractions.empty()) hash.add(penumbra(light.area_fractions[i]) + "\n");
+      hash.add(fmt::format("{} {} {}\n", light.light, part.part, lit(light, i)));
+      if (!light.area_fractions.empty()) hash.add(penumbra(light, i) + "\n");
     }
   }
   return fmt::format("{:016x}", hash.value());
@@ -30,14 +30,24 @@ std::string checksum(const ShadowResult& result, const Lit& lit, const Penumbra&
 
 std::string exact_checksum(const ShadowResult& result) {
   return checksum(
-      result, [](const PartResult& part) { return part.exact_lit.get_str(); },
-      [](const AreaFractions& area) { return area.exact_penumbra.get_str(); });
+      result,
+      [](const LightResult& light, std::size_t i) {
+        return light.exact_fractions[i].lit.get_str();
+      },
+      [](const LightResult& light, std::size_t i) {
+        return light.exact_fractions[i].penumbra.get_str();
+      });
 }
 
 std::string rounded_checksum(const ShadowResult& result) {
   return checksum(
-      result, [](const PartResult& part) { return report::shortest(part.lit.middle()); },
-      [](const AreaFractions& area) { return report::shortest(area.penumbra.middle()); });
+      result,
+      [](const LightResult& light, std::size_t i) {
+        return report::shortest(light.parts[i].lit.middle());
+      },
+      [](const LightResult& light, std::size_t i) {
+        return report::shortest(light.area_fractions[i].penumbra.middle());
+      });
 }
 
 }  // namespace gnomon::comparison

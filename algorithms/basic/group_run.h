@@ -273,7 +273,9 @@ Expected<ShadowResult> compute_by_groups(const RunTask& task, Arguments... argum
         });
     if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
     result.stages += lights[i].space.stage_counts();
-    result.lights.push_back(run.finish());
+    if (!put_light(options, run.finish(), result)) {
+      return stopped_by(RunOutcome::kInterrupted, options);
+    }
   }
   if (pipeline) pipeline->put_out(task, result);
   if (painted) painted->put_out(task, result);

@@ -62,7 +62,8 @@ class LightSink {
                      LightResult result);
   void put_out(PartResult& part, std::span<const ClassifiedLoop> fragments,
                const LoopStore<Vertex>& loops, LightResult& result);
-  void measure(PartResult& part, std::span<const ClassifiedLoop> fragments,
+  /// `exact`: null unless exact fractions are asked for.
+  void measure(PartResult& part, ExactFractions* exact, std::span<const ClassifiedLoop> fragments,
                const LoopStore<Vertex>& loops);
 
   LightScene<Space>& light_;
@@ -81,7 +82,9 @@ LightResult LightSink<Space>::finish(ClassifiedLoops<Vertex>& tiling,
   LoopsByPart shadows(painted != nullptr ? std::span<const ClassifiedLoop>(painted->fragments)
                                          : std::span<const ClassifiedLoop>(),
                       part_count);
+  const bool exactly = light_.options.output.exact_fractions;
   result.parts.reserve(part_count);
+  result.exact_fractions.resize(exactly ? part_count : 0);
   for (std::uint32_t index = 0; index < part_count; ++index) {
     PartResult part;
     part.part = index;
@@ -96,7 +99,7 @@ LightResult LightSink<Space>::finish(ClassifiedLoops<Vertex>& tiling,
       own[0].loop = light_.import_part(index, tiling.loops);
       own = own.first(1);
     }
-    measure(part, own, tiling.loops);
+    measure(part, exactly ? &result.exact_fractions[index] : nullptr, own, tiling.loops);
     if (painted != nullptr) {
       put_out(part, shadows.of(index), painted->loops, result);
     } else {
@@ -126,16 +129,17 @@ void LightSink<Space>::put_out(PartResult& part, std::span<const ClassifiedLoop>
 }
 
 template <LightSpaceModel Space>
-void LightSink<Space>::measure(PartResult& part, std::span<const ClassifiedLoop> fragments,
+void LightSink<Space>::measure(PartResult& part, ExactFractions* exact,
+                               std::span<const ClassifiedLoop> fragments,
                                const LoopStore<Vertex>& loops) {
   part.lit = {0, 0};
   part.shadow = {1, 1};
-  part.exact_shadow = 1;
+  if (exact != nullptr) exact->shadow = 1;
   if (part.reason != ShadowReason::kNone || fragments.empty()) return;
   if (fragments.size() == 1) {  // fragments tile the part
     if (fragments[0].state == LightState::kLit) {
       std::swap(part.lit, part.shadow);
-      std::swap(part.exact_lit, part.exact_shadow);
+      if (exact != nullptr) std::swap(exact->lit, exact->shadow);
     }
     return;
   }
@@ -143,8 +147,7 @@ void LightSink<Space>::measure(PartResult& part, std::span<const ClassifiedLoop>
   const Chart chart = chart_of(light_.scene.geometry, plane);
   whole_.clear();
   const LoopView<Vertex> whole = whole_.view(light_.import_part(part.part, whole_), plane);
-  const bool exactly = light_.options.output.exact_fractions;
-  PartMeasure<Space> measure_part(light_.space, chart, whole, exactly);
+  PartMeasure<Space> measure_part(light_.space, chart, whole, exact != nullptr);
   FractionSum lit, shadow;
   for (const ClassifiedLoop& f : fragments) {
     (f.state == LightState::kLit ? lit : shadow)
@@ -152,9 +155,9 @@ void LightSink<Space>::measure(PartResult& part, std::span<const ClassifiedLoop>
   }
   part.lit = lit.interval(Space::kExact);
   part.shadow = shadow.interval(Space::kExact);
-  if (exactly) {
-    part.exact_lit = lit.exact();
-    part.exact_shadow = shadow.exact();
+  if (exact != nullptr) {
+    exact->lit = lit.exact();
+    exact->shadow = shadow.exact();
   }
 }
 

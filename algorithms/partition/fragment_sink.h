@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -31,19 +32,24 @@ namespace gnomon {
 struct SideResult {
   PartResult part;
   AreaFractions area;
+  std::optional<ExactFractions> exact;  // if asked for
   std::vector<Fragment> fragments;
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<mpq_class, 3>> exact_points;
 };
 
 /// A side without fragments: all of it is in shadow for that reason.
-inline SideResult dark_side(std::uint32_t part, Side side, ShadowReason reason, bool area) {
+inline SideResult dark_side(std::uint32_t part, Side side, ShadowReason reason, bool area,
+                            bool exactly) {
   SideResult result;
   result.part.part = part;
   result.part.side = side;
   result.part.reason = reason;
   (area ? result.area.umbra : result.part.shadow) = {1, 1};
-  (area ? result.area.exact_umbra : result.part.exact_shadow) = 1;
+  if (exactly) {
+    result.exact.emplace();
+    (area ? result.exact->umbra : result.exact->shadow) = 1;
+  }
   return result;
 }
 
@@ -151,19 +157,22 @@ template <VolumeSpaceModel Space>
 void FragmentSink<Space>::measure(const Space& space, const Loop& whole, SideResult& result) const {
   Interval* const interval[] = {&result.part.lit, &result.part.shadow, &result.area.penumbra,
                                 &result.area.umbra};
-  mpq_class* const exact[] = {&result.part.exact_lit, &result.part.exact_shadow,
-                              &result.area.exact_penumbra, &result.area.exact_umbra};
+  const bool exactly = options_->output.exact_fractions;
+  std::array<mpq_class*, 4> exact{};
+  if (exactly) {
+    ExactFractions& fractions = result.exact.emplace();
+    exact = {&fractions.lit, &fractions.shadow, &fractions.penumbra, &fractions.umbra};
+  }
   std::array<std::size_t, 4> count{};
   for (const Piece& piece : pieces_) ++count[static_cast<std::size_t>(piece.state.state)];
   for (std::size_t state = 0; state < 4; ++state) {
     if (count[state] != pieces_.size() || pieces_.empty()) continue;
     *interval[state] = {1, 1};
-    *exact[state] = 1;
+    if (exactly) *exact[state] = 1;
     return;
   }
   const PlaneId plane = scene_->parts[part_].plane;
-  PartMeasure<Space> part(space, chart_of(space.geometry(), plane), whole,
-                          options_->output.exact_fractions);
+  PartMeasure<Space> part(space, chart_of(space.geometry(), plane), whole, exactly);
   // The class of most pieces is left out on exact kernels.
   std::size_t most = 0;
   for (std::size_t state = 1; state < 4; ++state) {
@@ -182,14 +191,14 @@ void FragmentSink<Space>::measure(const Space& space, const Loop& whole, SideRes
     if (count[state] == 0 || (Space::kExact && state == most)) continue;
     *interval[state] = sums[state].interval(Space::kExact);
     if (Space::kExact && k < 2) others[k++] = *interval[state];
-    if (options_->output.exact_fractions) {
+    if (exactly) {
       *exact[state] = sums[state].exact();
       rest -= *exact[state];
     }
   }
   if constexpr (Space::kExact) {
     *interval[most] = rest_of(others[0], others[1]);
-    if (options_->output.exact_fractions) *exact[most] = rest;
+    if (exactly) *exact[most] = rest;
   }
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "algorithms/partition/rules.h"
@@ -75,6 +76,15 @@ inline ShadowResult empty_result(const ShadowOptions& options) {
   result.identity = options.kernel.identity || kernel.exact;
   result.thickness = kernel.exact ? 0 : options.kernel.thickness;
   return result;
+}
+
+/// Hands a finished light to who waits for it, or keeps it in the result. False: the run is to stop
+/// (RunOutcome::kInterrupted). Every method passes its lights here, in their order.
+[[nodiscard]] inline bool put_light(const ShadowOptions& options, LightResult light,
+                                    ShadowResult& result) {
+  if (options.control.light_done) return options.control.light_done(std::move(light));
+  result.lights.push_back(std::move(light));
+  return true;
 }
 
 }  // namespace gnomon

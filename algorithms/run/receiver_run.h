@@ -86,12 +86,15 @@ class ReceiverRun {
     return pieces_.fetch_add(1, std::memory_order_relaxed) < options_.limits.fragments ||
            (stopped_.store(true, std::memory_order_relaxed), false);
   }
+  void put(LightResult light, ShadowResult& outcome) {
+    if (!put_light(options_, std::move(light), outcome)) stopped_ = true;
+  }
   LightResult run_light(std::uint32_t light, double from, double to);
   LightResult run_light(const LightInSpace<Space>& light, LightResult result, double from,
                         double to);
   /// The light cut by the planes of all polygons, a result for each piece. (1992 cuts by the planes
   /// of those polygons alone that have a part in front of the light's plane.)
-  void run_pieces(std::uint32_t light, double from, double to, std::vector<LightResult>& results);
+  void run_pieces(std::uint32_t light, double from, double to, ShadowResult& outcome);
   using Trees = PenumbraAndUmbra<Space>;
   bool has_trees(const LightInSpace<Space>& light) const {
     return light.has_area() && options_.method.area != MethodId::kReceiver;
@@ -217,7 +220,9 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
     if (stopped_) return sides;
     sides.push_back(sink.finish(workspace.space, whole));
   }
-  if (sides.empty()) sides.push_back(dark_side(index, Side::kFront, reason, light.has_area()));
+  if (sides.empty())
+    sides.push_back(
+        dark_side(index, Side::kFront, reason, light.has_area(), options_.output.exact_fractions));
   return sides;
 }
 
@@ -268,7 +273,7 @@ LightResult ReceiverRun<Space>::run_light(std::uint32_t index, double from, doub
 
 template <VolumeSpaceModel Space>
 void ReceiverRun<Space>::run_pieces(std::uint32_t index, double from, double to,
-                                    std::vector<LightResult>& results) {
+                                    ShadowResult& outcome) {
   pieces_ = 0;
   const LightFace& face = light_geometry_.faces[index];
   LoopStore<Vertex> whole;
@@ -304,7 +309,7 @@ void ReceiverRun<Space>::run_pieces(std::uint32_t index, double from, double to,
     result = run_light(light, std::move(result), from + (to - from) * (i / count),
                        from + (to - from) * ((i + 1) / count));
     if (i == 0) result.dropped_slivers += cut.vanished;
-    results.push_back(std::move(result));
+    if (!stopped_) put(std::move(result), outcome);
     space_.release_planes(mark);
   }
 }
@@ -359,8 +364,9 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
       result.points.insert(result.points.end(), side.points.begin(), side.points.end());
       std::move(side.exact_points.begin(), side.exact_points.end(),
                 std::back_inserter(result.exact_points));
-      result.parts.push_back(std::move(side.part));
-      if (light.has_area()) result.area_fractions.push_back(std::move(side.area));
+      result.parts.push_back(side.part);
+      if (light.has_area()) result.area_fractions.push_back(side.area);
+      if (side.exact) result.exact_fractions.push_back(*std::move(side.exact));
     }
     sides = {};
   }
@@ -484,9 +490,10 @@ Expected<ShadowResult> ReceiverRun<Space>::run(const LightList& lights, const Li
   double step = 0;
   for (const std::uint32_t light : lights) {
     if (options_.method.area == MethodId::kPieces && scene_.lights[light].has_area()) {
-      run_pieces(light, step / steps, (step + 1) / steps, outcome.lights);
+      run_pieces(light, step / steps, (step + 1) / steps, outcome);
     } else {
-      outcome.lights.push_back(run_light(light, step / steps, (step + 1) / steps));
+      LightResult result = run_light(light, step / steps, (step + 1) / steps);
+      if (!stopped_) put(std::move(result), outcome);
     }
     if (stopped_) return stopped_by(stop_reason(), options_);
     ++step;

@@ -2,8 +2,11 @@
 #include "gnomon/algorithms/shadows.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "algorithms/partition/import_export.h"
 #include "algorithms/run/compute.h"
@@ -20,9 +23,10 @@ MethodId method_of(LightType light, const ShadowOptions& options, bool together)
 
 namespace {
 
-/// Lights that one run classifies; each way to shadows has a run of its own.
-struct Ways {
-  LightList light_space, by_receiver;
+/// Lights that one call of a method classifies.
+struct MethodRun {
+  bool by_receiver = false;
+  LightList lights;
 };
 
 /// A method that takes area lights works receiver by receiver in three dimensions, and so do its
@@ -31,47 +35,166 @@ bool is_by_receiver(LightType light, const ShadowOptions& options) {
   return method_info(method_of(light, options, false)).lights.area;
 }
 
-Ways split_by_way(const PreparedScene& scene, const ShadowOptions& options,
-                  const LightList& lights) {
-  Ways result;
+/// One run for each way to shadows, light space first. Who takes lights one by one takes them in
+/// order: then a run ends where the way changes.
+std::vector<MethodRun> runs_of(const PreparedScene& scene, const ShadowOptions& options,
+                               const LightList& lights) {
+  std::vector<MethodRun> runs;
   for (const std::uint32_t light : lights) {
     const bool by_receiver = is_by_receiver(scene.lights[light].type, options);
-    (by_receiver ? result.by_receiver : result.light_space).push_back(light);
+    auto own = options.control.light_done && !runs.empty() ? runs.end() - 1 : runs.begin();
+    own = std::ranges::find(own, runs.end(), by_receiver, &MethodRun::by_receiver);
+    if (own == runs.end()) own = runs.insert(runs.end(), {by_receiver, {}});
+    own->lights.push_back(light);
   }
-  return result;
+  if (runs.empty()) runs.emplace_back();
+  if (!options.control.light_done) std::ranges::sort(runs, {}, &MethodRun::by_receiver);
+  return runs;
 }
 
-/// Names a method in the result, after those that are named there.
-void add_name(ShadowResult& result, MethodId method, const MethodOptionValues& values) {
-  const std::string own = method_text(method, values);
-  if (result.algorithm == own) return;
-  result.algorithm += (result.algorithm.empty() ? "" : "+") + own;
-}
-
-/// Adds what was found receiver by receiver to the result of the other lights, in order.
-void join(ShadowResult& result, ShadowResult by_receiver, const LightList& lights) {
-  for (LightResult& light : by_receiver.lights) result.lights.push_back(std::move(light));
-  const auto place = [&](const LightResult& light) {
-    return std::find(lights.begin(), lights.end(), light.light) - lights.begin();
-  };
-  std::stable_sort(result.lights.begin(), result.lights.end(),
-                   [&](const LightResult& a, const LightResult& b) { return place(a) < place(b); });
-  if (!by_receiver.combined.empty()) {
-    result.combined = std::move(by_receiver.combined);
-    result.combined_points = std::move(by_receiver.combined_points);
-    result.combined_exact_points = std::move(by_receiver.combined_exact_points);
+/// Adds what another run found.
+void join(ShadowResult& result, ShadowResult run) {
+  std::ranges::move(run.lights, std::back_inserter(result.lights));
+  if (!run.combined.empty()) {
+    result.combined = std::move(run.combined);
+    result.combined_points = std::move(run.combined_points);
+    result.combined_exact_points = std::move(run.combined_exact_points);
   }
-  result.stages += by_receiver.stages;
+  if (!run.overlay.empty()) {
+    result.overlay = std::move(run.overlay);
+    result.overlay_points = std::move(run.overlay_points);
+    result.overlay_exact_points = std::move(run.overlay_exact_points);
+  }
+  result.scene_bsp_seconds += run.scene_bsp_seconds;
+  result.shadow_seconds += run.shadow_seconds;
+  result.stages += run.stages;
+  result.bsp_nodes += run.bsp_nodes;
+  result.bsp_fragments += run.bsp_fragments;
+  result.bsp_depth = std::max(result.bsp_depth, run.bsp_depth);
 }
 
-/// A method's result bears the name that its row has.
-Expected<ShadowResult> run_method(MethodId method, MethodLookup lookup, const RunTask& task) {
-  Expected<ShadowResult> result = lookup(method, task.options.kernel.id)(task);
-  if (!result) return result;
-  result->algorithm = method_text(method, task.options.method.options);
-  for (LightResult& light : result->lights) light.method = method;
-  return result;
+/// What a lamp or a panel cannot do together with others.
+Expected<void> check_together(const ShadowOptions& options, const LightList& lights) {
+  if (options.method.area == MethodId::kPieces) {
+    return fail(ErrorCode::kUsage, "pieces of lights have no classes together", "whole lights");
+  }
+  if (options.method.options.cover == Cover::kOverlay) {
+    return fail(ErrorCode::kUsage, "shadows of area lights cannot be painted on shadows",
+                "point and directional lights alone, or cover=partition");
+  }
+  if (lights.size() > 64) {
+    return fail(ErrorCode::kLimit, std::to_string(lights.size()) + " lights together",
+                "at most 64");
+  }
+  return {};
 }
+
+/// All lights, by as many runs as it takes; what it says of them is in the order of lights.
+class Computation {
+ public:
+  Computation(const PreparedScene& scene, const ShadowOptions& options, const Rules& rules,
+              const LightList& lights, MethodLookup lookup)
+      : scene_(scene),
+        options_(options),
+        own_(options),
+        rules_(rules),
+        lights_(lights),
+        lookup_(lookup),
+        runs_(runs_of(scene, options, lights)) {
+    by_receiver_ = std::ranges::any_of(runs_, &MethodRun::by_receiver);
+    if (options.control.light_done) {
+      own_.control.light_done = [this](LightResult&& light) {
+        light.method = method(light.light);
+        return options_.control.light_done(std::move(light));
+      };
+    }
+  }
+
+  Expected<ShadowResult> run() {
+    if (by_receiver_ && options_.output.combined) {
+      if (const auto checked = check_together(options_, lights_); !checked) {
+        return tl::unexpected<Error>(checked.error());
+      }
+    }
+    ShadowResult result = empty_result(options_);
+    bool combined = options_.output.combined;
+    std::size_t done = 0;
+    for (const MethodRun& run : runs_) {
+      const bool has_combined = combined && run.by_receiver == by_receiver_;
+      auto found = run_method(run, done, has_combined ? lights_ : LightList{});
+      if (!found) return found;
+      if (has_combined) combined = false;
+      done += run.lights.size();
+      join(result, std::move(*found));
+    }
+    for (LightResult& light : result.lights) light.method = method(light.light);
+    if (runs_.size() > 1) sort_by_place(result.lights);
+    add_names(result);
+    return result;
+  }
+
+ private:
+  MethodId method_of_type(LightType type) const {
+    return method_of(type, options_, options_.output.combined && !by_receiver_);
+  }
+  MethodId method(std::uint32_t light) const { return method_of_type(scene_.lights[light].type); }
+
+  /// Each run tells of its share of the work; the lights count alike.
+  Expected<ShadowResult> run_method(const MethodRun& run, std::size_t done,
+                                    const LightList& combined) {
+    if (options_.control.progress && runs_.size() > 1) {
+      const double all = static_cast<double>(lights_.size());
+      const double from = static_cast<double>(done) / all;
+      const double share = static_cast<double>(run.lights.size()) / all;
+      own_.control.progress = [=, this](double own) {
+        options_.control.progress(from + share * own);
+      };
+    }
+    const double start = cpu_seconds();
+    const MethodId method =
+        run.by_receiver ? options_.method.area : method_of_type(LightType::kPoint);
+    Expected<ShadowResult> result =
+        lookup_(method, options_.kernel.id)({scene_, own_, rules_, run.lights, combined});
+    if (result && run.by_receiver) result->shadow_seconds = cpu_seconds() - start;
+    return result;
+  }
+
+  void sort_by_place(std::vector<LightResult>& results) const {
+    std::vector<std::size_t> place(scene_.lights.size());
+    for (std::size_t i = lights_.size(); i-- > 0;) place[lights_[i]] = i;
+    std::ranges::stable_sort(results, {},
+                             [&](const LightResult& light) { return place[light.light]; });
+  }
+
+  /// Names the methods: of light space first, then of point and of area lights.
+  void add_names(ShadowResult& result) const {
+    const auto add = [&](MethodId method) {
+      const std::string own = method_text(method, options_.method.options);
+      if (result.algorithm == own) return;
+      result.algorithm += (result.algorithm.empty() ? "" : "+") + own;
+    };
+    if (!std::ranges::all_of(runs_, &MethodRun::by_receiver)) {
+      add(method_of_type(LightType::kPoint));
+    }
+    for (const bool area : {false, true}) {
+      const bool is_there = std::ranges::any_of(runs_, [&](const MethodRun& run) {
+        return run.by_receiver && std::ranges::any_of(run.lights, [&](std::uint32_t light) {
+                 return scene_.lights[light].has_area() == area;
+               });
+      });
+      if (is_there) add(area ? options_.method.area : options_.method.point);
+    }
+  }
+
+  const PreparedScene& scene_;
+  const ShadowOptions& options_;
+  ShadowOptions own_;  // with the shares of progress, and the names of methods
+  const Rules& rules_;
+  const LightList& lights_;
+  MethodLookup lookup_;
+  std::vector<MethodRun> runs_;
+  bool by_receiver_ = false;  // some of the runs are
+};
 
 }  // namespace
 
@@ -108,61 +231,7 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
                 "kernel " + std::string(kernel_info(options.kernel.id).name) + " was not built",
                 "another kernel, or a build with GNOMON_CGAL_KERNELS");
   }
-  const LightList together = options.output.combined ? lights : LightList{};
-  const Ways ways = split_by_way(scene, options, lights);
-  if (ways.by_receiver.empty()) {
-    const MethodId method = method_of(LightType::kPoint, options, options.output.combined);
-    return run_method(method, lookup, {scene, options, rules, lights, together});
-  }
-  if (options.output.combined && options.method.area == MethodId::kPieces) {
-    return fail(ErrorCode::kUsage, "pieces of lights have no classes together", "whole lights");
-  }
-  if (options.output.combined && options.method.options.cover == Cover::kOverlay) {
-    return fail(ErrorCode::kUsage, "shadows of area lights cannot be painted on shadows",
-                "point and directional lights alone, or cover=partition");
-  }
-  if (options.output.combined && lights.size() > 64) {
-    return fail(ErrorCode::kLimit, std::to_string(lights.size()) + " lights together",
-                "at most 64");
-  }
-  // Each way tells of its share of the work; the lights count alike.
-  const double share =
-      static_cast<double>(ways.light_space.size()) / static_cast<double>(lights.size());
-  ShadowOptions own = options;
-  if (options.control.progress) {
-    own.control.progress = [&](double done) { options.control.progress(share * done); };
-  }
-  ShadowResult result = empty_result(options);
-  const LightList none;
-  if (!ways.light_space.empty()) {
-    const MethodId method = method_of(LightType::kPoint, options, false);
-    auto light_space = run_method(method, lookup, {scene, own, rules, ways.light_space, none});
-    if (!light_space) return light_space;
-    result = std::move(*light_space);
-  }
-  if (options.control.progress) {
-    own.control.progress = [&](double done) {
-      options.control.progress(share + (1 - share) * done);
-    };
-  }
-  const double start = cpu_seconds();
-  auto by_receiver = lookup(options.method.area,
-                            options.kernel.id)({scene, own, rules, ways.by_receiver, together});
-  if (!by_receiver) return by_receiver;
-  for (LightResult& light : by_receiver->lights) {
-    const bool area = scene.lights[light.light].has_area();
-    light.method = area ? options.method.area : options.method.point;
-  }
-  for (const bool area : {false, true}) {
-    const bool is_there = std::ranges::any_of(ways.by_receiver, [&](std::uint32_t light) {
-      return scene.lights[light].has_area() == area;
-    });
-    if (!is_there) continue;
-    add_name(result, area ? options.method.area : options.method.point, options.method.options);
-  }
-  join(result, std::move(*by_receiver), lights);
-  result.shadow_seconds += cpu_seconds() - start;
-  return result;
+  return Computation(scene, options, rules, lights, lookup).run();
 }
 
 }  // namespace

@@ -317,6 +317,7 @@ LightResult SectorRun<Space>::finish() {
   }
 
   result_.parts.resize(scene_.parts.size());
+  if (options_.output.exact_fractions) result_.exact_fractions.resize(scene_.parts.size());
   for (std::uint32_t index = 0; index < scene_.parts.size(); ++index) {
     PartResult& part = result_.parts[index];
     part.part = index;
@@ -336,16 +337,14 @@ LightResult SectorRun<Space>::finish() {
         part.lit = {lit, lit};
         part.shadow = {shadow, shadow};
       }
-      if (options_.output.exact_fractions) {
-        part.exact_lit = exact[index].exact();
-        part.exact_shadow = 1 - part.exact_lit;
-      }
     } else {
       part.lit = state == kAllLit ? Interval{1, 1} : Interval{0, 0};
       part.shadow = state == kAllLit ? Interval{0, 0} : Interval{1, 1};
-      part.exact_lit = state == kAllLit ? 1 : 0;
-      part.exact_shadow = 1 - part.exact_lit;
     }
+    if (!options_.output.exact_fractions) continue;
+    ExactFractions& fractions = result_.exact_fractions[index];
+    fractions.lit = state == kMixed ? exact[index].exact() : mpq_class(state == kAllLit ? 1 : 0);
+    fractions.shadow = 1 - fractions.lit;
   }
   return std::move(result_);
 }
@@ -383,7 +382,9 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
     const RunOutcome outcome = run.run(progress);
     if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
     result.stages += run.stage_counts();
-    result.lights.push_back(run.finish());
+    if (!put_light(options, run.finish(), result)) {
+      return stopped_by(RunOutcome::kInterrupted, options);
+    }
   }
   result.stages += scene_space.stage_counts();
   result.shadow_seconds = cpu_seconds() - start;

@@ -159,7 +159,9 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
         });
     if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
     result.stages += lights[i].space.stage_counts();
-    result.lights.push_back(run.finish());
+    if (!put_light(options, run.finish(), result)) {
+      return stopped_by(RunOutcome::kInterrupted, options);
+    }
   }
   if (pipeline) pipeline->put_out(task, result);
   result.stages += scene_space.stage_counts();

@@ -111,7 +111,9 @@ Expected<ShadowResult> compute_by_svbsp_full(const RunTask& task) {
                                  task.lights.size());
     const RunOutcome outcome = run.run([&](std::size_t done) { progress(i, done); });
     if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
-    result.lights.push_back(run.finish());
+    if (!put_light(options, run.finish(), result)) {
+      return stopped_by(RunOutcome::kInterrupted, options);
+    }
     result.stages += light.space.stage_counts();
   }
   result.stages += scene_space.stage_counts();

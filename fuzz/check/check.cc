@@ -320,13 +320,12 @@ class SceneCheck {
       sum.add(kEnd);
     };
     for (const LightResult& light : result.lights) {
-      for (std::size_t i = 0; i < light.parts.size(); ++i) {
-        const PartResult& part = light.parts[i];
-        add(part.exact_lit);
-        add(part.exact_shadow);
+      for (const ExactFractions& part : light.exact_fractions) {
+        add(part.lit);
+        add(part.shadow);
         if (light.area_fractions.empty()) continue;
-        add(light.area_fractions[i].exact_penumbra);
-        add(light.area_fractions[i].exact_umbra);
+        add(part.penumbra);
+        add(part.umbra);
       }
     }
     report_.digest = fmt::format("{:016x}", sum.value());
@@ -352,16 +351,14 @@ class SceneCheck {
         if (p.part != q.part || p.side != q.side || p.reason != q.reason) {
           return disagree("other sides, or for another reason", &one, &p);
         }
-        if (p.exact_lit != q.exact_lit || p.exact_shadow != q.exact_shadow) {
-          return disagree(
-              fmt::format("lit {} and {}", q.exact_lit.get_str(), p.exact_lit.get_str()), &one, &p);
+        const ExactFractions &a = one.exact_fractions[i], &b = two.exact_fractions[i];
+        if (a.lit != b.lit || a.shadow != b.shadow) {
+          return disagree(fmt::format("lit {} and {}", b.lit.get_str(), a.lit.get_str()), &one, &p);
         }
-        if (one.area_fractions.empty()) continue;
-        const AreaFractions &a = one.area_fractions[i], &b = two.area_fractions[i];
-        if (a.exact_penumbra != b.exact_penumbra || a.exact_umbra != b.exact_umbra) {
-          return disagree(fmt::format("penumbra {} and {}", b.exact_penumbra.get_str(),
-                                      a.exact_penumbra.get_str()),
-                          &one, &p);
+        if (a.penumbra != b.penumbra || a.umbra != b.umbra) {
+          return disagree(
+              fmt::format("penumbra {} and {}", b.penumbra.get_str(), a.penumbra.get_str()), &one,
+              &p);
         }
       }
     }

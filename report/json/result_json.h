@@ -23,7 +23,7 @@ namespace gnomon::report {
 struct ResultJsonOptions {
   std::string geometry_digest;   // "sha256:..."
   bool fragments = false;        // loops of nearest doubles; needs LightResult::points
-  bool exact_fractions = false;  // "p/q" instead of numbers; needs PartResult::exact_lit
+  bool exact_fractions = false;  // "p/q" instead of numbers; needs LightResult::exact_fractions
   bool exact_loops = false;      // needs LightResult::exact_points
   bool combined = false;         // all lights together; needs ShadowResult::combined
   bool overlay = false;          // shadows painted on shadows; needs ShadowResult::overlay

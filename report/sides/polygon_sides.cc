@@ -47,15 +47,15 @@ PartSide part_side(const LightResult& light, bool area_light, std::uint32_t part
     (area_light ? one.umbra : one.shadow) = {1, 1};
     return one;
   }
+  const auto index = static_cast<std::size_t>(one.result - light.parts.data());
+  if (!light.exact_fractions.empty()) one.exact = &light.exact_fractions[index];
   one.lit = one.result->lit;
   if (!area_light) {
     one.shadow = one.result->shadow;
     return one;
   }
-  one.area_fractions =
-      &light.area_fractions[static_cast<std::size_t>(one.result - light.parts.data())];
-  one.penumbra = one.area_fractions->penumbra;
-  one.umbra = one.area_fractions->umbra;
+  one.penumbra = light.area_fractions[index].penumbra;
+  one.umbra = light.area_fractions[index].umbra;
   return one;
 }
 
@@ -156,13 +156,13 @@ mpq_class exact_share(const PartSide& part, LightState state) {
   if (part.reason != ShadowReason::kNone) return share_of(part, state).lower == 1 ? 1 : 0;
   switch (state) {
     case LightState::kLit:
-      return part.result->exact_lit;
+      return part.exact->lit;
     case LightState::kShadow:
-      return part.result->exact_shadow;
+      return part.exact->shadow;
     case LightState::kPenumbra:
-      return part.area_light ? part.area_fractions->exact_penumbra : mpq_class(0);
+      return part.exact->penumbra;
     case LightState::kUmbra:
-      return part.area_light ? part.area_fractions->exact_umbra : mpq_class(0);
+      return part.exact->umbra;
   }
   return 0;
 }

@@ -36,7 +36,7 @@ struct Shares {
 /// (umbra) there; else `result` holds its fragments.
 struct PartSide : Shares {  // of the part
   const PartResult* result = nullptr;
-  const AreaFractions* area_fractions = nullptr;  // area lights, where `reason` is not set
+  const ExactFractions* exact = nullptr;  // where computed and `reason` is not set
   bool area_light = false;
   ShadowReason reason = ShadowReason::kNone;
 };
@@ -72,7 +72,7 @@ std::vector<ClassifiedSide> classified_sides(const PreparedScene& scene, const L
 using SidesByLight = std::vector<std::vector<ClassifiedSide>>;
 SidesByLight classified_sides(const PreparedScene& scene, const ShadowResult& result, bool exact);
 
-/// The exact share of one part, as far as `exact_fractions` were asked for.
+/// The exact share of one part. Requires: `exact_fractions` were asked for.
 mpq_class exact_share(const PartSide& part, LightState state);
 
 /// Bounds of the share of a side that is in the deep umbra of its area light. `bounds`: of the

@@ -39,8 +39,8 @@ TEST(DeepUmbra, OfTwoCastersTogetherAsInFigure4f) {
   const auto shadows = compute_shadows(scene, options);
   ASSERT_TRUE(shadows);
   // By class the strip is penumbra.
-  EXPECT_EQ(shadows->lights[0].area_fractions[0].exact_umbra, mpq_class(5.5 / 8));
-  EXPECT_EQ(shadows->lights[0].area_fractions[0].exact_penumbra, mpq_class(2.5 / 8));
+  EXPECT_EQ(shadows->lights[0].exact_fractions[0].umbra, mpq_class(5.5 / 8));
+  EXPECT_EQ(shadows->lights[0].exact_fractions[0].penumbra, mpq_class(2.5 / 8));
 
   const LightVisibility visibility(scene, 0);
   for (const double x : {-4.0, -1.0, -0.5, -0x1p-60, 0.0, 1.5, 2.0}) {

@@ -120,10 +120,10 @@ std::string text_of(const LightResult& light) {
   std::string text;
   for (std::size_t i = 0; i < light.parts.size(); ++i) {
     const PartResult& part = light.parts[i];
+    const ExactFractions& exact = light.exact_fractions[i];
     text += std::to_string(part.part) + (part.side == Side::kFront ? " front " : " back ") +
-            std::to_string(static_cast<int>(part.reason)) + " " + part.exact_lit.get_str() + " " +
-            light.area_fractions[i].exact_penumbra.get_str() + " " +
-            light.area_fractions[i].exact_umbra.get_str() + "\n";
+            std::to_string(static_cast<int>(part.reason)) + " " + exact.lit.get_str() + " " +
+            exact.penumbra.get_str() + " " + exact.umbra.get_str() + "\n";
   }
   return text;
 }
@@ -135,10 +135,8 @@ std::string text_of(const PreparedScene& scene, const ShadowOptions& options,
   EXPECT_EQ(result->lights.size(), 1u);
   EXPECT_EQ(result->lights[0].dropped_slivers, 0u);
   const LightResult& light = result->lights[0];
-  for (std::size_t i = 0; i < light.parts.size(); ++i) {
-    const mpq_class sum = light.parts[i].exact_lit + light.area_fractions[i].exact_penumbra +
-                          light.area_fractions[i].exact_umbra;
-    EXPECT_EQ(sum, 1);
+  for (const ExactFractions& part : light.exact_fractions) {
+    EXPECT_EQ(mpq_class(part.lit + part.penumbra + part.umbra), 1);
   }
   return text_of(light);
 }

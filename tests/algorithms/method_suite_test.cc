@@ -136,7 +136,8 @@ TEST(MethodThreads, ResultsAndCountersDoNotDependOnThem) {
                 << jobs << " fragment " << i;
           }
           for (std::size_t i = 0; i < one.parts.size(); ++i) {
-            EXPECT_EQ(one.parts[i].exact_lit, two.parts[i].exact_lit) << jobs << " part " << i;
+            EXPECT_EQ(one.exact_fractions[i].lit, two.exact_fractions[i].lit)
+                << jobs << " part " << i;
           }
         }
       }

@@ -128,7 +128,7 @@ TEST(Occlusion, ClosedRoomHidesAllThatIsOutside) {
     const LightResult& light = result->lights[0];
     std::size_t facing = 0;
     for (std::uint32_t i = 7; i < light.parts.size(); ++i) {
-      ASSERT_EQ(light.parts[i].exact_lit, 0) << i;
+      ASSERT_EQ(light.exact_fractions[i].lit, 0) << i;
       ASSERT_EQ(light.parts[i].lit.upper, 0) << i;
       facing += light.parts[i].reason == ShadowReason::kNone ? 1 : 0;
     }
@@ -155,7 +155,7 @@ TEST(Occlusion, LampInTheInnermostOfNestedBoxes) {
     ASSERT_TRUE(result);
     const std::size_t n = result->lights[0].parts.size();
     for (std::size_t i = 0; i < n; ++i) {
-      EXPECT_EQ(result->lights[0].parts[i].exact_lit, i + 6 >= n ? 1 : 0) << i;
+      EXPECT_EQ(result->lights[0].exact_fractions[i].lit, i + 6 >= n ? 1 : 0) << i;
     }
     EXPECT_EQ(find_false_witness(*scene, *result), "");
   }

@@ -68,9 +68,13 @@ void expect_identical(const LightResult& a, const LightResult& b) {
     ASSERT_TRUE(one.part == two.part && one.side == two.side && one.reason == two.reason &&
                 one.first_fragment == two.first_fragment &&
                 one.fragment_count == two.fragment_count && same_bits(one.lit, two.lit) &&
-                same_bits(one.shadow, two.shadow) && one.exact_lit == two.exact_lit &&
-                one.exact_shadow == two.exact_shadow)
+                same_bits(one.shadow, two.shadow))
         << "part " << i;
+  }
+  ASSERT_EQ(a.exact_fractions.size(), b.exact_fractions.size());
+  for (std::size_t i = 0; i < a.exact_fractions.size(); ++i) {
+    ASSERT_EQ(a.exact_fractions[i].lit, b.exact_fractions[i].lit) << "part " << i;
+    ASSERT_EQ(a.exact_fractions[i].shadow, b.exact_fractions[i].shadow) << "part " << i;
   }
   ASSERT_EQ(a.fragments.size(), b.fragments.size());
   for (std::size_t i = 0; i < a.fragments.size(); ++i) {
@@ -172,9 +176,10 @@ class SectorsAndSvbsp : public testing::TestWithParam<Generated> {
           ASSERT_LE(b.lit.lower, a.lit.upper) << i;
           ASSERT_LT(a.lit.upper - a.lit.lower, 1e-7) << i;
           if (exact) {
-            ASSERT_EQ(a.exact_lit, b.exact_lit) << i;
-            ASSERT_LE(mpq_class(a.lit.lower), a.exact_lit) << i;
-            ASSERT_GE(mpq_class(a.lit.upper), a.exact_lit) << i;
+            const mpq_class& lit = result.lights[l].exact_fractions[i].lit;
+            ASSERT_EQ(lit, svbsp.lights[l].exact_fractions[i].lit) << i;
+            ASSERT_LE(mpq_class(a.lit.lower), lit) << i;
+            ASSERT_GE(mpq_class(a.lit.upper), lit) << i;
           }
           mixed += a.lit.lower > 0 && a.lit.upper < 1 ? 1 : 0;
         }
@@ -233,11 +238,12 @@ void expect_bounds(const PreparedScene& scene, ShadowOptions options) {
   const ShadowResult exact = solved(scene, options);
   for (std::size_t l = 0; l < exact.lights.size(); ++l) {
     for (std::size_t i = 0; i < exact.lights[l].parts.size(); ++i) {
-      const PartResult &truth = exact.lights[l].parts[i], &own = bounds.lights[l].parts[i];
-      ASSERT_LE(mpq_class(own.lit.lower), truth.exact_lit);
-      ASSERT_GE(mpq_class(own.lit.upper), truth.exact_lit);
-      ASSERT_LE(mpq_class(own.shadow.lower), truth.exact_shadow);
-      ASSERT_GE(mpq_class(own.shadow.upper), truth.exact_shadow);
+      const ExactFractions& truth = exact.lights[l].exact_fractions[i];
+      const PartResult& own = bounds.lights[l].parts[i];
+      ASSERT_LE(mpq_class(own.lit.lower), truth.lit);
+      ASSERT_GE(mpq_class(own.lit.upper), truth.lit);
+      ASSERT_LE(mpq_class(own.shadow.lower), truth.shadow);
+      ASSERT_GE(mpq_class(own.shadow.upper), truth.shadow);
       ASSERT_LT(own.lit.upper - own.lit.lower, 1e-6);
     }
   }

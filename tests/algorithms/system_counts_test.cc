@@ -382,7 +382,9 @@ std::vector<mpq_class> lit(const Case& scene, const std::string& method, KernelI
       compute_with(scene.prepared(), options_by(method, kernel), rules);
   if (!result) throw std::runtime_error(to_string(result.error()));
   std::vector<mpq_class> fractions;
-  for (const PartResult& part : result->lights.at(0).parts) fractions.push_back(part.exact_lit);
+  for (const ExactFractions& part : result->lights.at(0).exact_fractions) {
+    fractions.push_back(part.lit);
+  }
   return fractions;
 }
 

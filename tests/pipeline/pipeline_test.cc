@@ -90,9 +90,12 @@ TEST_P(Pipeline, SetsOfLightsAgreeWithEachLightAlone) {
     }
     for (const auto& [side, fraction] : whole) EXPECT_EQ(fraction, 1) << "part " << side.first;
     for (std::size_t light = 0; light < result->lights.size(); ++light) {
-      for (const PartResult& part : result->lights[light].parts) {
+      const LightResult& own = result->lights[light];
+      for (std::size_t i = 0; i < own.parts.size(); ++i) {
+        const PartResult& part = own.parts[i];
         const mpq_class combined = lit[{part.part, part.side, light}];
-        EXPECT_EQ(combined, part.exact_lit) << "part " << part.part << " light " << light;
+        EXPECT_EQ(combined, own.exact_fractions[i].lit)
+            << "part " << part.part << " light " << light;
       }
     }
   }

@@ -35,17 +35,15 @@ std::string check_sums(const Case& scene, const ShadowResult& result) {
       const PartResult& part = light.parts[i];
       static const AreaFractions kNone;
       const AreaFractions& fractions = area ? light.area_fractions[i] : kNone;
-      const mpq_class sum =
-          part.exact_lit + part.exact_shadow + fractions.exact_penumbra + fractions.exact_umbra;
-      if (sum != 1 || part.exact_lit < 0 || part.exact_shadow < 0 || fractions.exact_penumbra < 0 ||
-          fractions.exact_umbra < 0 || (area && part.exact_shadow != 0) ||
-          !holds(part.lit, part.exact_lit) || !holds(part.shadow, part.exact_shadow) ||
-          !holds(fractions.penumbra, fractions.exact_penumbra) ||
-          !holds(fractions.umbra, fractions.exact_umbra)) {
+      const ExactFractions& exact = light.exact_fractions[i];
+      const mpq_class sum = exact.lit + exact.shadow + exact.penumbra + exact.umbra;
+      if (sum != 1 || exact.lit < 0 || exact.shadow < 0 || exact.penumbra < 0 || exact.umbra < 0 ||
+          (area && exact.shadow != 0) || !holds(part.lit, exact.lit) ||
+          !holds(part.shadow, exact.shadow) || !holds(fractions.penumbra, exact.penumbra) ||
+          !holds(fractions.umbra, exact.umbra)) {
         return fmt::format("{}: lit {}, shadow {}, penumbra {}, umbra {}",
-                           place_of(scene, result, light.light, part), part.exact_lit.get_str(),
-                           part.exact_shadow.get_str(), fractions.exact_penumbra.get_str(),
-                           fractions.exact_umbra.get_str());
+                           place_of(scene, result, light.light, part), exact.lit.get_str(),
+                           exact.shadow.get_str(), exact.penumbra.get_str(), exact.umbra.get_str());
       }
     }
   }
@@ -60,15 +58,15 @@ std::string check_bounds(const Case& scene, const ShadowResult& exact, ShadowOpt
   for (std::size_t l = 0; l < exact.lights.size(); ++l) {
     const LightResult &truth = exact.lights[l], &bounds = result->lights[l];
     for (std::size_t i = 0; i < truth.area_fractions.size(); ++i) {
-      const AreaFractions &own = truth.area_fractions[i], &bound = bounds.area_fractions[i];
-      if (!holds(bounds.parts[i].lit, truth.parts[i].exact_lit) ||
-          !holds(bound.penumbra, own.exact_penumbra) || !holds(bound.umbra, own.exact_umbra) ||
-          bound.penumbra.upper - bound.penumbra.lower > 1e-6 ||
+      const ExactFractions& own = truth.exact_fractions[i];
+      const AreaFractions& bound = bounds.area_fractions[i];
+      if (!holds(bounds.parts[i].lit, own.lit) || !holds(bound.penumbra, own.penumbra) ||
+          !holds(bound.umbra, own.umbra) || bound.penumbra.upper - bound.penumbra.lower > 1e-6 ||
           bound.umbra.upper - bound.umbra.lower > 1e-6) {
         return fmt::format("{}: penumbra {} is not in [{}, {}], or umbra {} not in [{}, {}]",
                            place_of(scene, exact, truth.light, truth.parts[i]),
-                           own.exact_penumbra.get_str(), bound.penumbra.lower, bound.penumbra.upper,
-                           own.exact_umbra.get_str(), bound.umbra.lower, bound.umbra.upper);
+                           own.penumbra.get_str(), bound.penumbra.lower, bound.penumbra.upper,
+                           own.umbra.get_str(), bound.umbra.lower, bound.umbra.upper);
       }
     }
   }
@@ -85,16 +83,14 @@ std::string compare_results(const Case& scene, const ShadowResult& a, const Shad
     }
     for (std::size_t i = 0; i < one.parts.size(); ++i) {
       const PartResult &p = one.parts[i], &q = two.parts[i];
-      bool same = p.part == q.part && p.side == q.side && p.reason == q.reason &&
-                  p.exact_lit == q.exact_lit && p.exact_shadow == q.exact_shadow;
-      if (same && !one.area_fractions.empty()) {
-        same = one.area_fractions[i].exact_penumbra == two.area_fractions[i].exact_penumbra &&
-               one.area_fractions[i].exact_umbra == two.area_fractions[i].exact_umbra;
-      }
+      const ExactFractions &first = one.exact_fractions[i], &second = two.exact_fractions[i];
+      const bool same = p.part == q.part && p.side == q.side && p.reason == q.reason &&
+                        first.lit == second.lit && first.shadow == second.shadow &&
+                        first.penumbra == second.penumbra && first.umbra == second.umbra;
       if (!same) {
         return fmt::format("{}: lit {}; {}: lit {}", place_of(scene, a, one.light, p),
-                           p.exact_lit.get_str(), place_of(scene, b, two.light, q),
-                           q.exact_lit.get_str());
+                           first.lit.get_str(), place_of(scene, b, two.light, q),
+                           second.lit.get_str());
       }
     }
   }
@@ -172,11 +168,10 @@ std::string check_combined(const Case& scene, ShadowOptions options) {
         if (signed_area(loop.data(), loop.size()) == 0) continue;
         return place_of(scene, *result, light.light, part) + ": no combined fragments";
       }
-      const mpq_class half =
-          light.area_fractions.empty() ? mpq_class(0) : light.area_fractions[i].exact_penumbra;
-      if (lit / all != part.exact_lit || penumbra / all != half) {
+      const ExactFractions& alone = light.exact_fractions[i];
+      if (lit / all != alone.lit || penumbra / all != alone.penumbra) {
         return fmt::format("{}: lit {} alone, {} combined",
-                           place_of(scene, *result, light.light, part), part.exact_lit.get_str(),
+                           place_of(scene, *result, light.light, part), alone.lit.get_str(),
                            mpq_class(lit / all).get_str());
       }
     }
@@ -233,8 +228,8 @@ Fractions3 area_fractions_of(const Case& scene, const ShadowOptions& options,
       const PartResult& part = own.parts[i];
       const std::uint32_t owner = scene.prepared().parts[part.part].polygon;
       if (scene.scene().polygons[owner].id != polygon || part.side != side) continue;
-      return {part.exact_lit, own.area_fractions.at(i).exact_penumbra,
-              own.area_fractions.at(i).exact_umbra};
+      const ExactFractions& fractions = own.exact_fractions[i];
+      return {fractions.lit, fractions.penumbra, fractions.umbra};
     }
   }
   throw std::runtime_error("no light '" + light + "' or no such side of '" + polygon + "'");

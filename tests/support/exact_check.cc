@@ -60,8 +60,8 @@ std::string compare_with_oracle(const Case& scene, const ShadowResult& result) {
           }
           mpq_class weight = 0;
           for (const mpz_class& component : area) weight += abs(component);
-          lit += weight * own.exact_lit;
-          shadow += weight * own.exact_shadow;
+          lit += weight * light.exact_fractions[part].lit;
+          shadow += weight * light.exact_fractions[part].shadow;
           whole += weight;
         }
         lit /= whole;
@@ -84,16 +84,18 @@ std::string compare_with_oracle(const Case& scene, const ShadowResult& result) {
 std::string check_sums(const Case& scene, const ShadowResult& result) {
   for (const LightResult& light : result.lights) {
     if (light.dropped_slivers != 0) return name_of(result) + ": dropped slivers";
-    for (const PartResult& part : light.parts) {
-      const auto outside = [](const Interval& interval, const mpq_class& exact) {
-        return mpq_class(interval.lower) > exact || mpq_class(interval.upper) < exact;
+    for (std::size_t i = 0; i < light.parts.size(); ++i) {
+      const PartResult& part = light.parts[i];
+      const ExactFractions& exact = light.exact_fractions[i];
+      const auto outside = [](const Interval& interval, const mpq_class& value) {
+        return mpq_class(interval.lower) > value || mpq_class(interval.upper) < value;
       };
-      if (part.exact_lit + part.exact_shadow != 1 || part.exact_lit < 0 || part.exact_shadow < 0 ||
-          outside(part.lit, part.exact_lit) || outside(part.shadow, part.exact_shadow)) {
+      if (exact.lit + exact.shadow != 1 || exact.lit < 0 || exact.shadow < 0 ||
+          outside(part.lit, exact.lit) || outside(part.shadow, exact.shadow)) {
         return fmt::format(
             "{}, light '{}', polygon '{}': lit {} in [{}, {}], shadow {} in [{}, {}]",
             name_of(result), light_of(scene, light.light), polygon_of(scene, part.part),
-            part.exact_lit.get_str(), part.lit.lower, part.lit.upper, part.exact_shadow.get_str(),
+            exact.lit.get_str(), part.lit.lower, part.lit.upper, exact.shadow.get_str(),
             part.shadow.lower, part.shadow.upper);
       }
     }
@@ -109,16 +111,17 @@ std::string check_bounds(const Case& scene, const ShadowResult& exact, ShadowOpt
   if (!result) return to_string(result.error());
   for (std::size_t l = 0; l < exact.lights.size(); ++l) {
     for (std::size_t i = 0; i < exact.lights[l].parts.size(); ++i) {
-      const PartResult &truth = exact.lights[l].parts[i], &bounds = result->lights[l].parts[i];
+      const ExactFractions& truth = exact.lights[l].exact_fractions[i];
+      const PartResult& bounds = result->lights[l].parts[i];
       const auto holds = [](const Interval& interval, const mpq_class& value) {
         return mpq_class(interval.lower) <= value && value <= mpq_class(interval.upper) &&
                interval.upper - interval.lower < 1e-6;
       };
-      if (!holds(bounds.lit, truth.exact_lit) || !holds(bounds.shadow, truth.exact_shadow)) {
+      if (!holds(bounds.lit, truth.lit) || !holds(bounds.shadow, truth.shadow)) {
         return fmt::format("{}, light '{}', polygon '{}': lit {} is not in [{}, {}]",
                            name_of(exact), light_of(scene, exact.lights[l].light),
-                           polygon_of(scene, truth.part), truth.exact_lit.get_str(),
-                           bounds.lit.lower, bounds.lit.upper);
+                           polygon_of(scene, bounds.part), truth.lit.get_str(), bounds.lit.lower,
+                           bounds.lit.upper);
       }
     }
   }
@@ -130,12 +133,13 @@ std::string compare_results(const Case& scene, const ShadowResult& a, const Shad
   for (std::size_t l = 0; l < a.lights.size(); ++l) {
     for (std::size_t p = 0; p < a.lights[l].parts.size(); ++p) {
       const PartResult &one = a.lights[l].parts[p], &two = b.lights[l].parts[p];
-      if (one.exact_lit != two.exact_lit || one.exact_shadow != two.exact_shadow ||
-          one.reason != two.reason || one.side != two.side) {
+      const ExactFractions& first = a.lights[l].exact_fractions[p];
+      const ExactFractions& second = b.lights[l].exact_fractions[p];
+      if (first.lit != second.lit || first.shadow != second.shadow || one.reason != two.reason ||
+          one.side != two.side) {
         return fmt::format("light '{}', polygon '{}': {} says lit {}, {} says {}",
                            light_of(scene, a.lights[l].light), polygon_of(scene, one.part),
-                           name_of(a), one.exact_lit.get_str(), name_of(b),
-                           two.exact_lit.get_str());
+                           name_of(a), first.lit.get_str(), name_of(b), second.lit.get_str());
       }
     }
   }
@@ -259,7 +263,7 @@ std::vector<mpq_class> lit_fractions(const Case& scene, const ShadowOptions& opt
   if (!result) throw std::runtime_error(to_string(result.error()));
   std::vector<mpq_class> fractions;
   for (const LightResult& light : result->lights) {
-    for (const PartResult& part : light.parts) fractions.push_back(part.exact_lit);
+    for (const ExactFractions& part : light.exact_fractions) fractions.push_back(part.lit);
   }
   return fractions;
 }
@@ -271,13 +275,14 @@ mpq_class lit_fraction_of(const Case& scene, const ShadowOptions& options, const
   if (!result) throw std::runtime_error(to_string(result.error()));
   for (const LightResult& own : result->lights) {
     if (light_of(scene, own.light) != light) continue;
-    for (const PartResult& part : own.parts) {
-      if (polygon_of(scene, part.part) != polygon) continue;
-      const std::uint32_t owner = prepared.parts[part.part].polygon;
+    for (std::size_t i = 0; i < own.parts.size(); ++i) {
+      const std::uint32_t part = own.parts[i].part;
+      if (polygon_of(scene, part) != polygon) continue;
+      const std::uint32_t owner = prepared.parts[part].polygon;
       if (prepared.first_part[owner + 1] - prepared.first_part[owner] != 1) {
         throw std::runtime_error("polygon '" + polygon + "' has several parts");
       }
-      return part.exact_lit;
+      return own.exact_fractions[i].lit;
     }
   }
   throw std::runtime_error("no light '" + light + "' or no polygon '" + polygon + "'");

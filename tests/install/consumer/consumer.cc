@@ -47,7 +47,7 @@ int main() {
     return 2;
   }
   const std::uint32_t floor_part = prepared->first_part[0];
-  std::cout << "lit fraction of the floor: " << result->lights[0].parts[floor_part].exact_lit
+  std::cout << "lit fraction of the floor: " << result->lights[0].exact_fractions[floor_part].lit
             << '\n';
   return 0;
 }

@@ -10,6 +10,7 @@
 
 #include "gnomon/algorithms/method.h"
 #include "gnomon/algorithms/method_options.h"
+#include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/kernel/kernel_list.h"
 #include "gnomon/kernel/kernel_options.h"
 
@@ -56,10 +57,14 @@ struct ShadowTuning {
   std::uint32_t leaf_size = 16, task_size = 0;
 };
 
-/// How a caller watches a run and stops it.
+/// How a caller watches a run, takes what is done, and stops it.
 struct RunControl {
   std::function<void(double)> progress;            // fraction of the work done, 0..1; may be empty
   const std::atomic<bool>* interrupted = nullptr;  // checked between polygons
+  /// Takes the result of each light as soon as it is there, in the order of lights, one call at a
+  /// time, on any thread of the run; ShadowResult::lights then stays empty. False stops the run
+  /// (kInterrupted). May be empty: all results are kept.
+  std::function<bool(LightResult&&)> light_done;
 };
 
 struct ShadowOptions {

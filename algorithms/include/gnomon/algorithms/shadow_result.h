@@ -42,17 +42,20 @@ struct PartResult {
   Side side = Side::kFront;  // the part's side that faces the light; kFront if none does
   ShadowReason reason = ShadowReason::kNone;  // set: the whole part is in shadow, no fragments
   std::uint32_t first_fragment = 0, fragment_count = 0;
-  Interval lit;         // fraction of the part's area; for rounded kernels lower == upper
-  Interval shadow;      // 0 for an area light: see AreaFractions
-  mpq_class exact_lit;  // exact kernels on request (ShadowOptions::exact_fractions), else 0
-  mpq_class exact_shadow;
+  Interval lit;     // fraction of the part's area; for rounded kernels lower == upper
+  Interval shadow;  // 0 for an area light: see AreaFractions
 };
 
 /// What a part's side has under an area light besides PartResult::lit. On exact kernels the three
 /// fractions add up to exactly 1.
 struct AreaFractions {
   Interval penumbra, umbra;
-  mpq_class exact_penumbra, exact_umbra;  // as PartResult::exact_lit
+};
+
+/// The fractions of one side as rationals; classes that the light does not know are 0. On exact
+/// kernels they add up to exactly 1.
+struct ExactFractions {
+  mpq_class lit, shadow, penumbra, umbra;
 };
 
 struct LightResult {
@@ -74,6 +77,8 @@ struct LightResult {
   // cover everything. Fractions count it.
   std::optional<LightState> background;
   std::vector<AreaFractions> area_fractions;  // area lights: one for each of `parts`; else empty
+  // One for each of `parts` if asked for (ShadowOutput::exact_fractions); else empty.
+  std::vector<ExactFractions> exact_fractions;
   std::vector<Fragment> fragments;
   std::vector<std::array<double, 3>> points;           // nearest doubles, scene units
   std::vector<std::array<mpq_class, 3>> exact_points;  // scene units
