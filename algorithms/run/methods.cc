@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 
+#include "algorithms/contour/by_contour.h"
 #include "algorithms/run/by_receiver.h"
 #include "algorithms/run/on_every_kernel.h"
 #include "algorithms/sectors/by_sectors.h"
@@ -31,6 +32,7 @@ constexpr std::array kTilingCounters = {
     kNulled,           kShadowPolygons, kTileWrites,      kClosedTiles, kTileBytes, kMeanMet,
     kFirstQuartileMet, kMedianMet,      kThirdQuartileMet};
 constexpr std::array kSvbspFullCounters = {kVolumes, kShadowPolygons, kNodes, kDepth};
+constexpr std::array kContourCounters = {kIntervals, kSegments, kOpenPolygons};
 constexpr std::array kTwoPassCounters = {kClips, kShadowPolygons, kLists, kLongestList,
                                          kDeepestStack};
 
@@ -42,6 +44,15 @@ constexpr std::array kMethods = {
            .source = "Slater 1992, tiles, in light space",
            .lights = {.point = true},
            .threads = true},
+    Method{.id = MethodId::kContour,
+           .name = "contour",
+           .summary = "edges seen from the light, classes and shares alone",
+           .source = "Gnomon; hidden lines as Appel 1967 has them, boundary integrals",
+           .lights = {.point = true},
+           .threads = true,
+           .names_casters = false,
+           .makes_fragments = false,
+           .counters = kContourCounters},
     Method{.id = MethodId::kSvbsp,
            .name = "svbsp",
            .summary = "front to back by a scene BSP",
@@ -168,6 +179,8 @@ MethodFunction method_function(MethodId method, KernelId kernel) {
     case MethodId::kSectors:
     case MethodId::kTwoPass:  // both run in cells of light space
       return on_kernel<BySectors>(kernel);
+    case MethodId::kContour:
+      return on_kernel<ByContour>(kernel);
     case MethodId::kSvbsp:
       return on_kernel<BySvbsp>(kernel);
     case MethodId::kBasic:

@@ -32,6 +32,9 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kLists, "lists", "lists of polygons that one of them clipped", kSum},
     {Counter::kLongestList, "longest list", "polygons in the longest list", kMost},
     {Counter::kDeepestStack, "deepest stack", "lists that waited at the same time", kMost},
+    {Counter::kIntervals, "intervals", "of edges inside other polygons", kSum},
+    {Counter::kSegments, "segments", "of edges that take light from what is behind them", kSum},
+    {Counter::kOpenPolygons, "open polygons", "left open by bounds, found by exact subtraction", kSum},
 }};
 
 }  // namespace

@@ -24,6 +24,13 @@
 
 namespace gnomon {
 
+/// The parts that take part in a run, in order, and which of them receive; the others only cast,
+/// and the result says nothing of them. Nothing: all that face the light do both.
+struct SectorSubset {
+  std::span<const std::uint32_t> parts;
+  std::span<const std::uint8_t> receives;
+};
+
 template <SectorSpaceModel Space>
 class SectorRun {
  public:
@@ -34,7 +41,7 @@ class SectorRun {
   /// Call everything in an arena of `jobs` threads.
   SectorRun(const PreparedScene& scene, const RunOptions& options, const Rules& rules,
             SceneSpace& scene_space, std::uint32_t light, const KernelOptions& kernel_options,
-            LeafMethod leaf_method, Cover cover)
+            LeafMethod leaf_method, Cover cover, const SectorSubset& subset = {})
       : leaf_method_(leaf_method),
         cover_(cover),
         scene_(scene),
@@ -47,7 +54,9 @@ class SectorRun {
         facing_(scene, space_, rules),
         charts_(charts_of(scene.geometry)),
         areas_(scene.parts.size()),
-        sums_(scene.parts.size()) {
+        sums_(scene.parts.size()),
+        receives_(subset.receives) {
+    if (!subset.parts.empty()) facing_.parts.assign(subset.parts.begin(), subset.parts.end());
     result_.light = light;
     result_.facing_parts = facing_.parts.size();
     result_.facing_edges = facing_.edges;
@@ -102,6 +111,7 @@ class SectorRun {
   PlaneCharts charts_;
   std::vector<Ball> areas_;
   FractionSums sums_;
+  std::span<const std::uint8_t> receives_;  // of facing_.parts; empty: all do
   std::vector<SectorState> states_;  // of facing_.parts
   std::vector<SectorOutput> outputs_;
   StageCounts stages_;
@@ -119,6 +129,7 @@ std::vector<SectorItem> SectorRun<Space>::import(LoopStore<Vertex>& loops) {
     items[i].part = part;
     items[i].first = first;
     items[i].count = scene_.parts[part].count;
+    items[i].receives = receives_.empty() || receives_[i] != 0;
     first += items[i].count;
   }
   loops.resize(first);
@@ -261,6 +272,7 @@ RunOutcome SectorRun<Space>::run(const std::function<void(double)>& progress) {
   stages_ += planner.space().stage_counts();
   // A part with one class and caster is put out as it came in (1989, sec. 6).
   for (std::uint32_t i = 0; i < states_.size(); ++i) {
+    if (!receives_.empty() && receives_[i] == 0) states_[i] = kUndecided;
     if (states_[i] != kMixed && states_[i] != kUndecided) planner.emit_root(i);
   }
   outputs_.back() = std::move(planner.output());

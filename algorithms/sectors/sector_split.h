@@ -23,8 +23,9 @@ namespace gnomon {
 struct SectorItem : ChartBox {
   float z_low = -kInfinity, z_high = kInfinity;
   std::uint32_t first = 0;  // its loop
-  std::uint32_t count : 31 = 0;
-  std::uint32_t fresh : 1 = 1;  // new in this cell: its loop was clipped
+  std::uint32_t count : 30 = 0;
+  std::uint32_t fresh : 1 = 1;     // new in this cell: its loop was clipped
+  std::uint32_t receives : 1 = 1;  // else it only casts, and its own classes are not asked for
   std::uint32_t part = 0;
   std::uint32_t parent = 0;  // the item of the parent cell that it is a piece of
 };

@@ -145,6 +145,12 @@ void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* task
       }
       const std::uint32_t open_end =
           context_->leaf_method == LeafMethod::kSubtract ? cull(frame.begin, frame.end) : frame.end;
+      const bool receives = std::any_of(items_.begin() + frame.begin, items_.begin() + open_end,
+                                        [](const SectorItem& item) { return item.receives != 0; });
+      if (!receives && open_end > frame.begin) {
+        stack_.pop_back();
+        continue;
+      }
       const std::uint32_t open = open_end - frame.begin;
       if (open > 0 && tasks != nullptr && open <= task_size) {
         tasks->push_back({frame.cell, frame.begin, open_end, {}});

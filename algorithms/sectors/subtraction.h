@@ -144,8 +144,9 @@ void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end, const Light
     const float own = weight(items_[a]), other = weight(items_[b]);
     return own != other ? own > other : items_[a].part < items_[b].part;
   });
-  for (std::uint32_t i = begin; i < end && !stopped(); ++i)
-    subtract_casters(i, order_, nearest_first, chart);
+  for (std::uint32_t i = begin; i < end && !stopped(); ++i) {
+    if (items_[i].receives) subtract_casters(i, order_, nearest_first, chart);
+  }
 }
 
 template <SectorSpaceModel Space>

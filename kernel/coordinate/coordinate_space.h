@@ -65,6 +65,7 @@ class CoordinatePlanes {
   Vertex crossing(const CoordinatePlane<T>& plane, const Vertex& from, const Vertex& to) const;
   Vertex input_vertex(VertexId v) const;
   bool identity() const { return identity_; }
+  const T& thickness() const { return thickness_; }
   const T& relative_thickness() const { return relative_thickness_; }
 
  private:

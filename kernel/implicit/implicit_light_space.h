@@ -79,6 +79,18 @@ class ImplicitLightSpace : public LightPositions {
   /// Reference: docs/exactness.md.
   Side side_of_support(PlaneId plane, const Corner<Vertex>& corner);
 
+  /// The same decisions about input vertices by identity and integers alone, for callers that have
+  /// filtered them by numbers of their own: the side of the shadow plane of an input edge (by
+  /// EdgeId, interior in front), and of a support plane in its own orientation.
+  Side side_of_edge(PlaneRef edge, VertexId vertex) {
+    if (is_made_from(ends_of(edge), vertex)) return stages_.known_on();  // identity (3)
+    const Sign sign = exact_side_of_input(PlaneRef(edge.index()), vertex);
+    return side_of(edge.flipped() ? -sign : sign);
+  }
+  Side side_of_support_at(PlaneId plane, VertexId vertex) {
+    return side_of(input_depth(plane, vertex));
+  }
+
   StageCounts stage_counts() const { return stages_.counts(); }
 
  private:

@@ -46,6 +46,14 @@ class LightPlanes {
     VertexId source = kMadeVertex;
   };
 
+  /// n / h of a support plane, in the units of stretched rays; see the head of the file.
+  struct DepthPlane {
+    std::array<double, 3> n{};  // each off by at most LightBounds::kDepthPlane |n_k|
+    double magnitude = 0;       // largest |n_k|; infinite: the doubles say nothing
+    Sign at_light = Sign::kZero;
+  };
+  const DepthPlane& depth_plane(PlaneId plane) const { return shared_->depths[plane]; }
+
   /// Whether an edge's plane is the one that cut it; always.
   bool knows_identity() const { return true; }
 
@@ -102,12 +110,6 @@ class LightPlanes {
     double slack = kNotMade;  // infinite: the doubles say nothing
   };
   static constexpr double kNotMade = 0;
-  /// n / h of a support plane, in the units of stretched rays; see the head of the file.
-  struct DepthPlane {
-    std::array<double, 3> n{};  // each off by at most LightBounds::kDepthPlane |n_k|
-    double magnitude = 0;       // largest |n_k|; infinite: the doubles say nothing
-    Sign at_light = Sign::kZero;
-  };
   /// What forks have in common.
   struct Shared {
     Shared(const ScenePlanes& scene_planes, const LightPoint& light)
@@ -123,7 +125,7 @@ class LightPlanes {
   const LightIntegers& integers() const { return shared_->integers; }
   const Geometry& geometry() const { return *shared_->integers.geometry; }
   const ScenePlanes& scene() const { return *shared_->scene; }
-  const DepthPlane& depth(PlaneId plane) const { return shared_->depths[plane]; }
+  const DepthPlane& depth(PlaneId plane) const { return depth_plane(plane); }
   int stretch() const { return shared_->stretch; }
 
   bool is_edge(PlaneRef plane) const { return plane.index() < edge_count(); }

@@ -27,6 +27,7 @@ enum class MethodId : std::uint8_t {
   kTiling,
   kSvbspFull,
   kTwoPass,
+  kContour,
 };
 
 /// Where a method finds its regions: on the polygons themselves, or in a picture of them.
@@ -59,6 +60,7 @@ struct Method {
   bool overlays = false;          // shadows painted over polygons (Cover::kOverlay)
   bool threads = false;           // runs on several
   bool names_casters = true;      // of every fragment in shadow, the polygon that hides it
+  bool makes_fragments = true;    // else it tells classes and shares alone
   std::span<const std::string_view> options = {};  // names of method_option()
   std::span<const Counter> counters = {};          // those that it fills
 };

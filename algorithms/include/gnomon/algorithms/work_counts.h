@@ -34,8 +34,11 @@ enum class Counter : std::uint8_t {
   kLists,         // lists of polygons that were clipped by one of them
   kLongestList,   // polygons in the longest of them
   kDeepestStack,  // lists that waited at the same time
+  kIntervals,     // of edges inside other polygons
+  kSegments,      // of edges that take light from what is behind them
+  kOpenPolygons,  // that bounds left open, and exact subtraction found
 };
-inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kDeepestStack) + 1;
+inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kOpenPolygons) + 1;
 
 /// How the counts of two lights, or of two parts of one run, make one.
 enum class CountKind : std::uint8_t { kSum, kMost };

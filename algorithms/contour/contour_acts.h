@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// One edge: where it is seen, and from which polygons behind it takes what is in its shadow. Bodies
+// of contour_walk.h.
+#ifndef GNOMON_ALGORITHMS_CONTOUR_CONTOUR_ACTS_H
+#define GNOMON_ALGORITHMS_CONTOUR_CONTOUR_ACTS_H
+
+#include "algorithms/contour/contour_walk.h"
+
+namespace gnomon {
+
+// Leaves of each segment of `base` what no stretch covers. Sorts `covers`. Where a stretch begins
+// and the one before ends, and neither the numbers nor the names tell that nothing is between,
+// there is a segment that is not sure.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::uncovered(std::span<const Segment<Numbers>> base,
+                                            std::vector<Stretch<Numbers>>& covers,
+                                            std::vector<Segment<Numbers>>& result) {
+  std::sort(covers.begin(), covers.end(), [](const auto& a, const auto& b) {
+    return a.low.t != b.low.t ? a.low.t < b.low.t : b.high.t < a.high.t;
+  });
+  result.clear();
+  for (const Segment<Numbers>& segment : base) {
+    PlaceOnEdge at = segment.low;
+    const auto leave = [&](const PlaceOnEdge& end) {
+      if (at.t < end.t) {
+        result.push_back({at, end, segment.sure && certainly_before(at, end)});
+      } else if (!certainly_no_gap(at, end)) {
+        PlaceOnEdge low = at, high = end;
+        low.error = high.error = at.error + end.error;
+        high.t = low.t;
+        result.push_back({low, high, false});
+      }
+    };
+    for (const Stretch<Numbers>& cover : covers) {
+      if (!(cover.low.t < segment.high.t) && certainly_no_gap(cover.low, segment.high)) break;
+      if (cover.high.t < at.t && certainly_before(cover.high, at)) continue;
+      if (certainly_no_gap(at, cover.low)) {
+        if (at.t < cover.high.t) at = cover.high;
+        continue;
+      }
+      leave(earlier_of(cover.low, segment.high));
+      at = later_of(at, cover.high);
+    }
+    leave(segment.high);
+  }
+}
+
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::walk_edge(std::uint32_t k) {
+  EdgeLists<Numbers>& lists = lists_[k];
+  const Segment<Numbers> whole{PlaceOnEdge::from(), PlaceOnEdge::to(), true};
+  ContourSum<Numbers>& sum = sums_[p_];
+  for (const Stretch<Numbers>& stretch : lists.hidden) {
+    sum.flags |= certainly_before(stretch.low, stretch.high) ? kHoldsShadow : kPerhapsShadow;
+  }
+  uncovered({&whole, 1}, lists.hidden, seen_);
+  for (const Segment<Numbers>& segment : seen_) add_own(k, segment);
+  if (!casts(p_) || seen_.empty()) return;
+  if (lists.behind.empty() && lists.level.empty()) return;
+  for (const Behind<Numbers>& receiver : lists.level) act_level(k, receiver);
+  if (lists.behind.empty()) return;
+  // Below a caster that goes on from the edge, or through it, nothing is seen beside the edge.
+  covers_ = lists.taken;
+  for (const Behind<Numbers>& other : lists.beside) covers_.push_back({other.low, other.high});
+  for (const Behind<Numbers>& other : lists.level) {
+    if (casts(other.polygon)) covers_.push_back({other.low, other.high});
+  }
+  uncovered(seen_, covers_, free_);
+  if (free_.empty()) return;
+  std::sort(lists.behind.begin(), lists.behind.end(), [](const auto& a, const auto& b) {
+    return a.low.t != b.low.t ? a.low.t < b.low.t : a.polygon < b.polygon;
+  });
+  for (const Segment<Numbers>& segment : free_) {
+    if (segment.sure) {
+      act_along(k, segment);
+    } else {
+      perhaps_at(k, segment.low, segment.high);
+    }
+  }
+}
+
+// A receiver whose plane holds the edge is seen beside the edge where no caster at the edge's depth
+// is above it there.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::act_level(std::uint32_t k, const Behind<Numbers>& receiver) {
+  const EdgeLists<Numbers>& lists = lists_[k];
+  covers_ = lists.hidden;
+  covers_.insert(covers_.end(), lists.taken.begin(), lists.taken.end());
+  for (const auto* others : {&lists.beside, &lists.level}) {
+    for (const Behind<Numbers>& other : *others) {
+      if (casts(other.polygon) && is_above_outside(k, other.polygon, receiver.polygon)) {
+        covers_.push_back({other.low, other.high});
+      }
+    }
+  }
+  const Segment<Numbers> whole{receiver.low, receiver.high,
+                               certainly_before(receiver.low, receiver.high)};
+  uncovered({&whole, 1}, covers_, free_);
+  for (const Segment<Numbers>& segment : free_) {
+    if (segment.sure) {
+      take_from(k, receiver, segment.low, segment.high);
+    } else {
+      take_perhaps(k, receiver, segment.low, segment.high);
+    }
+  }
+}
+
+// Both planes hold edge k, so that one corner of q on the outer side tells.
+template <class Numbers, class Sides>
+bool ContourWalk<Numbers, Sides>::is_above_outside(std::uint32_t k, std::uint32_t q,
+                                                   std::uint32_t than) {
+  if (plane(q) == plane(than)) return false;
+  T value;
+  for (std::uint32_t j = 0; j < polygons_->polygons[q].count; ++j) {
+    if (survey_.side(p_, k, q, j, value) >= 0) continue;
+    const int sign = survey_.nearer(than, q, j, survey_.depth(than, q, j));
+    if (sign != 0) return sign > 0;
+  }
+  return false;
+}
+
+// Goes along a seen segment, from one place where a polygon behind it begins or ends to the next.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::act_along(std::uint32_t k, const Segment<Numbers>& segment) {
+  const std::vector<Behind<Numbers>>& behind = lists_[k].behind;
+  events_.clear();
+  for (std::uint32_t i = 0; i < behind.size(); ++i) {
+    const Behind<Numbers>& entry = behind[i];
+    if (certainly_before(segment.high, entry.low)) break;  // so are all that follow
+    if (certainly_before(entry.high, segment.low)) continue;
+    const PlaceOnEdge low = later_of(entry.low, segment.low);
+    PlaceOnEdge high = earlier_of(entry.high, segment.high);
+    if (high.t < low.t) high.t = low.t;  // within the bounds; it ends after it begins
+    events_.push_back({low, i, true});
+    events_.push_back({high, i, false});
+  }
+  if (events_.empty()) return;
+  events_.push_back({segment.high, kNoEntry, false});
+  std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
+    if (a.at.t != b.at.t) return a.at.t < b.at.t;
+    return a.entry != b.entry ? a.entry < b.entry : a.begins > b.begins;
+  });
+  active_.clear();
+  PlaceOnEdge at = segment.low;
+  for (const Event& event : events_) {
+    if (certainly_before(at, event.at)) {
+      // The order of depths may change on the way.
+      while (!active_.empty()) {
+        PlaceOnEdge end = event.at;
+        if (!piece(k, at, end)) perhaps_at(k, at, end);
+        if (!(end.t < event.at.t)) break;
+        at = end;
+      }
+    } else if (!certainly_no_gap(at, event.at)) {
+      perhaps_at(k, at, event.at);
+    }
+    at = event.at;
+    if (event.begins) {
+      active_.push_back(event.entry);
+    } else {
+      std::erase(active_, event.entry);
+    }
+  }
+}
+
+// Between two places where nothing begins or ends. `high` comes nearer where the order changes.
+// False: the two cannot be told apart.
+template <class Numbers, class Sides>
+bool ContourWalk<Numbers, Sides>::piece(std::uint32_t k, const PlaceOnEdge& low,
+                                        PlaceOnEdge& high) {
+  const std::vector<Behind<Numbers>>& behind = lists_[k].behind;
+  // The first caster just after `low`, and where another polygon's depth passes its.
+  const Behind<Numbers>* top = nullptr;
+  for (const std::uint32_t i : active_) {
+    if (!casts(behind[i].polygon)) continue;
+    if (top == nullptr || is_first(k, behind[i], *top, low, high)) top = &behind[i];
+  }
+  if (top != nullptr) {
+    for (const std::uint32_t i : active_) {
+      if (&behind[i] != top) end_where_order_changes(behind[i], *top, low, high);
+    }
+    if (!certainly_before(low, high)) return false;
+  }
+  for (const std::uint32_t i : active_) {
+    const Behind<Numbers>& entry = behind[i];
+    if (!entry.covers_both && &entry != top) continue;
+    if (top != nullptr && &entry != top && is_behind(k, entry, *top, low, high)) continue;
+    if (entry.covers_both) take_from(k, entry, low, high);
+  }
+  return true;
+}
+
+/// Sign of the difference of two depths at a place; 0 if the bounds do not tell, or equal.
+template <class Numbers, class Sides>
+int ContourWalk<Numbers, Sides>::depth_order(const Behind<Numbers>& a, const Behind<Numbers>& b,
+                                             const PlaceOnEdge& place) const {
+  const T difference = depth_at(a, place) - depth_at(b, place);
+  if constexpr (Numbers::kCertified) {
+    // Each depth is off by its bound at both ends, and rounds by less than that in between.
+    if (std::fabs(difference) <= 2 * (a.depth_error + b.depth_error)) return 0;
+  }
+  return sign_of_value(difference);
+}
+
+// Whether caster a comes before caster b just after `low`.
+template <class Numbers, class Sides>
+bool ContourWalk<Numbers, Sides>::is_first(std::uint32_t k, const Behind<Numbers>& a,
+                                           const Behind<Numbers>& b, const PlaceOnEdge& low,
+                                           const PlaceOnEdge& high) {
+  if (plane(a.polygon) == plane(b.polygon)) return false;
+  int order = depth_order(a, b, low);
+  const int at_high = depth_order(a, b, high);
+  if (order * at_high < 0 && !(low.t < passing(a, b, low, high).t)) order = 0;  // it just changed
+  if (order == 0) order = at_high;
+  if (order == 0) order = level_order(k, a.polygon, b.polygon);
+  return order > 0;
+}
+
+// Two polygons whose depths along the edge are not told apart: on its outer side.
+template <class Numbers, class Sides>
+int ContourWalk<Numbers, Sides>::level_order(std::uint32_t k, std::uint32_t a, std::uint32_t b) {
+  if constexpr (Numbers::kCertified) {
+    return known_order(a, b);
+  } else {
+    // Equal on the line n of the edge, two depths differ by a multiple of n, positive inside.
+    const Vector<T> line = polygons_->line(polygons_->polygons[p_], k);
+    return -sign_of_value(T(dot_product(light_->depths[plane(a)], line) -
+                            dot_product(light_->depths[plane(b)], line)));
+  }
+}
+
+// Of two polygons that do not pass through each other's planes, one is nearer wherever they
+// overlap: 1 if a is, -1 if b is. 0: they may pass.
+template <class Numbers, class Sides>
+int ContourWalk<Numbers, Sides>::known_order(std::uint32_t a, std::uint32_t b) {
+  const auto sides_of = [&](std::uint32_t q, std::uint32_t other) {
+    bool nearer = false, behind = false;
+    for (std::uint32_t j = 0; j < polygons_->polygons[q].count; ++j) {
+      const int sign = survey_.nearer(other, q, j, survey_.depth(other, q, j));
+      nearer |= sign > 0;
+      behind |= sign < 0;
+    }
+    return nearer == behind ? 0 : nearer ? 1 : -1;
+  };
+  if (const int order = sides_of(a, b); order != 0) return order;
+  return -sides_of(b, a);
+}
+
+// Where two depths are equal that are not in the same order at `low` and at `high`.
+template <class Numbers, class Sides>
+auto ContourWalk<Numbers, Sides>::passing(const Behind<Numbers>& a, const Behind<Numbers>& b,
+                                          const PlaceOnEdge& low, const PlaceOnEdge& high) const
+    -> PlaceOnEdge {
+  const PlaceOnEdge passes = zero_between<Numbers>(
+      T(depth_at(a, low) - depth_at(b, low)), T(depth_at(a, high) - depth_at(b, high)),
+      2 * (a.depth_error + b.depth_error), PlaceName());
+  PlaceOnEdge place;
+  place.t = low.t + passes.t * T(high.t - low.t);
+  if constexpr (Numbers::kCertified) {
+    place.error = passes.error * (high.t - low.t) + 4 * Ball::kUnit;
+  }
+  return place;
+}
+
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::end_where_order_changes(const Behind<Numbers>& entry,
+                                                          const Behind<Numbers>& top,
+                                                          const PlaceOnEdge& low,
+                                                          PlaceOnEdge& high) {
+  if (plane(entry.polygon) == plane(top.polygon)) return;
+  if (depth_order(entry, top, low) * depth_order(entry, top, high) >= 0) return;
+  const PlaceOnEdge end = passing(entry, top, low, high);
+  if (low.t < end.t && end.t < high.t) high = end;
+}
+
+// Whether an entry is behind the first caster all along; equal planes are not. Where they touch at
+// an end within the bounds there may be a sliver; where they do all along, both are open.
+template <class Numbers, class Sides>
+bool ContourWalk<Numbers, Sides>::is_behind(std::uint32_t k, const Behind<Numbers>& entry,
+                                            const Behind<Numbers>& top, const PlaceOnEdge& low,
+                                            const PlaceOnEdge& high) {
+  if (plane(entry.polygon) == plane(top.polygon)) return false;
+  const int at_low = depth_order(entry, top, low), at_high = depth_order(entry, top, high);
+  if (at_low == at_high && at_low != 0) return at_low < 0;
+  const int known = level_order(k, entry.polygon, top.polygon);
+  if constexpr (!Numbers::kCertified) {
+    const int halfway = sign_of_value(T(T(depth_at(entry, low) - depth_at(top, low)) +
+                                        T(depth_at(entry, high) - depth_at(top, high))));
+    return halfway != 0 ? halfway < 0 : known < 0;
+  }
+  if (known != 0) return known < 0;
+  if (at_low + at_high == 0) {
+    sums_[entry.polygon].flags |= kContourOpen;
+    sums_[top.polygon].flags |= kContourOpen;
+    return at_low <= 0;
+  }
+  take_perhaps(k, entry, low, high);
+  take_perhaps(k, top, low, high);
+  return at_low + at_high < 0;
+}
+
+// A sliver between two places may be there: it may be taken from whatever is first there.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::perhaps_at(std::uint32_t k, const PlaceOnEdge& low,
+                                             const PlaceOnEdge& high) {
+  if constexpr (Numbers::kCertified) {
+    const std::vector<Behind<Numbers>>& behind = lists_[k].behind;
+    const Behind<Numbers>* cover = nullptr;  // certainly there
+    for (const Behind<Numbers>& entry : behind) {
+      if (casts(entry.polygon) && certainly_before(entry.low, low) &&
+          certainly_before(high, entry.high) &&
+          (cover == nullptr || depth_order(entry, *cover, low) > 0)) {
+        cover = &entry;
+      }
+    }
+    for (const Behind<Numbers>& entry : behind) {
+      if (!entry.covers_both || certainly_before(high, entry.low) ||
+          certainly_before(entry.high, low)) {
+        continue;
+      }
+      if (cover != nullptr && &entry != cover && depth_order(entry, *cover, low) < 0 &&
+          depth_order(entry, *cover, high) < 0) {
+        continue;
+      }
+      take_perhaps(k, entry, low, high);
+    }
+  }
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_CONTOUR_CONTOUR_ACTS_H

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Boundary integrals of the contour method: what a stretch of an edge adds to a polygon's share, or
+// takes from it. Bodies of contour_walk.h.
+//
+// The area of the triangle between corner c of a polygon R and the points in which the rays r(s)
+// and r(t) of an edge meet R's plane is, in units that all stretches over R share, det(c, r(s),
+// r(t)) / (w(s) w(t)) with w the depth of R's plane on a ray, which is 1 at c (point lights; of a
+// sun the rays themselves are points of a chart and there is no w). As r is linear, r(s) x r(t) =
+// (t - s) n with the line n of the edge, so that this is (t - s) (n . c) / (w(s) w(t)).
+#ifndef GNOMON_ALGORITHMS_CONTOUR_CONTOUR_INTEGRALS_H
+#define GNOMON_ALGORITHMS_CONTOUR_CONTOUR_INTEGRALS_H
+
+#include "algorithms/contour/contour_walk.h"
+
+namespace gnomon {
+
+/// n . c for edge k of p and corner 0 of q.
+template <class Numbers, class Sides>
+auto ContourWalk<Numbers, Sides>::value_of(std::uint32_t k, std::uint32_t q) const -> T {
+  return dot_product(polygons_->line(polygons_->polygons[p_], k),
+                     polygons_->corner(polygons_->polygons[q], 0));
+}
+
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::add_own(std::uint32_t k, const Segment<Numbers>& segment) {
+  ContourSum<Numbers>& sum = sums_[p_];
+  sum.flags |= segment.sure ? kHoldsLit : kPerhapsLit;
+  const std::uint32_t n = polygons_->polygons[p_].count;
+  if (k == 0 || k + 1 == n) return;  // corner 0 is on it
+  const T rate = T(value_of(k, p_) * measure_->scale[p_]);
+  const T share = T(T(segment.high.t - segment.low.t) * rate);
+  double error = 0;
+  if constexpr (Numbers::kCertified) {
+    error = share_error(p_, rate, line_value_error(k, p_), segment.low, segment.high, 1, 1, 0);
+  }
+  sum.add(share, error);
+}
+
+/// Bound of the error of (t - s) (n . c) scale / (w(s) w(t)) in doubles. With V = |n . c| scale: a
+/// place off by e moves the integral by V e / w^2 (the derivative by t is V / w(t)^2), which is
+/// doubled where w is itself known within a quarter; n . c is off by its bound; the scale, and each
+/// w, by a relative error; the operations round by less than 8u.
+template <class Numbers, class Sides>
+double ContourWalk<Numbers, Sides>::share_error(std::uint32_t q, double rate,
+                                                double line_value_error, const PlaceOnEdge& low,
+                                                const PlaceOnEdge& high, double depth_low,
+                                                double depth_high, double depth_error) const {
+  const double value_error = line_value_error * measure_->scale[q];
+  const double least = std::min(depth_low, depth_high) - depth_error;
+  if (!(depth_error < 0.25 * least)) return std::numeric_limits<double>::infinity();
+  const double width = std::fabs(high.t - low.t);
+  const double inverse = 1 / (least * least);
+  const double relative = measure_->relative_error[q] + 3 * depth_error / least + 16 * Ball::kUnit;
+  const double size = std::fabs(rate);
+  return 1.01 * inverse *
+         ((size + value_error) * (2 * (low.error + high.error) + width * relative) +
+          width * value_error);
+}
+
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::take_from(std::uint32_t k, const Behind<Numbers>& receiver,
+                                            const PlaceOnEdge& low, const PlaceOnEdge& high) {
+  ++segments_;
+  const std::uint32_t q = receiver.polygon;
+  ContourSum<Numbers>& sum = sums_[q];
+  sum.flags |= kHoldsLit | kHoldsShadow;
+  const T rate = T(value_of(k, q) * measure_->scale[q]);
+  T share = T(T(low.t - high.t) * rate);
+  double error = 0;
+  if (!light_->directional) {
+    const T depth_low = depth_at(receiver, low), depth_high = depth_at(receiver, high);
+    share = T(share / T(depth_low * depth_high));
+    if constexpr (Numbers::kCertified) {
+      error = share_error(q, rate, line_value_error(k, q), low, high, depth_low, depth_high,
+                          2 * receiver.depth_error);
+    }
+  } else if constexpr (Numbers::kCertified) {
+    error = share_error(q, rate, line_value_error(k, q), low, high, 1, 1, 0);
+  }
+  sum.add(share, error);
+}
+
+// Nothing is taken, but up to the whole sliver might be.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::take_perhaps(std::uint32_t k, const Behind<Numbers>& receiver,
+                                               const PlaceOnEdge& low, const PlaceOnEdge& high) {
+  if constexpr (Numbers::kCertified) {
+    const std::uint32_t q = receiver.polygon;
+    ContourSum<Numbers>& sum = sums_[q];
+    sum.flags |= kPerhapsLit | kPerhapsShadow;
+    const double rate = value_of(k, q) * measure_->scale[q];
+    PlaceOnEdge first = low, last = high;
+    first.error += std::fabs(high.t - low.t);
+    double error;
+    if (light_->directional) {
+      error = share_error(q, rate, line_value_error(k, q), first, last, 1, 1, 0);
+    } else {
+      error = share_error(q, rate, line_value_error(k, q), first, last, depth_at(receiver, low),
+                          depth_at(receiver, high), 2 * receiver.depth_error);
+    }
+    sum.add(0, error);
+  }
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_CONTOUR_CONTOUR_INTEGRALS_H

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The contour method from a prepared scene to shares and classes, light by light.
+//
+// Everything that does not depend on the number of the lights is kept from one to the next.
+// Certified shares are sums of enclosures; polygons that the bounds leave open are found by exact
+// subtraction, by the sectors method on them and their neighbours.
+#ifndef GNOMON_ALGORITHMS_CONTOUR_CONTOUR_RUN_H
+#define GNOMON_ALGORITHMS_CONTOUR_CONTOUR_RUN_H
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <type_traits>
+#include <vector>
+
+#include "algorithms/contour/by_contour.h"
+#include "algorithms/contour/contour_walk.h"
+#include "algorithms/partition/run_task.h"
+#include "algorithms/sectors/sector_run.h"
+#include "kernel/concept/kernel_model.h"
+
+namespace gnomon {
+
+/// The numbers of a kernel: its own where it rounds, doubles with bounds where it decides about
+/// input corners by their numbers alone, and rationals on other exact kernels or where exact shares
+/// are asked for.
+template <class Space, bool exact_shares>
+struct ContourNumbersOf {
+  static auto choose() {
+    if constexpr (exact_shares || (Space::kExact && !KnowsInputSides<Space>)) {
+      return ContourNumbers<mpq_class, Trust::kExact>();
+    } else if constexpr (Space::kExact) {
+      return ContourNumbers<double, Trust::kCertified>();
+    } else if constexpr (requires(typename Space::Vertex v) {
+                           requires std::is_floating_point_v<std::remove_cvref_t<decltype(v.x[0])>>;
+                         }) {
+      using T = std::remove_cvref_t<decltype(std::declval<typename Space::Vertex>().x[0])>;
+      return ContourNumbers<T, Trust::kRounded>();
+    } else {
+      return ContourNumbers<double, Trust::kRounded, true>();
+    }
+  }
+  using type = decltype(choose());
+};
+
+template <SectorSpaceModel Space, class Numbers>
+class ContourRun {
+ public:
+  using T = typename Numbers::T;
+  using SceneSpace = typename Space::SceneSpace;
+  using Sides = InputSides<Space, Numbers>;
+  using Sum = ContourSum<Numbers>;
+
+  /// Call everything in an arena of `jobs` threads.
+  ContourRun(const PreparedScene& scene, const ShadowOptions& options, const Rules& rules,
+             SceneSpace& scene_space)
+      : scene_(scene),
+        options_(options),
+        run_options_(run_options_of(options)),
+        rules_(rules),
+        scene_space_(scene_space),
+        jobs_(Space::kParallel && options.tuning.jobs != 1 ? options.tuning.jobs : 1) {}
+
+  /// Classifies one light; `progress` gets the share of the work that is done.
+  RunOutcome run(std::uint32_t light, const std::function<void(double)>& progress);
+  LightResult finish();
+  const StageCounts& stage_counts() const { return stages_; }
+
+ private:
+  /// What one thread works with.
+  struct Worker {
+    Sides sides;
+    std::vector<Sum> sums;
+    std::uint64_t intervals = 0, segments = 0;
+  };
+
+  template <class Body>
+  void in_parallel(std::uint32_t n, std::uint32_t grain, const Body& body) const {
+    if (jobs_ == 1) {
+      body(std::uint32_t{0}, n);
+      return;
+    }
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, n, grain),
+                      [&](const auto& range) { body(range.begin(), range.end()); });
+  }
+  double thickness() const {
+    if constexpr (requires { scene_space_.arithmetic().thickness(); } && !Numbers::kExact) {
+      return static_cast<double>(scene_space_.arithmetic().thickness());
+    } else {
+      return 0;
+    }
+  }
+  void measure(std::uint32_t begin, std::uint32_t end);
+  void set_classes();
+  RunOutcome find_open_ones(const std::function<void(double)>& progress);
+  bool is_open(const Sum& sum) const;
+
+  const PreparedScene& scene_;
+  const ShadowOptions& options_;
+  RunOptions run_options_;
+  const Rules& rules_;
+  SceneSpace& scene_space_;
+  unsigned jobs_;
+  std::unique_ptr<FacingParts> facing_;
+  LightRays<Numbers> rays_;
+  FacingPolygons<Numbers> polygons_;
+  ContourMeasure<Numbers> measure_;
+  std::vector<Sum> sums_;
+  std::vector<std::uint32_t> neighbours_, first_neighbour_;
+  StageCounts stages_;
+  LightResult result_;
+};
+
+template <SectorSpaceModel Space, class Numbers>
+void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end) {
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const FacingPolygon& p = polygons_.polygons[i];
+    const Vector<T> corner = polygons_.corner(p, 0);
+    T whole(0);
+    double error = 0;
+    for (std::uint32_t k = 1; k + 1 < p.count; ++k) {
+      whole += dot_product(polygons_.line(p, k), corner);
+      if constexpr (Numbers::kCertified) error += polygons_.error_of_line(p, k);
+    }
+    measure_.relative_error[i] = 0;
+    if (!(whole > 0)) {
+      measure_.scale[i] = T(0);
+      if (Numbers::kCertified) sums_[i].flags |= kContourOpen;
+      continue;
+    }
+    measure_.scale[i] = T(1 / whole);
+    if constexpr (Numbers::kCertified) {
+      // Summing n values rounds by less than n u of their sum, the quotient by u.
+      measure_.relative_error[i] =
+          1.01 * error * polygons_.reach[i] * measure_.scale[i] + (p.count + 2) * Ball::kUnit;
+      if (!(measure_.relative_error[i] < 0x1p-20)) sums_[i].flags |= kContourOpen;
+    }
+  }
+}
+
+template <SectorSpaceModel Space, class Numbers>
+RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
+                                           const std::function<void(double)>& progress) {
+  const LightPoint& point = scene_.lights[light].point;
+  Space space(scene_space_, point, options_.kernel.options());
+  facing_ = std::make_unique<FacingParts>(scene_, space, rules_);
+  result_ = {};
+  result_.light = light;
+  result_.facing_parts = facing_->parts.size();
+  result_.facing_edges = facing_->edges;
+  if constexpr (Numbers::kCertified) {
+    make_light_rays(space, scene_.geometry, point, rays_);
+  } else {
+    make_light_rays(scene_.geometry, point, thickness(), rays_);
+  }
+  polygons_.lay_out(scene_, *facing_);
+  const std::uint32_t count = polygons_.size();
+  sums_.assign(count, {});
+  measure_.scale.resize(count);
+  measure_.relative_error.resize(count);
+  in_parallel(count, 1024, [&](std::uint32_t begin, std::uint32_t end) {
+    polygons_.fill(rays_, begin, end);
+    measure(begin, end);
+  });
+  neighbours_.clear();
+  first_neighbour_.assign(1, 0);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t j = 0; j < count; ++j) {
+      if (j != i) neighbours_.push_back(j);
+    }
+    first_neighbour_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
+  }
+  const Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
+  tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers;
+  std::atomic<bool> no_ieee = false, stopped = false;
+  std::atomic<std::uint32_t> done = 0;
+  in_parallel(count, 64, [&](std::uint32_t begin, std::uint32_t end) {
+    if (stopped.load(std::memory_order_relaxed)) return;
+    std::unique_ptr<Worker>& worker = workers.local();
+    if (!worker) {
+      if (!check_fp_environment()) {
+        no_ieee = stopped = true;
+        return;
+      }
+      worker = std::make_unique<Worker>(Worker{sides.fork(), std::vector<Sum>(count)});
+    }
+    ContourWalk<Numbers, Sides> walk(rays_, polygons_, measure_, worker->sides, worker->sums);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const std::atomic<bool>* interrupted = options_.control.interrupted;
+      if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) {
+        stopped = true;
+        return;
+      }
+      walk.walk(i, {neighbours_.data() + first_neighbour_[i],
+                    first_neighbour_[i + 1] - first_neighbour_[i]});
+    }
+    worker->intervals += walk.intervals();
+    worker->segments += walk.segments();
+    done += end - begin;
+    if (progress) progress(0.9 * done / count);
+  });
+  if (stopped) return no_ieee ? RunOutcome::kNoIeee : RunOutcome::kInterrupted;
+  for (const std::unique_ptr<Worker>& worker : workers) {
+    for (std::uint32_t i = 0; i < count; ++i) sums_[i] += worker->sums[i];
+    stages_ += worker->sides.space().stage_counts();
+  }
+  set_classes();
+  return find_open_ones(progress);
+}
+
+/// Whether the bounds leave open a polygon's class or much of its share.
+template <SectorSpaceModel Space, class Numbers>
+bool ContourRun<Space, Numbers>::is_open(const Sum& sum) const {
+  if constexpr (!Numbers::kCertified) {
+    return false;
+  } else {
+    constexpr auto kWidest = static_cast<std::uint64_t>(PartMeasure<Space>::kWidest * 0x1p60);
+    if (sum.flags & kContourOpen) return true;
+    const bool lit = sum.flags & kHoldsLit, shadow = sum.flags & kHoldsShadow;
+    if (!lit && (sum.flags & kPerhapsLit)) return true;
+    if (!shadow && (sum.flags & kPerhapsShadow)) return true;
+    return lit && shadow && sum.error > kWidest;
+  }
+}
+
+template <SectorSpaceModel Space, class Numbers>
+void ContourRun<Space, Numbers>::set_classes() {
+  result_.parts.resize(scene_.parts.size());
+  if (options_.output.exact_fractions) result_.exact_fractions.resize(scene_.parts.size());
+  for (std::uint32_t index = 0; index < scene_.parts.size(); ++index) {
+    PartResult& part = result_.parts[index];
+    part.part = index;
+    part.side = facing_->facing[index].side;
+    part.reason = facing_->facing[index].reason;
+    part.lit = {0, 0};
+    part.shadow = {1, 1};
+    if (options_.output.exact_fractions) result_.exact_fractions[index].shadow = 1;
+  }
+  for (std::uint32_t i = 0; i < polygons_.size(); ++i) {
+    PartResult& part = result_.parts[polygons_.polygons[i].part];
+    const Sum& sum = sums_[i];
+    const bool lit = sum.flags & kHoldsLit, shadow = sum.flags & kHoldsShadow;
+    if (!lit) continue;
+    if (!shadow) {
+      part.lit = {1, 1};
+      part.shadow = {0, 0};
+    } else if constexpr (Numbers::kCertified) {
+      const double middle =
+          std::ldexp(static_cast<double>(static_cast<std::int64_t>(sum.units)), -60);
+      // Two roundings of a number of size 1, besides.
+      const double radius = std::ldexp(static_cast<double>(sum.error), -60) + 4 * Ball::kUnit;
+      part.lit = {std::max(0.0, middle - radius), std::min(1.0, middle + radius)};
+      part.shadow = {std::max(0.0, std::nextafter(1 - part.lit.upper, -1.0)),
+                     std::min(1.0, std::nextafter(1 - part.lit.lower, 2.0))};
+    } else if constexpr (Numbers::kExact) {
+      const double value = sum.value.get_d();  // truncated: within one unit in the last place
+      part.lit = {std::max(0.0, std::nextafter(value, -1.0)),
+                  std::min(1.0, std::nextafter(value, 2.0))};
+      part.shadow = {std::max(0.0, std::nextafter(1 - part.lit.upper, -1.0)),
+                     std::min(1.0, std::nextafter(1 - part.lit.lower, 2.0))};
+    } else {
+      const auto value = static_cast<double>(sum.value);
+      part.lit = {value, value};
+      part.shadow = {1 - value, 1 - value};
+    }
+    if (options_.output.exact_fractions) {
+      ExactFractions& fractions = result_.exact_fractions[polygons_.polygons[i].part];
+      if constexpr (Numbers::kExact) {
+        fractions.lit = shadow ? mpq_class(sum.value) : mpq_class(1);
+      }
+      fractions.shadow = 1 - fractions.lit;
+    }
+  }
+}
+
+/// Exact subtraction for what is open: the sectors method on these polygons and what may shadow
+/// them.
+template <SectorSpaceModel Space, class Numbers>
+RunOutcome ContourRun<Space, Numbers>::find_open_ones(const std::function<void(double)>& progress) {
+  if constexpr (Numbers::kCertified) {
+    std::vector<std::uint8_t> takes_part(polygons_.size());  // 1: casts; 2: receives
+    bool some = false;
+    for (std::uint32_t i = 0; i < polygons_.size(); ++i) {
+      if (!is_open(sums_[i])) continue;
+      some = true;
+      takes_part[i] |= 2;
+      for (std::uint32_t j = first_neighbour_[i]; j < first_neighbour_[i + 1]; ++j) {
+        if (polygons_.polygons[neighbours_[j]].casts) takes_part[neighbours_[j]] |= 1;
+      }
+    }
+    if (!some) return RunOutcome::kDone;
+    std::vector<std::uint32_t> parts;
+    std::vector<std::uint8_t> receives;
+    for (std::uint32_t i = 0; i < polygons_.size(); ++i) {
+      if (takes_part[i] == 0) continue;
+      parts.push_back(polygons_.polygons[i].part);
+      receives.push_back(takes_part[i] & 2);
+      result_.work[Counter::kOpenPolygons] += takes_part[i] >> 1;
+    }
+    SectorRun<Space> exact(scene_, run_options_, rules_, scene_space_, result_.light,
+                           options_.kernel.options(), LeafMethod::kSubtract, Cover::kPartition,
+                           {parts, receives});
+    const RunOutcome outcome = exact.run({});
+    if (outcome != RunOutcome::kDone) return outcome;
+    stages_ += exact.stage_counts();
+    const LightResult found = exact.finish();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (receives[i] == 0) continue;
+      result_.parts[parts[i]] = found.parts[parts[i]];
+    }
+  }
+  if (progress) progress(1);
+  return RunOutcome::kDone;
+}
+
+template <SectorSpaceModel Space, class Numbers>
+LightResult ContourRun<Space, Numbers>::finish() {
+  return std::move(result_);
+}
+
+template <SectorSpaceModel Space, class Numbers>
+Expected<ShadowResult> compute_by_contour_here(const RunTask& task) {
+  const ShadowOptions& options = task.options;
+  const LightList& lights = task.lights;
+  ShadowResult result = empty_result(options);
+  const double start = cpu_seconds();
+  typename Space::SceneSpace scene_space(task.scene.geometry, options.kernel.options());
+  ContourRun<Space, Numbers> run(task.scene, options, task.rules, scene_space);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    std::function<void(double)> progress;
+    if (options.control.progress) {
+      progress = [&](double share) {
+        options.control.progress((static_cast<double>(i) + share) /
+                                 static_cast<double>(lights.size()));
+      };
+    }
+    const RunOutcome outcome = run.run(lights[i], progress);
+    if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
+    if (!put_light(options, run.finish(), result)) {
+      return stopped_by(RunOutcome::kInterrupted, options);
+    }
+  }
+  result.stages += run.stage_counts();
+  result.stages += scene_space.stage_counts();
+  result.shadow_seconds = cpu_seconds() - start;
+  return result;
+}
+
+template <class Kernel>
+Expected<ShadowResult> ByContour<Kernel>::run(const RunTask& task) {
+  tbb::task_arena arena(thread_count(task.options.tuning.jobs));
+  return arena.execute([&] {
+    return with_light_space<Kernel>(task.options.output.stage_counts, [&]<class Space>() {
+      if constexpr (Space::kExact) {
+        if (task.options.output.exact_fractions) {
+          return compute_by_contour_here<Space, typename ContourNumbersOf<Space, true>::type>(task);
+        }
+      }
+      return compute_by_contour_here<Space, typename ContourNumbersOf<Space, false>::type>(task);
+    });
+  });
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_CONTOUR_CONTOUR_RUN_H

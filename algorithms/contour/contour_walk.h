@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// One polygon of the contour method: along each of its edges, where it is seen from the light, and
+// on what lies behind it its edge casts a shadow's border.
+//
+// Binding rule (docs/contour.md): on a line of an edge each side h has the polygons that cover it
+// there, each with a key, (depth, slope into h). Seen on h is what has a key not below that of the
+// greatest caster. What is seen on one side only gets the boundary integral of the line there,
+// once. Taken edge by edge of a polygon O, with its inner and outer side:
+//  own     O gets the integral where no caster has a greater key on the inner side;
+//  acting  there, if O casts, it is taken from every polygon that covers both sides, lies below O
+//  on
+//          the inner side, and is seen on the outer one: those of the plane of the first caster
+//          behind, and those before it that cast none. Of several casters of one plane with an edge
+//          on this line and the same inner side the one of the smallest number acts; none does
+//          where a caster of O's plane goes on across the line.
+//  crease  where another caster B passes through O, O gets the integral of the line in which they
+//          meet, where it is not hidden on the side on which it is nearer than B.
+//
+// Certified numbers: which intervals there are, and who is nearer there, is exact (edge_lists.h).
+// Where two places on an edge cannot be told apart there may be a sliver between them: it is
+// counted into the bounds of all shares that it can change, and as "perhaps" for their classes.
+#ifndef GNOMON_ALGORITHMS_CONTOUR_CONTOUR_WALK_H
+#define GNOMON_ALGORITHMS_CONTOUR_CONTOUR_WALK_H
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/contour/contour_sums.h"
+#include "algorithms/contour/edge_lists.h"
+
+namespace gnomon {
+
+/// A part of an edge, and whether it certainly has a length.
+template <class Numbers>
+struct Segment {
+  Place<Numbers> low, high;
+  bool sure = true;
+};
+
+/// What a polygon's share is measured by: boundary integrals around its corner 0, and the sum of
+/// those of its own edges.
+template <class Numbers>
+struct ContourMeasure {
+  using T = typename Numbers::T;
+  std::vector<T> scale;                // by polygon: 1 / the sum over its whole border
+  std::vector<double> relative_error;  // certified: of scale; infinite: nothing is known
+};
+
+template <class Numbers, class Sides>
+class ContourWalk {
+ public:
+  using T = typename Numbers::T;
+
+  ContourWalk(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons,
+              const ContourMeasure<Numbers>& measure, Sides& sides,
+              std::span<ContourSum<Numbers>> sums)
+      : light_(&light),
+        polygons_(&polygons),
+        measure_(&measure),
+        survey_(light, polygons, sides),
+        sums_(sums) {}
+
+  /// Adds what polygon p gets by its own edges and takes from those behind it. `neighbours`: all
+  /// polygons that may overlap it as seen from the light.
+  void walk(std::uint32_t p, std::span<const std::uint32_t> neighbours);
+
+  std::uint64_t intervals() const { return intervals_; }
+  std::uint64_t segments() const { return segments_; }
+
+ private:
+  using PlaceOnEdge = Place<Numbers>;
+
+  // Filling of lists_.
+  void meet(std::uint32_t q);
+  void meet_on_edge(std::uint32_t k, std::uint32_t q, const LineThrough& through);
+  void meet_in_plane(EdgeLists<Numbers>& lists, std::uint32_t q, LineCover cover,
+                     const Behind<Numbers>& entry);
+  void meet_level(EdgeLists<Numbers>& lists, std::uint32_t q, LineCover cover,
+                  const Behind<Numbers>& entry);
+  void put(EdgeLists<Numbers>& lists, LineCover cover, bool other_above, bool casts,
+           const Behind<Numbers>& entry);
+  // Creases.
+  void crease(std::uint32_t q);
+  bool find_crease(std::uint32_t q, Crease<Numbers>& crease);
+  void hide_crease(const Crease<Numbers>& crease, std::uint32_t other, bool& open);
+
+  // One edge.
+  void walk_edge(std::uint32_t k);
+  void act_level(std::uint32_t k, const Behind<Numbers>& receiver);
+  bool is_above_outside(std::uint32_t k, std::uint32_t q, std::uint32_t than);
+  void act_along(std::uint32_t k, const Segment<Numbers>& segment);
+  bool piece(std::uint32_t k, const PlaceOnEdge& low, PlaceOnEdge& high);
+  int depth_order(const Behind<Numbers>& a, const Behind<Numbers>& b,
+                  const PlaceOnEdge& place) const;
+  bool is_first(std::uint32_t k, const Behind<Numbers>& a, const Behind<Numbers>& b,
+                const PlaceOnEdge& low, const PlaceOnEdge& high);
+  int level_order(std::uint32_t k, std::uint32_t a, std::uint32_t b);
+  int known_order(std::uint32_t a, std::uint32_t b);
+  PlaceOnEdge passing(const Behind<Numbers>& a, const Behind<Numbers>& b, const PlaceOnEdge& low,
+                      const PlaceOnEdge& high) const;
+  void end_where_order_changes(const Behind<Numbers>& entry, const Behind<Numbers>& top,
+                               const PlaceOnEdge& low, PlaceOnEdge& high);
+  bool is_behind(std::uint32_t k, const Behind<Numbers>& entry, const Behind<Numbers>& top,
+                 const PlaceOnEdge& low, const PlaceOnEdge& high);
+  void perhaps_at(std::uint32_t k, const PlaceOnEdge& low, const PlaceOnEdge& high);
+  void uncovered(std::span<const Segment<Numbers>> base, std::vector<Stretch<Numbers>>& covers,
+                 std::vector<Segment<Numbers>>& result);
+
+  // Sums.
+  T value_of(std::uint32_t k, std::uint32_t q) const;
+  double line_value_error(std::uint32_t k, std::uint32_t q) const {
+    return polygons_->error_of_line(polygons_->polygons[p_], k) * polygons_->reach[q];
+  }
+  void add_own(std::uint32_t k, const Segment<Numbers>& segment);
+  double share_error(std::uint32_t q, double rate, double line_value_error, const PlaceOnEdge& low,
+                     const PlaceOnEdge& high, double depth_low, double depth_high,
+                     double depth_error) const;
+  void take_from(std::uint32_t k, const Behind<Numbers>& receiver, const PlaceOnEdge& low,
+                 const PlaceOnEdge& high);
+  void take_perhaps(std::uint32_t k, const Behind<Numbers>& receiver, const PlaceOnEdge& low,
+                    const PlaceOnEdge& high);
+  static T depth_at(const Behind<Numbers>& entry, const PlaceOnEdge& place) {
+    return T(entry.depth_from + place.t * T(entry.depth_to - entry.depth_from));
+  }
+  bool casts(std::uint32_t q) const { return polygons_->polygons[q].casts; }
+  PlaneId plane(std::uint32_t q) const { return polygons_->polygons[q].plane; }
+
+  const LightRays<Numbers>* light_;
+  const FacingPolygons<Numbers>* polygons_;
+  const ContourMeasure<Numbers>* measure_;
+  EdgeSurvey<Numbers, Sides> survey_;
+  std::span<ContourSum<Numbers>> sums_;
+  std::uint32_t p_ = 0;                    // the polygon
+  std::vector<EdgeLists<Numbers>> lists_;  // of its edges
+  std::vector<Segment<Numbers>> seen_, free_;
+  std::vector<Stretch<Numbers>> covers_;
+  struct Event {
+    PlaceOnEdge at;
+    std::uint32_t entry = 0;
+    bool begins = false;
+  };
+  static constexpr std::uint32_t kNoEntry = 0xffffffffu;
+  std::vector<Event> events_;          // of polygons behind an edge
+  std::vector<std::uint32_t> active_;  // of lists_[k].behind
+  std::span<const std::uint32_t> neighbours_;
+  std::uint64_t intervals_ = 0, segments_ = 0;
+};
+
+// --- Who is on the edges. ---
+
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::walk(std::uint32_t p, std::span<const std::uint32_t> neighbours) {
+  p_ = p;
+  neighbours_ = neighbours;
+  const std::uint32_t n = polygons_->polygons[p].count;
+  if (lists_.size() < n) lists_.resize(n);
+  for (std::uint32_t k = 0; k < n; ++k) lists_[k].clear();
+  for (const std::uint32_t q : neighbours) meet(q);
+  for (std::uint32_t k = 0; k < n; ++k) walk_edge(k);
+}
+
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::meet(std::uint32_t q) {
+  const FacingPolygon& own = polygons_->polygons[p_];
+  if (!own.casts && !casts(q)) return;
+  for (std::uint32_t k = 0; k < own.count; ++k) {
+    const LineThrough through = survey_.through(p_, k, q);
+    if (through.cover != LineCover::kNone) meet_on_edge(k, q, through);
+  }
+  if (casts(q)) crease(q);
+}
+
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
+                                               const LineThrough& through) {
+  Stretch<Numbers> stretch;
+  if (!survey_.interval(p_, k, q, through, stretch)) return;
+  ++intervals_;
+  const std::uint32_t next = k + 1 == polygons_->polygons[p_].count ? 0 : k + 1;
+  EdgeLists<Numbers>& lists = lists_[k];
+  Behind<Numbers> entry{stretch.low,
+                        stretch.high,
+                        survey_.depth(q, p_, k),
+                        survey_.depth(q, p_, next),
+                        survey_.depth_error(q, p_),
+                        q,
+                        through.cover == LineCover::kBoth};
+  const int from = survey_.nearer(q, p_, k, entry.depth_from);
+  const int to = survey_.nearer(q, p_, next, entry.depth_to);
+  if (plane(q) == plane(p_)) {
+    meet_in_plane(lists, q, through.cover, entry);
+  } else if (from == 0 && to == 0) {
+    meet_level(lists, q, through.cover, entry);
+  } else if (from * to >= 0) {
+    put(lists, through.cover, from + to < 0, casts(q), entry);
+  } else {
+    // The edge goes through the plane of q.
+    const T own_from = light_->directional ? survey_.depth(p_, p_, k) : T(1);
+    const T own_to = light_->directional ? survey_.depth(p_, p_, next) : T(1);
+    double error = entry.depth_error;
+    if (Numbers::kCertified && light_->directional) error += survey_.depth_error(p_, p_);
+    const PlaceOnEdge pierced =
+        zero_between<Numbers>(T(own_from - entry.depth_from), T(own_to - entry.depth_to), error,
+                              PlaceName::support(plane(q)));
+    Behind<Numbers> before = entry, after = entry;
+    before.high = earlier_of(stretch.high, pierced);
+    after.low = later_of(stretch.low, pierced);
+    if (shorten(before.low, before.high)) put(lists, through.cover, from < 0, casts(q), before);
+    if (shorten(after.low, after.high)) put(lists, through.cover, to < 0, casts(q), after);
+  }
+}
+
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::put(EdgeLists<Numbers>& lists, LineCover cover, bool other_above,
+                                      bool other_casts, const Behind<Numbers>& entry) {
+  if (other_above) {
+    if (!other_casts) return;
+    if (cover == LineCover::kOuter) {
+      lists.taken.push_back({entry.low, entry.high});
+    } else {
+      lists.hidden.push_back({entry.low, entry.high});
+    }
+    return;
+  }
+  if (cover == LineCover::kInner || !casts(p_)) return;
+  if (cover == LineCover::kOuter && !other_casts) return;
+  lists.behind.push_back(entry);
+}
+
+// Polygons of one plane do not hide each other, but where another goes on beyond the edge, or has
+// its own edge there, this one does not act.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::meet_in_plane(EdgeLists<Numbers>& lists, std::uint32_t q,
+                                                LineCover cover, const Behind<Numbers>& entry) {
+  if (!casts(q) || !casts(p_)) return;
+  if (cover == LineCover::kOuter) {
+    lists.beside.push_back(entry);
+  } else if (cover == LineCover::kBoth || q < p_) {
+    lists.taken.push_back({entry.low, entry.high});
+  }
+}
+
+// The edge lies in the plane of q: their slopes tell who is nearer on the inner side.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::meet_level(EdgeLists<Numbers>& lists, std::uint32_t q,
+                                             LineCover cover, const Behind<Numbers>& entry) {
+  if (cover == LineCover::kOuter) {
+    if (casts(q) && casts(p_)) lists.beside.push_back(entry);
+  } else if (survey_.nearer_beside(q, p_) < 0) {
+    if (casts(q)) lists.hidden.push_back({entry.low, entry.high});
+  } else if (cover == LineCover::kBoth && casts(p_)) {
+    lists.level.push_back(entry);
+  }
+}
+
+}  // namespace gnomon
+
+#include "algorithms/contour/contour_acts.h"
+#include "algorithms/contour/contour_crease.h"
+#include "algorithms/contour/contour_integrals.h"
+
+#endif  // GNOMON_ALGORITHMS_CONTOUR_CONTOUR_WALK_H

@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What the other polygons are on each edge of one polygon: which of them hide it and where, and
+// which lie behind it.
+//
+// The interval of an edge inside a convex polygon is found without looking at where anything meets:
+// the line of the edge splits the corners of the polygon into left and right, and the two edges of
+// the polygon that go across are where the line enters and leaves it; on which sides of *their*
+// lines the two ends of the edge are tells whether the interval has any length, and whether its
+// ends are the edge's own. All of these are signs of input corners, so that a certified kernel
+// knows exactly which intervals there are, and doubles only say where they end.
+#ifndef GNOMON_ALGORITHMS_CONTOUR_EDGE_LISTS_H
+#define GNOMON_ALGORITHMS_CONTOUR_EDGE_LISTS_H
+
+#include <cstdint>
+#include <vector>
+
+#include "algorithms/contour/facing_polygons.h"
+#include "algorithms/contour/input_sides.h"
+
+namespace gnomon {
+
+template <class Numbers>
+struct Stretch {  // of an edge
+  Place<Numbers> low, high;
+};
+
+/// A polygon behind an edge, or beside it on its outer side, with its depth at the edge's ends.
+template <class Numbers>
+struct Behind {
+  Place<Numbers> low, high;
+  typename Numbers::T depth_from{}, depth_to{};
+  double depth_error = 0;  // certified
+  std::uint32_t polygon = 0;
+  bool covers_both = false;  // else on the outer side alone
+};
+
+/// What is on one edge. Kept from polygon to polygon, for its memory.
+template <class Numbers>
+struct EdgeLists {
+  std::vector<Stretch<Numbers>> hidden;  // by a caster above the edge's polygon on its inner side
+  std::vector<Stretch<Numbers>> taken;   // where another acts in its place, or nothing is behind it
+  std::vector<Behind<Numbers>> behind;   // below the edge
+  std::vector<Behind<Numbers>> level;    // whose plane holds the edge, and which it may act on
+  std::vector<Behind<Numbers>> beside;   // casters at the edge's own depth on its outer side alone
+
+  void clear() {
+    hidden.clear();
+    taken.clear();
+    behind.clear();
+    level.clear();
+    beside.clear();
+  }
+};
+
+/// Which sides of a line a polygon covers along it.
+enum class LineCover : std::uint8_t { kNone, kBoth, kInner, kOuter };
+
+/// Where the line of an edge goes through a polygon: it enters through edge `in` and leaves through
+/// edge `out`, or through a corner of these (a known one is named).
+struct LineThrough {
+  LineCover cover = LineCover::kNone;
+  std::uint32_t in = 0, out = 0;
+  PlaceName in_name, out_name;
+};
+
+/// The crease of two polygons from one end of the first one's chord to the other, the side on which
+/// the first is nearer on its left.
+template <class Numbers>
+struct Crease {
+  using T = typename Numbers::T;
+  std::uint32_t other = 0;   // the caster that passes through
+  Vector<T> from, to, line;  // rays of its ends, and the line through them
+  double end_error = 0;      // certified: of a component of `from` and `to`
+  double line_error = 0;     // certified: of a component of `line`
+};
+
+/// A sign that bounds may leave open.
+struct MaybeSign {
+  int sign = 0;
+  bool known = true;
+};
+
+template <class Numbers, class Sides>
+class EdgeSurvey {
+ public:
+  using T = typename Numbers::T;
+  EdgeSurvey(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons, Sides& sides)
+      : light_(&light), polygons_(&polygons), sides_(&sides) {}
+
+  /// Sign of the line of edge k of p at corner j of q; its value in `value`.
+  int side(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t j, T& value);
+  /// Where the line of edge k of polygon p goes through polygon q.
+  LineThrough through(std::uint32_t p, std::uint32_t k, std::uint32_t q);
+  /// The interval of edge k of p in q, which its line goes `through`. False: there is none.
+  bool interval(std::uint32_t p, std::uint32_t k, std::uint32_t q, const LineThrough& through,
+                Stretch<Numbers>& stretch);
+  /// The depth of q's plane on the ray of corner j of p.
+  T depth(std::uint32_t q, std::uint32_t p, std::uint32_t j) const;
+  double depth_error(std::uint32_t q, std::uint32_t p) const;
+  /// 1 if corner j of p is nearer than the plane of q, -1 if it is behind, 0 on it; `depth`: of q
+  /// there.
+  int nearer(std::uint32_t q, std::uint32_t p, std::uint32_t j, const T& depth);
+  /// How much nearer corner j of p is than the plane of q, in units of depth, and the bound of
+  /// that.
+  T depth_over(std::uint32_t p, std::uint32_t q, std::uint32_t j) const;
+  double depth_over_error(std::uint32_t p, std::uint32_t q) const;
+  /// 1 if polygon p is nearer than the plane of q on the inner side of its edge, which lies in
+  /// that plane; 0 if the planes are one.
+  int nearer_beside(std::uint32_t q, std::uint32_t p);
+
+  /// Where the plane of q cuts polygon p, what is nearer than q on the left: kBoth if corners are
+  /// on both sides.
+  LineThrough through_plane(std::uint32_t p, std::uint32_t q);
+  /// Where the line of a crease of p goes through polygon q; `open`: the bounds do not tell.
+  LineThrough through_crease(const Crease<Numbers>& crease, std::uint32_t p, std::uint32_t q,
+                             bool& open);
+  bool interval_of_crease(const Crease<Numbers>& crease, std::uint32_t q,
+                          const LineThrough& through, Stretch<Numbers>& stretch, bool& open) const;
+  /// Whether an end of a crease of p is nearer than the plane of q, and by how much.
+  MaybeSign crease_nearer(const Crease<Numbers>& crease, const Vector<T>& end, std::uint32_t p,
+                          std::uint32_t q, T& by) const;
+  double crease_depth_error(const Crease<Numbers>& crease, std::uint32_t p, std::uint32_t q) const;
+
+ private:
+  LineThrough name_ends(std::uint32_t q, LineCover cover, bool zero_is_left) const;
+  /// From signs_, of which so many are on the left and on the right.
+  LineThrough through_signs(std::uint32_t q, std::uint32_t left, std::uint32_t right) const;
+
+  const LightRays<Numbers>* light_;
+  const FacingPolygons<Numbers>* polygons_;
+  Sides* sides_;
+  std::vector<std::int8_t> signs_;  // of the corners of a polygon against a line
+};
+
+template <class Numbers, class Sides>
+int EdgeSurvey<Numbers, Sides>::side(std::uint32_t p, std::uint32_t k, std::uint32_t q,
+                                     std::uint32_t j, T& value) {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const FacingPolygon& other = polygons_->polygons[q];
+  value = dot_product(polygons_->line(own, k), polygons_->corner(other, j));
+  if constexpr (Numbers::kAsksKernel) {
+    return sides_->of_line(p, k, q, j);
+  } else {
+    const double bound = polygons_->error_of_line(own, k) * polygons_->reach[q];
+    if (value > bound) return 1;
+    if (value < -bound) return -1;
+    if constexpr (!Numbers::kCertified) return 0;
+    const VertexId vertex = polygons_->vertex(other, j);
+    if (vertex == polygons_->vertex(own, k) ||
+        vertex == polygons_->vertex(own, k + 1 == own.count ? 0 : k + 1)) {
+      return 0;
+    }
+    return sides_->of_line(p, k, q, j);
+  }
+}
+
+// The line enters where it goes from corners on the left to corners on the right.
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::name_ends(std::uint32_t q, LineCover cover,
+                                                  bool zero_is_left) const {
+  const FacingPolygon& other = polygons_->polygons[q];
+  const std::uint32_t n = other.count;
+  const auto is_left = [&](std::uint32_t j) {
+    return signs_[j] > 0 || (signs_[j] == 0 && zero_is_left);
+  };
+  // A corner on the line is where the line crosses the two edges that meet there.
+  const auto name = [&](std::uint32_t edge, std::uint32_t next) {
+    const std::uint32_t corner = signs_[edge] == 0 ? edge : next;
+    return signs_[corner] == 0 ? PlaceName::vertex(polygons_->vertex(other, corner))
+                               : PlaceName::line(polygons_->edge(other, edge).index());
+  };
+  LineThrough result;
+  bool enters = false, leaves = false;
+  for (std::uint32_t j = 0; j < n; ++j) {
+    const std::uint32_t next = j + 1 == n ? 0 : j + 1;
+    const bool left = is_left(j), then_left = is_left(next);
+    if (left && !then_left && !enters) {
+      enters = true;
+      result.in = j;
+      result.in_name = name(j, next);
+    } else if (!left && then_left && !leaves) {
+      leaves = true;
+      result.out = j;
+      result.out_name = name(j, next);
+    }
+  }
+  if (enters && leaves) result.cover = cover;
+  return result;
+}
+
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::through(std::uint32_t p, std::uint32_t k, std::uint32_t q) {
+  const std::uint32_t n = polygons_->polygons[q].count;
+  signs_.resize(n);
+  std::uint32_t left = 0, right = 0;
+  T value;
+  for (std::uint32_t j = 0; j < n; ++j) {
+    const int sign = side(p, k, q, j, value);
+    signs_[j] = static_cast<std::int8_t>(sign);
+    left += sign > 0;
+    right += sign < 0;
+  }
+  return through_signs(q, left, right);
+}
+
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::through_signs(std::uint32_t q, std::uint32_t left,
+                                                      std::uint32_t right) const {
+  const auto n = static_cast<std::uint32_t>(signs_.size());
+  if (left != 0 && right != 0) return name_ends(q, LineCover::kBoth, false);
+  if (left + right + 2 > n || left + right == 0) return {};
+  return left != 0 ? name_ends(q, LineCover::kInner, false) : name_ends(q, LineCover::kOuter, true);
+}
+
+// An end of the edge that is on the line where it enters is inside if the other end is. For
+// polygons in all directions around a lamp: the edge and the part of its line in the polygon are
+// arcs of one great circle, each shorter than half of it, so that an edge that starts on the inner
+// side of both lines meets the polygon at once or not at all.
+template <class Numbers, class Sides>
+bool EdgeSurvey<Numbers, Sides>::interval(std::uint32_t p, std::uint32_t k, std::uint32_t q,
+                                          const LineThrough& through, Stretch<Numbers>& stretch) {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const std::uint32_t next = k + 1 == own.count ? 0 : k + 1;
+  const auto error = [&](std::uint32_t edge) {
+    return polygons_->error_of_line(polygons_->polygons[q], edge) * polygons_->reach[p];
+  };
+  T in_from, in_to, out_from, out_to;
+  const int enters_from = side(q, through.in, p, k, in_from);
+  const int enters_to = side(q, through.in, p, next, in_to);
+  const bool starts_inside = enters_from > 0 || (enters_from == 0 && enters_to > 0);
+  if (!starts_inside && !(enters_from < 0 && enters_to > 0)) return false;
+  const int leaves_to = side(q, through.out, p, next, out_to);
+  const int leaves_from = side(q, through.out, p, k, out_from);
+  if (starts_inside ? leaves_from <= 0 : (leaves_to < 0 && leaves_from <= 0)) return false;
+  stretch.low = starts_inside
+                    ? Place<Numbers>::from()
+                    : zero_between<Numbers>(in_from, in_to, error(through.in), through.in_name);
+  stretch.high = leaves_to >= 0 ? Place<Numbers>::to()
+                                : zero_between<Numbers>(out_from, out_to, error(through.out),
+                                                        through.out_name);
+  if constexpr (!Numbers::kCertified) return stretch.low.t < stretch.high.t;
+  return true;
+}
+
+template <class Numbers, class Sides>
+auto EdgeSurvey<Numbers, Sides>::depth(std::uint32_t q, std::uint32_t p, std::uint32_t j) const
+    -> T {
+  return dot_product(light_->depths[polygons_->polygons[q].plane],
+                     polygons_->corner(polygons_->polygons[p], j));
+}
+
+template <class Numbers, class Sides>
+double EdgeSurvey<Numbers, Sides>::depth_error(std::uint32_t q, std::uint32_t p) const {
+  if constexpr (!Numbers::kCertified) return 0;
+  return light_->depth_error[polygons_->polygons[q].plane] * polygons_->reach[p];
+}
+
+template <class Numbers, class Sides>
+int EdgeSurvey<Numbers, Sides>::nearer(std::uint32_t q, std::uint32_t p, std::uint32_t j,
+                                       const T& depth_of_other) {
+  const PlaneId own = polygons_->polygons[p].plane, other = polygons_->polygons[q].plane;
+  if (own == other) return 0;
+  if constexpr (Numbers::kAsksKernel) {
+    return sides_->of_support(q, p, j);
+  } else {
+    const T difference = (light_->directional ? depth(p, p, j) : T(1)) - depth_of_other;
+    const double bound = Numbers::kCertified ? depth_over_error(p, q) : light_->depth_error[other];
+    if (difference > bound) return 1;
+    if (difference < -bound) return -1;
+    if constexpr (!Numbers::kCertified) return 0;
+    return sides_->of_support(q, p, j);
+  }
+}
+
+// The depth at a polygon's own corner is 1 for a point light, exactly.
+template <class Numbers, class Sides>
+auto EdgeSurvey<Numbers, Sides>::depth_over(std::uint32_t p, std::uint32_t q, std::uint32_t j) const
+    -> T {
+  return T((light_->directional ? depth(p, p, j) : T(1)) - depth(q, p, j));
+}
+
+// The difference rounds by u of at most 3 M R of each depth (kDepth has room for it).
+template <class Numbers, class Sides>
+double EdgeSurvey<Numbers, Sides>::depth_over_error(std::uint32_t p, std::uint32_t q) const {
+  double bound = 1.1 * light_->depth_error[polygons_->polygons[q].plane];
+  if (light_->directional) bound += 1.1 * light_->depth_error[polygons_->polygons[p].plane];
+  return bound * polygons_->reach[p] + Ball::kUnit;
+}
+
+template <class Numbers, class Sides>
+int EdgeSurvey<Numbers, Sides>::nearer_beside(std::uint32_t q, std::uint32_t p) {
+  for (std::uint32_t j = 0; j < polygons_->polygons[p].count; ++j) {
+    const int sign = nearer(q, p, j, depth(q, p, j));
+    if (sign != 0) return sign;
+  }
+  return 0;
+}
+
+// --- Creases. ---
+
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::through_plane(std::uint32_t p, std::uint32_t q) {
+  const std::uint32_t n = polygons_->polygons[p].count;
+  signs_.resize(n);
+  std::uint32_t left = 0, right = 0;
+  for (std::uint32_t j = 0; j < n; ++j) {
+    const int sign = nearer(q, p, j, depth(q, p, j));
+    signs_[j] = static_cast<std::int8_t>(sign);
+    left += sign > 0;
+    right += sign < 0;
+  }
+  return through_signs(p, left, right);
+}
+
+// The line is where the depths of its two polygons are equal, the first one's greater on its left.
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::through_crease(const Crease<Numbers>& crease,
+                                                       std::uint32_t p, std::uint32_t q,
+                                                       bool& open) {
+  const FacingPolygon& other = polygons_->polygons[q];
+  const PlaneId first = polygons_->polygons[p].plane;
+  const PlaneId second = polygons_->polygons[crease.other].plane;
+  signs_.resize(other.count);
+  std::uint32_t left = 0, right = 0;
+  for (std::uint32_t j = 0; j < other.count; ++j) {
+    const Vector<T> corner = polygons_->corner(other, j);
+    const T value =
+        T(dot_product(light_->depths[first], corner) - dot_product(light_->depths[second], corner));
+    int sign = sign_of_value(value);
+    if constexpr (Numbers::kCertified) {
+      const double bound =
+          1.1 * (light_->depth_error[first] + light_->depth_error[second]) * polygons_->reach[q];
+      if (!(std::fabs(value) > bound)) {
+        open = true;
+        return {};
+      }
+    }
+    signs_[j] = static_cast<std::int8_t>(sign);
+    left += sign > 0;
+    right += sign < 0;
+  }
+  return through_signs(q, left, right);
+}
+
+template <class Numbers, class Sides>
+bool EdgeSurvey<Numbers, Sides>::interval_of_crease(const Crease<Numbers>& crease, std::uint32_t q,
+                                                    const LineThrough& through,
+                                                    Stretch<Numbers>& stretch, bool& open) const {
+  const FacingPolygon& other = polygons_->polygons[q];
+  double error = 0;
+  const auto value_of = [&](std::uint32_t edge, const Vector<T>& end, T& value) {
+    const Vector<T> line = polygons_->line(other, edge);
+    value = dot_product(line, end);
+    if constexpr (Numbers::kCertified) {
+      error = std::max(error,
+                       polygons_->error_of_line(other, edge) * (largest(end) + crease.end_error) +
+                           3.1 * largest(line) * crease.end_error);
+      if (!(std::fabs(value) > error)) open = true;
+    }
+    return sign_of_value(value);
+  };
+  T in_from, in_to, out_from, out_to;
+  const int enters_from = value_of(through.in, crease.from, in_from);
+  const int enters_to = value_of(through.in, crease.to, in_to);
+  const int leaves_from = value_of(through.out, crease.from, out_from);
+  const int leaves_to = value_of(through.out, crease.to, out_to);
+  if (open) return false;
+  const bool starts_inside = enters_from > 0 || (enters_from == 0 && enters_to > 0);
+  if (!starts_inside && !(enters_from < 0 && enters_to > 0)) return false;
+  if (starts_inside ? leaves_from <= 0 : (leaves_to < 0 && leaves_from <= 0)) return false;
+  stretch.low = starts_inside ? Place<Numbers>::from()
+                              : zero_between<Numbers>(in_from, in_to, error, through.in_name);
+  stretch.high = leaves_to >= 0 ? Place<Numbers>::to()
+                                : zero_between<Numbers>(out_from, out_to, error, through.out_name);
+  if constexpr (!Numbers::kCertified) return stretch.low.t < stretch.high.t;
+  return true;
+}
+
+template <class Numbers, class Sides>
+MaybeSign EdgeSurvey<Numbers, Sides>::crease_nearer(const Crease<Numbers>& crease,
+                                                    const Vector<T>& end, std::uint32_t p,
+                                                    std::uint32_t q, T& by) const {
+  const Vector<T>& own = light_->depths[polygons_->polygons[p].plane];
+  by = T((light_->directional ? dot_product(own, end) : T(1)) -
+         dot_product(light_->depths[polygons_->polygons[q].plane], end));
+  MaybeSign result{sign_of_value(by), true};
+  if constexpr (Numbers::kCertified) {
+    result.known = std::fabs(by) > crease_depth_error(crease, p, q);
+  }
+  return result;
+}
+
+template <class Numbers, class Sides>
+double EdgeSurvey<Numbers, Sides>::crease_depth_error(const Crease<Numbers>& crease,
+                                                      std::uint32_t p, std::uint32_t q) const {
+  if constexpr (!Numbers::kCertified) {
+    return 0;
+  } else {
+    const PlaneId own = polygons_->polygons[p].plane, other = polygons_->polygons[q].plane;
+    const double size =
+        largest(light_->depths[other]) + (light_->directional ? largest(light_->depths[own]) : 0);
+    return 1.1 * depth_over_error(p, q) + 3.1 * size * crease.end_error;
+  }
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_CONTOUR_EDGE_LISTS_H

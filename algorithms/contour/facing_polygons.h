@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The parts that face the light, as the contour method reads them: corners and lines in rows of
+// four, one polygon after another, counter-clockwise as seen from the light.
+#ifndef GNOMON_ALGORITHMS_CONTOUR_FACING_POLYGONS_H
+#define GNOMON_ALGORITHMS_CONTOUR_FACING_POLYGONS_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "algorithms/contour/light_rays.h"
+#include "algorithms/partition/import_export.h"
+#include "gnomon/scene/prepare.h"
+
+namespace gnomon {
+
+/// One polygon; its corners are [first, first + count) of the arrays by corner.
+struct FacingPolygon {
+  std::uint32_t part = 0, first = 0, count = 0;
+  std::uint32_t block = 0;  // its first block of four corners
+  PlaneId plane = 0;
+  bool casts = true, reversed = false;
+
+  std::uint32_t blocks() const { return (count + 3) / 4; }
+};
+
+/// Three rows of four: components x, y and z of four vectors, from corners or lines.
+template <class T>
+struct VectorBlock {
+  T x[4], y[4], z[4];
+
+  Vector<T> at(std::uint32_t k) const { return {x[k], y[k], z[k]}; }
+  void set(std::uint32_t k, const Vector<T>& v) {
+    x[k] = v[0];
+    y[k] = v[1];
+    z[k] = v[2];
+  }
+};
+
+template <class Numbers>
+struct FacingPolygons {
+  using T = typename Numbers::T;
+
+  std::vector<FacingPolygon> polygons;
+  std::vector<VertexId> vertices;              // by corner
+  std::vector<PlaneRef> edges;                 // by corner: the edge from it to the next, by EdgeId
+  std::vector<VectorBlock<T>> corners, lines;  // interior on the positive side of lines
+  std::vector<double> line_error;  // by corner, padded as blocks: of a line's value for |r_k| <= 1
+  std::vector<double> reach;       // by polygon: the largest |r_k| of its corners
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(polygons.size()); }
+  Vector<T> corner(const FacingPolygon& p, std::uint32_t k) const {
+    return corners[p.block + k / 4].at(k % 4);
+  }
+  Vector<T> line(const FacingPolygon& p, std::uint32_t k) const {
+    return lines[p.block + k / 4].at(k % 4);
+  }
+  double error_of_line(const FacingPolygon& p, std::uint32_t k) const {
+    return line_error[4 * std::size_t{p.block} + k];
+  }
+  VertexId vertex(const FacingPolygon& p, std::uint32_t k) const { return vertices[p.first + k]; }
+  PlaneRef edge(const FacingPolygon& p, std::uint32_t k) const { return edges[p.first + k]; }
+
+  /// Lays out the parts of `facing`, in its order. The arrays are kept from light to light.
+  void lay_out(const PreparedScene& scene, const FacingParts& facing);
+  /// Fills polygons [begin, end) with the numbers of one light.
+  void fill(const LightRays<Numbers>& light, std::uint32_t begin, std::uint32_t end);
+};
+
+template <class Numbers>
+void FacingPolygons<Numbers>::lay_out(const PreparedScene& scene, const FacingParts& facing) {
+  polygons.resize(facing.parts.size());
+  vertices.resize(facing.edges);
+  edges.resize(facing.edges);
+  std::uint32_t first = 0, block = 0;
+  for (std::size_t i = 0; i < facing.parts.size(); ++i) {
+    const std::uint32_t index = facing.parts[i];
+    const Part& part = scene.parts[index];
+    const bool reversed = facing.facing[index].side == Side::kBack;
+    polygons[i] = {index, first, part.count, block, part.plane, part.casts, reversed};
+    const auto loop = scene.loop(part);
+    const auto loop_edges = scene.edges(part);
+    // Reversed: vertex k becomes n - 1 - k, and the edge that ended in it now starts from it.
+    for (std::uint32_t k = 0; k < part.count; ++k) {
+      const std::uint32_t from = reversed ? part.count - 1 - k : k;
+      const std::uint32_t edge = !reversed ? k : from == 0 ? part.count - 1 : from - 1;
+      vertices[first + k] = loop[from];
+      edges[first + k] = reversed ? -loop_edges[edge] : loop_edges[edge];
+    }
+    first += part.count;
+    block += polygons[i].blocks();
+  }
+  corners.resize(block);
+  lines.resize(block);
+  line_error.resize(4 * std::size_t{block});
+  reach.resize(polygons.size());
+}
+
+template <class Numbers>
+void FacingPolygons<Numbers>::fill(const LightRays<Numbers>& light, std::uint32_t begin,
+                                   std::uint32_t end) {
+  for (std::uint32_t i = begin; i < end; ++i) {
+    const FacingPolygon& p = polygons[i];
+    double most = 0;
+    for (std::uint32_t k = 0; k < 4 * p.blocks(); ++k) {
+      // The last block is filled up with corner 0, which changes no sign of the polygon.
+      const std::uint32_t from = p.first + (k < p.count ? k : 0);
+      const Vector<T>& ray = light.rays[vertices[from]];
+      corners[p.block + k / 4].set(k % 4, ray);
+      if constexpr (Numbers::kCertified) most = std::max(most, largest(ray));
+      const PlaneRef edge = edges[from];
+      Vector<T> line = light.lines[edge.index()];
+      if (edge.flipped()) {
+        for (T& x : line) x = T(-x);
+      }
+      lines[p.block + k / 4].set(k % 4, line);
+      line_error[4 * std::size_t{p.block} + k] = light.line_error[edge.index()];
+    }
+    reach[i] = Numbers::kCertified ? most : 1;
+  }
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_CONTOUR_FACING_POLYGONS_H
