@@ -95,48 +95,53 @@ void PairSearch::list_boxes_of_owners(std::span<const ChartBoxes> charts, std::u
   }
 }
 
-/// The rows of owners from those of their boxes. A pair is found in each chart that both are in.
-void PairSearch::join_rows(std::span<const ChartBoxes> charts, std::uint32_t owners,
-                           unsigned jobs) {
+/// Puts the rows of owners with several boxes into neighbours_, from where first_ says, each number
+/// once. A pair is found in each chart that both are in. sizes_ gets the length of every row.
+void PairSearch::join_rows_of_boxes(unsigned jobs) {
+  const auto owners = static_cast<std::uint32_t>(sizes_.size());
+  const auto size_of = [&](std::uint32_t box) { return box_first_[box + 1] - box_first_[box]; };
+  first_.assign(owners + 1, 0);
+  in_parallel(jobs, owners, kRowGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t owner = begin; owner < end; ++owner) {
+      for (const std::uint32_t box : boxes_of(owner)) first_[owner] += size_of(box);
+    }
+  });
+  sum_up(first_);
+  in_parallel(jobs, owners, kRowGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t owner = begin; owner < end; ++owner) {
+      sizes_[owner] = first_[owner + 1] - first_[owner];
+      if (boxes_of(owner).size() < 2) continue;
+      const auto row = neighbours_.begin() + first_[owner];
+      auto last = row;
+      for (const std::uint32_t box : boxes_of(owner)) {
+        last = std::copy_n(box_neighbours_.begin() + box_first_[box], size_of(box), last);
+      }
+      std::sort(row, last);
+      sizes_[owner] = static_cast<std::uint32_t>(std::unique(row, last) - row);
+    }
+  });
+}
+
+/// The rows of owners from those of their boxes.
+void PairSearch::make_rows_of_owners(std::span<const ChartBoxes> charts, std::uint32_t owners,
+                                     unsigned jobs) {
   list_boxes_of_owners(charts, owners);
   box_first_.swap(first_);
   box_neighbours_.swap(neighbours_);
   make_room(neighbours_, box_first_.back());
-  first_.assign(owners + 1, 0);
-  // With what is there twice; then each owner's row in its place, and how long it really is.
-  for (std::uint32_t owner = 0; owner < owners; ++owner) {
-    std::uint32_t size = 0;
-    for (std::uint32_t i = owner_box_first_[owner]; i < owner_box_first_[owner + 1]; ++i) {
-      size += box_first_[owner_boxes_[i] + 1] - box_first_[owner_boxes_[i]];
-    }
-    first_[owner + 1] = first_[owner] + size;
-  }
-  in_parallel(jobs, owners, kRowGrain, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t owner = begin; owner < end; ++owner) {
-      const auto row = neighbours_.begin() + first_[owner];
-      auto last = row;
-      for (std::uint32_t i = owner_box_first_[owner]; i < owner_box_first_[owner + 1]; ++i) {
-        const std::uint32_t box = owner_boxes_[i];
-        last = std::copy(box_neighbours_.begin() + box_first_[box],
-                         box_neighbours_.begin() + box_first_[box + 1], last);
-      }
-      if (owner_box_first_[owner + 1] - owner_box_first_[owner] > 1) {
-        std::sort(row, last);
-        last = std::unique(row, last);
-      }
-      sizes_[owner] = static_cast<std::uint32_t>(last - row);
-    }
-  });
+  join_rows_of_boxes(jobs);
   const std::uint32_t size = sum_up(sizes_);
-  if (size == first_[owners]) return;
+  make_room(joined_, size);
   in_parallel(jobs, owners, kRowGrain, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t owner = begin; owner < end; ++owner) {
+      const auto boxes = boxes_of(owner);
+      const auto row = boxes.size() == 1 ? box_neighbours_.begin() + box_first_[boxes[0]]
+                                         : neighbours_.begin() + first_[owner];
       const std::uint32_t next = owner + 1 == owners ? size : sizes_[owner + 1];
-      std::copy_n(neighbours_.begin() + first_[owner], next - sizes_[owner],
-                  box_neighbours_.begin() + sizes_[owner]);
+      std::copy_n(row, next - sizes_[owner], joined_.begin() + sizes_[owner]);
     }
   });
-  neighbours_.swap(box_neighbours_);
+  neighbours_.swap(joined_);
   std::copy(sizes_.begin(), sizes_.end(), first_.begin());
   first_[owners] = size;
 }
@@ -152,7 +157,7 @@ bool PairSearch::run(std::span<const ChartBoxes> charts, std::uint32_t owners,
   if (charts.size() == 1 && charts[0].owners.empty()) {
     assert(charts[0].size() == owners);
   } else {
-    join_rows(charts, owners, options.jobs);
+    make_rows_of_owners(charts, owners, options.jobs);
   }
   return true;
 }

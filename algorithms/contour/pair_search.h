@@ -24,8 +24,8 @@
 namespace gnomon {
 
 struct PairOptions {
-  std::span<const std::uint8_t> casts;  // of each owner, 0 or 1; empty: all cast
-  unsigned jobs = 1;                    // 1: the calling thread; else those of its arena
+  std::span<const std::uint8_t> casts = {};  // of each owner, 0 or 1; empty: all cast
+  unsigned jobs = 1;                         // 1: the calling thread; else those of its arena
   std::uint64_t most_pairs = kMostPairs;
   /// The most pairs that rows can number.
   static constexpr std::uint64_t kMostPairs = 0x7fffffff;
@@ -61,8 +61,13 @@ class PairSearch {
   bool find_pairs(const PairOptions& options);
   void make_rows_of_boxes(unsigned jobs);
   void write_rows(const StripPairs& pairs, std::uint32_t begin, std::uint32_t end);
-  void join_rows(std::span<const ChartBoxes> charts, std::uint32_t owners, unsigned jobs);
   void list_boxes_of_owners(std::span<const ChartBoxes> charts, std::uint32_t owners);
+  void join_rows_of_boxes(unsigned jobs);
+  void make_rows_of_owners(std::span<const ChartBoxes> charts, std::uint32_t owners, unsigned jobs);
+  std::span<const std::uint32_t> boxes_of(std::uint32_t owner) const {
+    return {owner_boxes_.data() + owner_box_first_[owner],
+            owner_boxes_.data() + owner_box_first_[owner + 1]};
+  }
 
   const Lanes& lanes_;
   StripEntries entries_;
@@ -75,7 +80,7 @@ class PairSearch {
   // Where owners have several boxes:
   std::vector<std::uint32_t> box_first_, box_neighbours_;  // rows of boxes
   std::vector<std::uint32_t> owner_box_first_, owner_boxes_;
-  std::vector<std::uint32_t> sizes_;
+  std::vector<std::uint32_t> sizes_, joined_;
 };
 
 }  // namespace gnomon

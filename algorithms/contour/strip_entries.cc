@@ -2,6 +2,7 @@
 #include "algorithms/contour/strip_entries.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "algorithms/contour/in_parallel.h"
@@ -42,6 +43,7 @@ void StripEntries::make_blocks(std::span<const ChartBoxes> charts, unsigned jobs
 void StripEntries::find_spans(const ChartBoxes& boxes, Block& block) {
   const StripPlan& plan = plans_[block.chart];
   for (std::uint32_t i = block.begin; i < block.end; ++i) {
+    assert(boxes.low_u[i] <= boxes.high_u[i] && boxes.low_v[i] <= boxes.high_v[i]);
     const StripSpan span = {plan.strip_of(boxes.low_v[i]), plan.strip_of(boxes.high_v[i])};
     spans_[block.first_box + i] = span;
     block.tall.add(span);

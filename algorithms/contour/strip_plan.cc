@@ -17,8 +17,8 @@ constexpr std::uint32_t kLeastBoxes = 16;
 
 /// Which share of the sorted values, the box's own apart, lies between two values.
 float share_between(const std::vector<float>& sorted, float low, float high) {
-  const auto begin = std::ranges::lower_bound(sorted, low);
-  const auto end = std::upper_bound(begin, sorted.end(), high);
+  const std::uint32_t begin = count_while(sorted, [low](float value) { return value < low; });
+  const std::uint32_t end = count_while(sorted, [high](float value) { return value <= high; });
   return static_cast<float>(end - begin - 1) / static_cast<float>(sorted.size());
 }
 

@@ -17,6 +17,19 @@
 
 namespace gnomon {
 
+/// How many of the values `holds` is true for, which is so for the first ones. No branch depends on
+/// the values.
+template <class Holds>
+std::uint32_t count_while(const std::vector<float>& values, const Holds& holds) {
+  const float* at = values.data();
+  for (std::size_t n = values.size(); n > 0;) {
+    const std::size_t half = (n + 1) / 2;
+    at += half & (std::size_t{0} - static_cast<std::size_t>(holds(at[half - 1])));
+    n -= half;
+  }
+  return static_cast<std::uint32_t>(at - values.data());
+}
+
 class StripPlan {
  public:
   void make(const ChartBoxes& boxes);
@@ -24,13 +37,7 @@ class StripPlan {
   std::uint32_t strips() const { return static_cast<std::uint32_t>(borders_.size()) + 1; }
   /// The number of borders that are not above v.
   std::uint32_t strip_of(float v) const {
-    const float* at = borders_.data();
-    for (std::size_t n = borders_.size(); n > 0;) {  // without branches that depend on v
-      const std::size_t half = (n + 1) / 2;
-      at = at[half - 1] <= v ? at + half : at;
-      n -= half;
-    }
-    return static_cast<std::uint32_t>(at - borders_.data());
+    return count_while(borders_, [v](float border) { return border <= v; });
   }
 
  private:
