@@ -81,6 +81,7 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"tiling", {"partition", "lights", "basic"}},
         {"two_pass", {"partition"}},
         {"sectors", {"partition", "two_pass"}},
+        {"contour", {"partition"}},
         {"shadow_volumes", {"partition"}},
         {"volume_trees", {"partition", "shadow_volumes"}},
         {"illumination", {"partition"}},
