@@ -29,6 +29,7 @@
 
 #include "algorithms/contour/contour_sums.h"
 #include "algorithms/contour/edge_lists.h"
+#include "algorithms/contour/light_charts.h"
 
 namespace gnomon {
 
@@ -54,12 +55,13 @@ class ContourWalk {
   using T = typename Numbers::T;
 
   ContourWalk(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons,
-              const ContourMeasure<Numbers>& measure, Sides& sides,
-              std::span<ContourSum<Numbers>> sums)
+              const ContourMeasure<Numbers>& measure, std::span<const DepthRange> depths,
+              Sides& sides, const Lanes& lanes, std::span<ContourSum<Numbers>> sums)
       : light_(&light),
         polygons_(&polygons),
         measure_(&measure),
-        survey_(light, polygons, sides),
+        depths_(depths),
+        survey_(light, polygons, sides, lanes),
         sums_(sums) {}
 
   /// Adds what polygon p gets by its own edges and takes from those behind it. `neighbours`: all
@@ -73,7 +75,9 @@ class ContourWalk {
   using PlaceOnEdge = Place<Numbers>;
 
   // Filling of lists_.
+  void find_silent_edges();
   void meet(std::uint32_t q);
+  void meet_outside(std::uint32_t q);
   void meet_on_edge(std::uint32_t k, std::uint32_t q, const LineThrough& through);
   void meet_in_plane(EdgeLists<Numbers>& lists, std::uint32_t q, LineCover cover,
                      const Behind<Numbers>& entry);
@@ -130,10 +134,15 @@ class ContourWalk {
   const LightRays<Numbers>* light_;
   const FacingPolygons<Numbers>* polygons_;
   const ContourMeasure<Numbers>* measure_;
+  std::span<const DepthRange> depths_;
   EdgeSurvey<Numbers, Sides> survey_;
   std::span<ContourSum<Numbers>> sums_;
   std::uint32_t p_ = 0;                    // the polygon
   std::vector<EdgeLists<Numbers>> lists_;  // of its edges
+  // Of its edges: whether it casts nothing on what is strictly below it, since it is not a
+  // caster's, or another caster goes on from it.
+  std::vector<std::uint8_t> silent_;
+  bool all_edges_silent_ = false;
   std::vector<Segment<Numbers>> seen_, free_;
   std::vector<Stretch<Numbers>> covers_;
   struct Event {
@@ -157,38 +166,74 @@ void ContourWalk<Numbers, Sides>::walk(std::uint32_t p, std::span<const std::uin
   const std::uint32_t n = polygons_->polygons[p].count;
   if (lists_.size() < n) lists_.resize(n);
   for (std::uint32_t k = 0; k < n; ++k) lists_[k].clear();
+  find_silent_edges();
   for (const std::uint32_t q : neighbours) meet(q);
   for (std::uint32_t k = 0; k < n; ++k) walk_edge(k);
 }
 
 template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::find_silent_edges() {
+  const FacingPolygon& own = polygons_->polygons[p_];
+  silent_.assign(own.count, 1);
+  all_edges_silent_ = true;
+  if (!own.casts) return;
+  for (std::uint32_t k = 0; k < own.count; ++k) {
+    silent_[k] = polygons_->is_shared[own.first + k];
+    all_edges_silent_ = all_edges_silent_ && silent_[k] != 0;
+  }
+}
+
+template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::meet(std::uint32_t q) {
   const FacingPolygon& own = polygons_->polygons[p_];
-  if (!own.casts && !casts(q)) return;
+  const DepthRange mine = depths_[p_], its = depths_[q];
+  const bool below = its.high < mine.low, above = mine.high < its.low;
+  if (!casts(q) && (above || !own.casts)) return;
+  if (below && all_edges_silent_) return;
+  if (!survey_.find_signs(p_, q)) {
+    // They do not overlap, but may share a line: then the one that has no corner inside is the last
+    // whose signs were found.
+    if (casts(q) && own.casts) meet_outside(q);
+    return;
+  }
   for (std::uint32_t k = 0; k < own.count; ++k) {
+    if (below && silent_[k]) continue;
     const LineThrough through = survey_.through(p_, k, q);
     if (through.cover != LineCover::kNone) meet_on_edge(k, q, through);
   }
-  if (casts(q)) crease(q);
+  if (casts(q) && !above && !below) crease(q);
+}
+
+// A polygon wholly outside of an edge is beside the edge only if it has one on its line.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::meet_outside(std::uint32_t q) {
+  for (std::uint32_t k = 0; k < polygons_->polygons[p_].count; ++k) {
+    const LineThrough through = survey_.through(p_, k, q);
+    if (through.cover == LineCover::kOuter) meet_on_edge(k, q, through);
+    if (survey_.is_outside(k)) break;
+  }
 }
 
 template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
                                                const LineThrough& through) {
+  const std::uint32_t next = k + 1 == polygons_->polygons[p_].count ? 0 : k + 1;
+  Behind<Numbers> entry;
+  entry.depth_from = survey_.depth(q, p_, k);
+  entry.depth_to = survey_.depth(q, p_, next);
+  const int from = survey_.nearer(q, p_, k, entry.depth_from);
+  const int to = survey_.nearer(q, p_, next, entry.depth_to);
+  // Nothing that is below an edge which casts nothing on it is asked for.
+  if (silent_[k] && from >= 0 && to >= 0 && from + to > 0) return;
   Stretch<Numbers> stretch;
   if (!survey_.interval(p_, k, q, through, stretch)) return;
   ++intervals_;
-  const std::uint32_t next = k + 1 == polygons_->polygons[p_].count ? 0 : k + 1;
   EdgeLists<Numbers>& lists = lists_[k];
-  Behind<Numbers> entry{stretch.low,
-                        stretch.high,
-                        survey_.depth(q, p_, k),
-                        survey_.depth(q, p_, next),
-                        survey_.depth_error(q, p_),
-                        q,
-                        through.cover == LineCover::kBoth};
-  const int from = survey_.nearer(q, p_, k, entry.depth_from);
-  const int to = survey_.nearer(q, p_, next, entry.depth_to);
+  entry.low = stretch.low;
+  entry.high = stretch.high;
+  entry.depth_error = survey_.depth_error(q, p_);
+  entry.polygon = q;
+  entry.covers_both = through.cover == LineCover::kBoth;
   if (plane(q) == plane(p_)) {
     meet_in_plane(lists, q, through.cover, entry);
   } else if (from == 0 && to == 0) {
@@ -197,13 +242,9 @@ void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
     put(lists, through.cover, from + to < 0, casts(q), entry);
   } else {
     // The edge goes through the plane of q.
-    const T own_from = light_->directional ? survey_.depth(p_, p_, k) : T(1);
-    const T own_to = light_->directional ? survey_.depth(p_, p_, next) : T(1);
-    double error = entry.depth_error;
-    if (Numbers::kCertified && light_->directional) error += survey_.depth_error(p_, p_);
-    const PlaceOnEdge pierced =
-        zero_between<Numbers>(T(own_from - entry.depth_from), T(own_to - entry.depth_to), error,
-                              PlaceName::support(plane(q)));
+    const PlaceOnEdge pierced = zero_between<Numbers>(
+        survey_.depth_over(p_, q, k), survey_.depth_over(p_, q, next),
+        Numbers::kCertified ? survey_.depth_over_error(p_, q) : 0, PlaceName::support(plane(q)));
     Behind<Numbers> before = entry, after = entry;
     before.high = earlier_of(stretch.high, pierced);
     after.low = later_of(stretch.low, pierced);

@@ -11,11 +11,14 @@
 #ifndef GNOMON_ALGORITHMS_CONTOUR_EDGE_LISTS_H
 #define GNOMON_ALGORITHMS_CONTOUR_EDGE_LISTS_H
 
+#include <bit>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "algorithms/contour/facing_polygons.h"
 #include "algorithms/contour/input_sides.h"
+#include "algorithms/contour/lanes/lanes.h"
 
 namespace gnomon {
 
@@ -63,6 +66,12 @@ struct LineThrough {
   PlaceName in_name, out_name;
 };
 
+/// Corners of a polygon on the left and on the right of a line, as bits; the others are on it.
+struct CornerSet {
+  static constexpr std::uint32_t kMost = 64;
+  std::uint64_t left = 0, right = 0;
+};
+
 /// The crease of two polygons from one end of the first one's chord to the other, the side on which
 /// the first is nearer on its left.
 template <class Numbers>
@@ -84,13 +93,19 @@ template <class Numbers, class Sides>
 class EdgeSurvey {
  public:
   using T = typename Numbers::T;
-  EdgeSurvey(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons, Sides& sides)
-      : light_(&light), polygons_(&polygons), sides_(&sides) {}
+  EdgeSurvey(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons, Sides& sides,
+             const Lanes& lanes)
+      : light_(&light), polygons_(&polygons), sides_(&sides), lanes_(&lanes) {}
 
   /// Sign of the line of edge k of p at corner j of q; its value in `value`.
   int side(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t j, T& value);
-  /// Where the line of edge k of polygon p goes through polygon q.
+  /// The signs of the lines of all edges of p at the corners of q, for sides_of_line(). False: no
+  /// corner of q is inside of one of the lines, so that the two do not overlap.
+  bool find_signs(std::uint32_t p, std::uint32_t q);
+  /// Where the line of edge k of polygon p goes through polygon q. Requires: find_signs(p, q).
   LineThrough through(std::uint32_t p, std::uint32_t k, std::uint32_t q);
+  /// Whether, by find_signs(), no corner is inside of edge k's line.
+  bool is_outside(std::uint32_t k) const { return sets_[k].left == 0; }
   /// The interval of edge k of p in q, which its line goes `through`. False: there is none.
   bool interval(std::uint32_t p, std::uint32_t k, std::uint32_t q, const LineThrough& through,
                 Stretch<Numbers>& stretch);
@@ -123,12 +138,20 @@ class EdgeSurvey {
 
  private:
   LineThrough name_ends(std::uint32_t q, LineCover cover, bool zero_is_left) const;
+  void find_sign(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t j,
+                 CornerSet& set);
+  LineThrough through_set(std::uint32_t q, const CornerSet& set) const;
+  LineThrough ends_of_set(std::uint32_t q, std::uint64_t left, std::uint64_t zero,
+                          LineCover cover) const;
+  LineThrough through_by_one(std::uint32_t p, std::uint32_t k, std::uint32_t q);
   /// From signs_, of which so many are on the left and on the right.
   LineThrough through_signs(std::uint32_t q, std::uint32_t left, std::uint32_t right) const;
 
   const LightRays<Numbers>* light_;
   const FacingPolygons<Numbers>* polygons_;
   Sides* sides_;
+  const Lanes* lanes_;
+  std::vector<CornerSet> sets_;     // of each edge of a polygon: the corners of another
   std::vector<std::int8_t> signs_;  // of the corners of a polygon against a line
 };
 
@@ -189,7 +212,113 @@ LineThrough EdgeSurvey<Numbers, Sides>::name_ends(std::uint32_t q, LineCover cov
 }
 
 template <class Numbers, class Sides>
+void EdgeSurvey<Numbers, Sides>::find_sign(std::uint32_t p, std::uint32_t k, std::uint32_t q,
+                                           std::uint32_t j, CornerSet& set) {
+  T value;
+  const int sign = side(p, k, q, j, value);
+  set.left |= std::uint64_t{sign > 0} << j;
+  set.right |= std::uint64_t{sign < 0} << j;
+}
+
+// Four lines and four corners at once where numbers are doubles and decide; what they leave open is
+// decided one by one.
+template <class Numbers, class Sides>
+bool EdgeSurvey<Numbers, Sides>::find_signs(std::uint32_t p, std::uint32_t q) {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const FacingPolygon& other = polygons_->polygons[q];
+  if (sets_.size() < own.count) sets_.resize(own.count);
+  if (other.count > CornerSet::kMost) return true;
+  const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - other.count);
+  if constexpr (std::is_same_v<T, double> && !Numbers::kAsksKernel) {
+    const double reach = polygons_->reach[q];
+    const auto settle = [&](std::uint32_t k, CornerSet set) {
+      set.left &= all;
+      set.right &= all;
+      if constexpr (Numbers::kCertified) {
+        for (std::uint64_t open = all & ~(set.left | set.right); open != 0; open &= open - 1) {
+          find_sign(p, k, q, static_cast<std::uint32_t>(std::countr_zero(open)), set);
+        }
+      }
+      sets_[k] = set;
+    };
+    const double* corners = polygons_->corners[other.block].x;
+    if (other.count <= 4) {
+      for (std::uint32_t k = 0; k < own.count; k += 4) {
+        const double* errors = &polygons_->line_error[4 * std::size_t{own.block} + k];
+        const double bounds[4] = {errors[0] * reach, errors[1] * reach, errors[2] * reach,
+                                  errors[3] * reach};
+        const BlockSigns signs =
+            lanes_->block_signs(polygons_->lines[own.block + k / 4].x, bounds, corners);
+        for (std::uint32_t i = 0; i < 4 && k + i < own.count; ++i) {
+          settle(k + i, {std::uint64_t{signs.positive} >> 4 * i & 15,
+                         std::uint64_t{signs.negative} >> 4 * i & 15});
+          if (sets_[k + i].left == 0) return false;
+        }
+      }
+    } else {
+      for (std::uint32_t k = 0; k < own.count; ++k) {
+        const Vector<double> line = polygons_->line(own, k);
+        const CornerSigns signs = lanes_->corner_signs(
+            line.data(), polygons_->error_of_line(own, k) * reach, corners, other.blocks());
+        settle(k, {signs.positive, signs.negative});
+        if (sets_[k].left == 0) return false;
+      }
+    }
+  } else {
+    for (std::uint32_t k = 0; k < own.count; ++k) {
+      sets_[k] = {};
+      for (std::uint32_t j = 0; j < other.count; ++j) find_sign(p, k, q, j, sets_[k]);
+      if (sets_[k].left == 0) return false;
+    }
+  }
+  return true;
+}
+
+// The line enters where it goes from corners on the left to corners on the right.
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::ends_of_set(std::uint32_t q, std::uint64_t left,
+                                                    std::uint64_t zero, LineCover cover) const {
+  const FacingPolygon& other = polygons_->polygons[q];
+  const std::uint32_t n = other.count;
+  const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - n);
+  const std::uint64_t next = (left >> 1 | left << (n - 1)) & all;  // bit j: corner j + 1
+  const std::uint64_t entering = left & ~next, leaving = ~left & next & all;
+  LineThrough result;
+  if (entering == 0 || leaving == 0) return result;  // rounded signs that are no polygon's
+  result.cover = cover;
+  result.in = static_cast<std::uint32_t>(std::countr_zero(entering));
+  result.out = static_cast<std::uint32_t>(std::countr_zero(leaving));
+  // A corner on the line is where the line crosses the two edges that meet there.
+  const auto name = [&](std::uint32_t edge) {
+    const std::uint32_t then = edge + 1 == n ? 0 : edge + 1;
+    if (zero >> edge & 1) return PlaceName::vertex(polygons_->vertex(other, edge));
+    if (zero >> then & 1) return PlaceName::vertex(polygons_->vertex(other, then));
+    return PlaceName::line(polygons_->edge(other, edge).index());
+  };
+  result.in_name = name(result.in);
+  result.out_name = name(result.out);
+  return result;
+}
+
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::through_set(std::uint32_t q, const CornerSet& set) const {
+  const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - polygons_->polygons[q].count);
+  const std::uint64_t zero = all & ~(set.left | set.right);
+  if (set.left != 0 && set.right != 0) return ends_of_set(q, set.left, zero, LineCover::kBoth);
+  if ((zero & (zero - 1)) == 0 || zero == all) return {};  // fewer than two corners on the line
+  return set.left != 0 ? ends_of_set(q, set.left, zero, LineCover::kInner)
+                       : ends_of_set(q, zero, zero, LineCover::kOuter);
+}
+
+template <class Numbers, class Sides>
 LineThrough EdgeSurvey<Numbers, Sides>::through(std::uint32_t p, std::uint32_t k, std::uint32_t q) {
+  if (polygons_->polygons[q].count > CornerSet::kMost) return through_by_one(p, k, q);
+  return through_set(q, sets_[k]);
+}
+
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::through_by_one(std::uint32_t p, std::uint32_t k,
+                                                       std::uint32_t q) {
   const std::uint32_t n = polygons_->polygons[q].count;
   signs_.resize(n);
   std::uint32_t left = 0, right = 0;
