@@ -2,6 +2,7 @@
 #include "report/sides/polygon_sides.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -117,6 +118,24 @@ void sum_exactly(const PreparedScene& scene, std::uint32_t first, bool exact,
   }
 }
 
+/// Areas in units of the largest, which are in the range of doubles at every scale.
+std::vector<Enclosure> areas_in_ratio(const PreparedScene& scene, std::uint32_t first,
+                                      std::size_t count) {
+  std::vector<mpz_class> squares;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::array<mpz_class, 3> vector = doubled_area_vector(scene, scene.parts[first + i]);
+    squares.emplace_back(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
+  }
+  const mpz_class largest = *std::ranges::max_element(squares);
+  std::vector<Enclosure> areas;
+  for (const mpz_class& square : squares) {
+    mpq_class ratio(square, largest);
+    ratio.canonicalize();
+    areas.push_back(oracle::enclose_square_root(ratio));
+  }
+  return areas;
+}
+
 void sum_by_enclosure(const PreparedScene& scene, std::uint32_t first, ClassifiedSide& side) {
   std::vector<Enclosure> areas;
   Enclosure total{0, 0};
@@ -124,7 +143,11 @@ void sum_by_enclosure(const PreparedScene& scene, std::uint32_t first, Classifie
     areas.push_back(to_enclosure(part_area(scene, scene.parts[first + i])));
     total = total + areas.back();
   }
-  if (total.lower <= 0) return;
+  if (!(total.lower > 0) || !std::isfinite(total.upper)) {
+    areas = areas_in_ratio(scene, first, side.parts.size());
+    total = {0, 0};
+    for (const Enclosure& area : areas) total = total + area;
+  }
   for (const LightState state : light_states(side.area_light)) {
     Enclosure sum{0, 0};
     for (std::size_t i = 0; i < side.parts.size(); ++i) {
