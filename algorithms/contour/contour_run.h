@@ -93,7 +93,7 @@ class ContourRun {
   }
   void measure(std::uint32_t begin, std::uint32_t end);
   void set_classes();
-  RunOutcome find_open_ones(const std::function<void(double)>& progress);
+  RunOutcome find_open_ones(Space space, const std::function<void(double)>& progress);
   bool is_open(const Sum& sum) const;
 
   const PreparedScene& scene_;
@@ -172,7 +172,7 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   if (!pairs_.run(charts_.charts(), count, {.casts = casts_, .jobs = jobs_})) {
     return RunOutcome::kTooManyFragments;
   }
-  const Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
+  Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
   tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers;
   std::atomic<bool> no_ieee = false, stopped = false;
   std::atomic<std::uint32_t> done = 0;
@@ -205,9 +205,11 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   for (const std::unique_ptr<Worker>& worker : workers) {
     for (std::uint32_t i = 0; i < count; ++i) sums_[i] += worker->sums[i];
     stages_ += worker->sides.space().stage_counts();
+    result_.work[Counter::kIntervals] += worker->intervals;
+    result_.work[Counter::kSegments] += worker->segments;
   }
   set_classes();
-  return find_open_ones(progress);
+  return find_open_ones(sides.space().fork(), progress);
 }
 
 /// Whether the bounds leave open a polygon's class or much of its share.
@@ -278,7 +280,8 @@ void ContourRun<Space, Numbers>::set_classes() {
 /// Exact subtraction for what is open: the sectors method on these polygons and what may shadow
 /// them.
 template <SectorSpaceModel Space, class Numbers>
-RunOutcome ContourRun<Space, Numbers>::find_open_ones(const std::function<void(double)>& progress) {
+RunOutcome ContourRun<Space, Numbers>::find_open_ones(Space space,
+                                                      const std::function<void(double)>& progress) {
   if constexpr (Numbers::kCertified) {
     std::vector<std::uint8_t> takes_part(polygons_.size());  // 1: casts; 2: receives
     bool some = false;
@@ -300,8 +303,8 @@ RunOutcome ContourRun<Space, Numbers>::find_open_ones(const std::function<void(d
       result_.work[Counter::kOpenPolygons] += takes_part[i] >> 1;
     }
     SectorRun<Space> exact(scene_, run_options_, rules_, scene_space_, result_.light,
-                           options_.kernel.options(), LeafMethod::kSubtract, Cover::kPartition,
-                           {parts, receives});
+                           std::move(space), std::move(*facing_), LeafMethod::kSubtract,
+                           Cover::kPartition, {parts, receives});
     const RunOutcome outcome = exact.run({});
     if (outcome != RunOutcome::kDone) return outcome;
     stages_ += exact.stage_counts();
