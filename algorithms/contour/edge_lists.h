@@ -14,6 +14,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -46,6 +47,8 @@ struct EdgeLists {
   std::vector<Behind<Numbers>> behind;   // below the edge
   std::vector<Behind<Numbers>> level;    // whose plane holds the edge, and which it may act on
   std::vector<Behind<Numbers>> beside;   // casters at the edge's own depth on its outer side alone
+  // What is hidden from the edge's first end on, and to its last: until where, and from where.
+  Place<Numbers> first, last;
 
   void clear() {
     hidden.clear();
@@ -53,6 +56,8 @@ struct EdgeLists {
     behind.clear();
     level.clear();
     beside.clear();
+    first = Place<Numbers>::from();
+    last = Place<Numbers>::to();
   }
 };
 
@@ -161,6 +166,9 @@ class EdgeSurvey {
   /// 1 if corner j of p is nearer than the plane of q, -1 if it is behind, 0 on it; `depth`: of q
   /// there.
   int nearer(std::uint32_t q, std::uint32_t p, std::uint32_t j, const T& depth);
+  /// The corners of p that are nearer than the plane of q, to the left, and those that are behind
+  /// it, to the right, as far as the numbers tell. Requires: at most CornerSet::kMost corners.
+  CornerSet find_nearer(std::uint32_t q, std::uint32_t p) const;
   /// How much nearer corner j of p is than the plane of q, in units of depth, and the bound of
   /// that.
   T depth_over(std::uint32_t p, std::uint32_t q, std::uint32_t j) const;
@@ -536,6 +544,28 @@ double EdgeSurvey<Numbers, Sides>::depth_over_error(std::uint32_t p, std::uint32
   double bound = 1.1 * light_->depth_error[polygons_->polygons[q].plane];
   if (light_->directional) bound += 1.1 * light_->depth_error[polygons_->polygons[p].plane];
   return bound * polygons_->reach[p] + Ball::kUnit;
+}
+
+// Depths are compared as one linear function of the corners' rays, which is not as sharp as
+// nearer(), but takes four corners at a time.
+template <class Numbers, class Sides>
+CornerSet EdgeSurvey<Numbers, Sides>::find_nearer(std::uint32_t q, std::uint32_t p) const {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const PlaneId other = polygons_->polygons[q].plane;
+  if constexpr (!kInBlocks) {
+    return {};
+  } else {
+    if (own.plane == other) return {};
+    const Vector<double>&a = light_->depths[own.plane], &b = light_->depths[other];
+    const Vector<double> line{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    double bound = 1.1 * (light_->depth_error[own.plane] + light_->depth_error[other]);
+    if constexpr (Numbers::kCertified) bound *= polygons_->reach[p];
+    if (!(bound < std::numeric_limits<double>::infinity())) return {};
+    const CornerSigns signs =
+        lanes_->corner_signs(line.data(), bound, polygons_->corners[own.block].x, own.blocks());
+    const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - own.count);
+    return {signs.positive & all, signs.negative & all};
+  }
 }
 
 template <class Numbers, class Sides>
