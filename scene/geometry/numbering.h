@@ -18,10 +18,7 @@
 #include <new>
 #include <vector>
 
-#if __has_include(<sys/mman.h>)
-#include <sys/mman.h>
-#endif
-
+#include "scene/base/large_pages.h"
 #include "scene/base/parallel.h"
 #include "scene/base/prefetch.h"
 
@@ -69,13 +66,7 @@ class Numbering {
   static Slots empty_slots(std::size_t count) {
     Slots slots(static_cast<Slot*>(std::calloc(count, sizeof(Slot))));
     if (slots == nullptr) throw std::bad_alloc();
-#ifdef MADV_HUGEPAGE
-    constexpr std::uintptr_t kLargePage = std::uintptr_t{1} << 21;
-    const auto address = reinterpret_cast<std::uintptr_t>(slots.get());
-    const std::uintptr_t begin = (address + kLargePage - 1) & ~(kLargePage - 1);
-    const std::uintptr_t end = (address + count * sizeof(Slot)) & ~(kLargePage - 1);
-    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-#endif
+    prefer_large_pages(slots.get(), count * sizeof(Slot));
     return slots;
   }
 
