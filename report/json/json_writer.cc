@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/json/json_writer.h"
 
+#include <array>
 #include <cmath>
 
 #include "report/text/number_text.h"
@@ -11,6 +12,14 @@ namespace gnomon::report {
 namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 16;
+
+/// Characters that stand for themselves in a string.
+constexpr std::array<bool, 256> kPlain = [] {
+  std::array<bool, 256> plain{};
+  for (std::size_t c = 0x20; c < 0x7f; ++c) plain[c] = c != '"' && c != '\\';
+  return plain;
+}();
+bool is_plain(char c) { return kPlain[static_cast<unsigned char>(c)]; }
 
 }  // namespace
 
@@ -35,7 +44,7 @@ void JsonWriter::value(double number) {
     return;
   }
   element();
-  buffer_ += shortest(number);
+  append_shortest(buffer_, number);
   flush_if_full();
 }
 
@@ -86,7 +95,6 @@ void JsonWriter::element() {
 void JsonWriter::append_string(std::string_view text) {
   static constexpr char kHex[] = "0123456789abcdef";
   buffer_ += '"';
-  const auto is_plain = [](char c) { return c >= 0x20 && c < 0x7f && c != '"' && c != '\\'; };
   while (!text.empty()) {
     std::size_t length = 0;
     while (length < text.size() && is_plain(text[length])) ++length;

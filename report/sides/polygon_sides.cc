@@ -19,6 +19,7 @@ Interval to_interval(const Enclosure& enclosure) { return {enclosure.lower, encl
 
 /// The entries of one part: one for each side that sees an area light, else one.
 std::span<const PartResult> results_of(const LightResult& light, std::uint32_t part) {
+  if (light.area_fractions.empty()) return {&light.parts[part], 1};
   const auto first = std::ranges::lower_bound(light.parts, part, {}, &PartResult::part);
   const auto last = std::ranges::upper_bound(light.parts, part, {}, &PartResult::part);
   return {first, last};
@@ -189,13 +190,11 @@ std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const Ligh
   for (std::uint32_t part = first; part < last; ++part) {
     coplanar = coplanar && scene.parts[part].plane == scene.parts[first].plane;
   }
-  const mpq_class area = precise_area(scene, polygon);
 
   for (ClassifiedSide& side : sides) {
     side.polygon = polygon;
     side.area_light = area_light;
     side.coplanar = coplanar;
-    side.area = area;
     for (std::uint32_t part = first; part < last; ++part) {
       side.parts.push_back(part_side(light, area_light, part, side.side));
     }

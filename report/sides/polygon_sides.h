@@ -48,7 +48,6 @@ struct ClassifiedSide : Shares {  // of the polygon
   std::vector<PartSide> parts;                // none if the polygon was dropped
   ShadowReason reason = ShadowReason::kNone;  // set if all parts share it
   bool coplanar = true;                       // all parts lie in one plane
-  mpq_class area;                             // scene units squared, far closer than a double
   // If coplanar and computed; those of the light's classes.
   std::optional<mpq_class> exact_lit, exact_shadow, exact_penumbra, exact_umbra;
 };

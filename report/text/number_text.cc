@@ -8,9 +8,15 @@
 namespace gnomon::report {
 
 std::string shortest(double value) {
+  std::string text;
+  append_shortest(text, value);
+  return text;
+}
+
+void append_shortest(std::string& text, double value) {
   std::array<char, 40> buffer;
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
+  text.append(buffer.data(), end);
 }
 
 std::string rounded(double value, int digits) {

@@ -10,6 +10,8 @@ namespace gnomon::report {
 
 /// The shortest text that reads back to the same double; "nan", "inf" and "-inf" otherwise.
 std::string shortest(double value);
+/// Appends the same.
+void append_shortest(std::string& text, double value);
 /// At most `digits` significant digits, for people: 0.333333, 1.5e-17, 0.
 std::string rounded(double value, int digits = 6);
 /// A count with thin groups of three: 1234567 becomes 1,234,567.

@@ -3,7 +3,9 @@
 
 #include <openssl/evp.h>
 
+#include <bit>
 #include <charconv>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <span>
@@ -53,7 +55,9 @@ void append_canonical(std::string& text, const Number& number) {
   std::int64_t fives = number.is_decimal() ? number.exponent() : 0;
   if (number.has_small_mantissa()) {
     std::int64_t mantissa = number.small_mantissa();
-    for (; mantissa % 2 == 0; mantissa /= 2) ++twos;
+    const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
+    twos += zeros;
+    mantissa >>= zeros;  // leaves nothing out, and so rounds nothing
     for (; mantissa % 5 == 0; mantissa /= 5) ++fives;
     append_integer(text, mantissa, 16);
   } else {
