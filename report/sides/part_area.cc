@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -57,7 +59,11 @@ std::array<Integer, 3> narrow_area_vector(const PreparedScene& scene, const Part
 constexpr double kError = 0x1p-96;
 constexpr std::uint32_t kMostParts = 16;
 /// Never 0: a pair that has underflowed decides nothing.
-double error_of(const DoubleDouble& area) { return kError * std::fabs(area.high) + 0x1p-1000; }
+std::optional<double> nearest_of(const DoubleDouble& area) {
+  return nearest_double(area, kError * std::fabs(area.high) + 0x1p-1000);
+}
+/// A product of two doubles is rounded once, unless it is very small or large.
+bool is_moderate(double value) { return std::fabs(value) > 0x1p-800 && std::fabs(value) < 0x1p800; }
 
 template <class Integer>
 DoubleDouble length(const std::array<Integer, 3>& vector) {
@@ -69,9 +75,20 @@ DoubleDouble length(const std::array<Integer, 3>& vector) {
   return square_root(squared);
 }
 
-/// Twice the area on the grid; not a number where 128 bits are too few.
-DoubleDouble doubled_pair_area(const PreparedScene& scene, const Part& part) {
-  if (fits(scene, part, 63)) return length(narrow_area_vector<std::int64_t>(scene, part));
+/// Twice the area on the grid; not a number where 128 bits are too few. `exact`: becomes false
+/// unless the pair is exact and one double: in a plane of constant x, y or z.
+DoubleDouble doubled_pair_area(const PreparedScene& scene, const Part& part, bool& exact) {
+  if (fits(scene, part, 63)) {
+    const auto vector = narrow_area_vector<std::int64_t>(scene, part);
+    if (std::ranges::count(vector, 0) == 2) {
+      const DoubleDouble area = double_double(std::abs(vector[0] + vector[1] + vector[2]));
+      exact = exact && area.low == 0;
+      return area;
+    }
+    exact = false;
+    return length(vector);
+  }
+  exact = false;
   if (fits(scene, part, 125)) return length(narrow_area_vector<Int128>(scene, part));
   return {NAN, 0};
 }
@@ -131,31 +148,40 @@ mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon) {
 
 PolygonAreas::PolygonAreas(const PreparedScene& scene) : scene_(scene) {
   const DoubleDouble step = double_double(scene.geometry.step);
-  const DoubleDouble half_square = step * step * DoubleDouble{0.5, 0};
+  DoubleDouble half_square = step * step * DoubleDouble{0.5, 0};
+  const bool exact_step =
+      std::isfinite(half_square.high) &&
+      2 * mpq_class(half_square.high) == scene.geometry.step * scene.geometry.step;
+  if (exact_step) half_square.low = 0;
   const std::size_t polygons = scene.first_part.empty() ? 0 : scene.first_part.size() - 1;
   areas_.reserve(polygons);
   for (std::size_t polygon = 0; polygon < polygons; ++polygon) {
     const std::uint32_t first = scene.first_part[polygon], last = scene.first_part[polygon + 1];
     DoubleDouble doubled;
+    bool exact = exact_step;
     if (last - first > kMostParts) doubled = {NAN, 0};
     for (std::uint32_t part = first; part < last && !std::isnan(doubled.high); ++part) {
-      doubled = doubled + doubled_pair_area(scene, scene.parts[part]);
+      doubled = doubled + doubled_pair_area(scene, scene.parts[part], exact);
+      exact = exact && doubled.low == 0;
     }
     const DoubleDouble area = doubled * half_square;
-    areas_.push_back({area.high, area.low});
+    exact = exact && area.low == 0 && is_moderate(area.high);
+    areas_.push_back({area.high, area.low, exact});
   }
 }
 
 double PolygonAreas::nearest(std::uint32_t polygon) const {
-  const DoubleDouble area{areas_[polygon].high, areas_[polygon].low};
-  const auto nearest = nearest_double(area, error_of(area));
+  const Area& area = areas_[polygon];
+  if (area.exact) return area.high;
+  const auto nearest = nearest_of({area.high, area.low});
   return nearest ? *nearest : nearest_double(precise_area(scene_, polygon));
 }
 
 double PolygonAreas::nearest(std::uint32_t polygon, double fraction) const {
-  const DoubleDouble whole{areas_[polygon].high, areas_[polygon].low};
-  const DoubleDouble area = whole * DoubleDouble{fraction, 0};
-  const auto nearest = nearest_double(area, error_of(area));
+  const Area& area = areas_[polygon];
+  const double product = area.high * fraction;
+  if (area.exact && is_moderate(product)) return product;
+  const auto nearest = nearest_of(DoubleDouble{area.high, area.low} * DoubleDouble{fraction, 0});
   return nearest ? *nearest : this->nearest(polygon, mpq_class(fraction));
 }
 

@@ -38,10 +38,11 @@ class PolygonAreas {
 
  private:
   const PreparedScene& scene_;
-  struct Pair {  // an unevaluated sum: kernel/numbers/double_double.h
-    double high, low;
+  struct Area {
+    double high, low;  // an unevaluated sum (kernel/numbers/double_double.h), or not a number
+    bool exact;        // `high` is the area
   };
-  std::vector<Pair> areas_;  // within kError of themselves, or not a number
+  std::vector<Area> areas_;
 };
 
 }  // namespace gnomon::report
