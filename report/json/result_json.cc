@@ -26,7 +26,8 @@ class ResultWriter {
         prepared_(prepared),
         result_(result),
         options_(options),
-        areas_(prepared) {}
+        areas_(prepared),
+        weights_(prepared) {}
 
   void write() {
     json_.begin_object();
@@ -213,7 +214,7 @@ class ResultWriter {
     for (std::uint32_t polygon = 0; polygon + 1 < prepared_.first_part.size(); ++polygon) {
       if (options_.interrupted != nullptr && *options_.interrupted) break;
       for (const ClassifiedSide& side :
-           polygon_sides(prepared_, light, polygon, options_.exact_fractions)) {
+           polygon_sides(prepared_, light, polygon, options_.exact_fractions, weights_)) {
         write_side(light, side);
       }
     }
@@ -419,6 +420,7 @@ class ResultWriter {
   const ShadowResult& result_;
   const ResultJsonOptions& options_;
   PolygonAreas areas_;
+  PartWeights weights_;
   std::vector<std::string> findings_;
 };
 
