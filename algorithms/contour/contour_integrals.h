@@ -48,13 +48,14 @@ double ContourWalk<Numbers, Sides>::share_error(std::uint32_t q, double rate,
   const double value_error = line_value_error * measure_->scale[q];
   const double least = std::min(depth_low, depth_high) - depth_error;
   if (!(depth_error < 0.25 * least)) return std::numeric_limits<double>::infinity();
-  const double width = std::fabs(high.t - low.t);
-  const double inverse = 1 / (least * least);
-  const double relative = measure_->relative_error[q] + 3 * depth_error / least + 16 * Ball::kUnit;
-  const double size = std::fabs(rate);
-  return 1.01 * inverse *
-         ((size + value_error) * (2 * (low.error + high.error) + width * relative) +
-          width * value_error);
+  const double width = std::fabs(high.t - low.t), size = std::fabs(rate);
+  const double relative = measure_->relative_error[q] + 16 * Ball::kUnit;
+  const double sum = (size + value_error) * (2 * (low.error + high.error) + width * relative) +
+                     width * value_error;
+  if (depth_error == 0) return 1.01 * sum;
+  const double inverse = 1 / least;
+  return 1.01 * inverse * inverse *
+         (sum + 3 * (size + value_error) * width * depth_error * inverse);
 }
 
 template <class Numbers, class Sides>

@@ -7,9 +7,7 @@
 #ifndef GNOMON_ALGORITHMS_CONTOUR_CONTOUR_RUN_H
 #define GNOMON_ALGORITHMS_CONTOUR_CONTOUR_RUN_H
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -21,6 +19,10 @@
 
 #include "algorithms/contour/by_contour.h"
 #include "algorithms/contour/contour_walk.h"
+#include "algorithms/contour/in_parallel.h"
+#include "algorithms/contour/lanes/simd_level.h"
+#include "algorithms/contour/light_charts.h"
+#include "algorithms/contour/pair_search.h"
 #include "algorithms/partition/run_task.h"
 #include "algorithms/sectors/sector_run.h"
 #include "kernel/concept/kernel_model.h"
@@ -59,13 +61,15 @@ class ContourRun {
 
   /// Call everything in an arena of `jobs` threads.
   ContourRun(const PreparedScene& scene, const ShadowOptions& options, const Rules& rules,
-             SceneSpace& scene_space)
+             SceneSpace& scene_space, const Lanes& lanes)
       : scene_(scene),
         options_(options),
         run_options_(run_options_of(options)),
         rules_(rules),
         scene_space_(scene_space),
-        jobs_(Space::kParallel && options.tuning.jobs != 1 ? options.tuning.jobs : 1) {}
+        jobs_(Space::kParallel && options.tuning.jobs != 1 ? options.tuning.jobs : 1),
+        lanes_(lanes),
+        pairs_(lanes) {}
 
   /// Classifies one light; `progress` gets the share of the work that is done.
   RunOutcome run(std::uint32_t light, const std::function<void(double)>& progress);
@@ -80,15 +84,6 @@ class ContourRun {
     std::uint64_t intervals = 0, segments = 0;
   };
 
-  template <class Body>
-  void in_parallel(std::uint32_t n, std::uint32_t grain, const Body& body) const {
-    if (jobs_ == 1) {
-      body(std::uint32_t{0}, n);
-      return;
-    }
-    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, n, grain),
-                      [&](const auto& range) { body(range.begin(), range.end()); });
-  }
   double thickness() const {
     if constexpr (requires { scene_space_.arithmetic().thickness(); } && !Numbers::kExact) {
       return static_cast<double>(scene_space_.arithmetic().thickness());
@@ -98,7 +93,7 @@ class ContourRun {
   }
   void measure(std::uint32_t begin, std::uint32_t end);
   void set_classes();
-  RunOutcome find_open_ones(const std::function<void(double)>& progress);
+  RunOutcome find_open_ones(Space space, const std::function<void(double)>& progress);
   bool is_open(const Sum& sum) const;
 
   const PreparedScene& scene_;
@@ -112,7 +107,10 @@ class ContourRun {
   FacingPolygons<Numbers> polygons_;
   ContourMeasure<Numbers> measure_;
   std::vector<Sum> sums_;
-  std::vector<std::uint32_t> neighbours_, first_neighbour_;
+  LightCharts charts_;
+  const Lanes& lanes_;
+  PairSearch pairs_;
+  std::vector<std::uint8_t> casts_;  // of each polygon
   StageCounts stages_;
   LightResult result_;
 };
@@ -164,23 +162,21 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   sums_.assign(count, {});
   measure_.scale.resize(count);
   measure_.relative_error.resize(count);
-  in_parallel(count, 1024, [&](std::uint32_t begin, std::uint32_t end) {
+  in_parallel(jobs_, count, 1024, [&](std::uint32_t begin, std::uint32_t end) {
     polygons_.fill(rays_, begin, end);
     measure(begin, end);
   });
-  neighbours_.clear();
-  first_neighbour_.assign(1, 0);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    for (std::uint32_t j = 0; j < count; ++j) {
-      if (j != i) neighbours_.push_back(j);
-    }
-    first_neighbour_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
+  charts_.find(polygons_, rays_, jobs_);
+  casts_.resize(count);
+  for (std::uint32_t i = 0; i < count; ++i) casts_[i] = polygons_.polygons[i].casts;
+  if (!pairs_.run(charts_.charts(), count, {.casts = casts_, .jobs = jobs_})) {
+    return RunOutcome::kTooManyFragments;
   }
-  const Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
+  Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
   tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers;
   std::atomic<bool> no_ieee = false, stopped = false;
   std::atomic<std::uint32_t> done = 0;
-  in_parallel(count, 64, [&](std::uint32_t begin, std::uint32_t end) {
+  in_parallel(jobs_, count, 64, [&](std::uint32_t begin, std::uint32_t end) {
     if (stopped.load(std::memory_order_relaxed)) return;
     std::unique_ptr<Worker>& worker = workers.local();
     if (!worker) {
@@ -190,15 +186,15 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
       }
       worker = std::make_unique<Worker>(Worker{sides.fork(), std::vector<Sum>(count)});
     }
-    ContourWalk<Numbers, Sides> walk(rays_, polygons_, measure_, worker->sides, worker->sums);
+    ContourWalk<Numbers, Sides> walk(rays_, polygons_, measure_, charts_.depths(), worker->sides,
+                                     lanes_, worker->sums);
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::atomic<bool>* interrupted = options_.control.interrupted;
       if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) {
         stopped = true;
         return;
       }
-      walk.walk(i, {neighbours_.data() + first_neighbour_[i],
-                    first_neighbour_[i + 1] - first_neighbour_[i]});
+      walk.walk(i, pairs_.neighbours(i));
     }
     worker->intervals += walk.intervals();
     worker->segments += walk.segments();
@@ -209,9 +205,11 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   for (const std::unique_ptr<Worker>& worker : workers) {
     for (std::uint32_t i = 0; i < count; ++i) sums_[i] += worker->sums[i];
     stages_ += worker->sides.space().stage_counts();
+    result_.work[Counter::kIntervals] += worker->intervals;
+    result_.work[Counter::kSegments] += worker->segments;
   }
   set_classes();
-  return find_open_ones(progress);
+  return find_open_ones(sides.space().fork(), progress);
 }
 
 /// Whether the bounds leave open a polygon's class or much of its share.
@@ -282,7 +280,8 @@ void ContourRun<Space, Numbers>::set_classes() {
 /// Exact subtraction for what is open: the sectors method on these polygons and what may shadow
 /// them.
 template <SectorSpaceModel Space, class Numbers>
-RunOutcome ContourRun<Space, Numbers>::find_open_ones(const std::function<void(double)>& progress) {
+RunOutcome ContourRun<Space, Numbers>::find_open_ones(Space space,
+                                                      const std::function<void(double)>& progress) {
   if constexpr (Numbers::kCertified) {
     std::vector<std::uint8_t> takes_part(polygons_.size());  // 1: casts; 2: receives
     bool some = false;
@@ -290,8 +289,8 @@ RunOutcome ContourRun<Space, Numbers>::find_open_ones(const std::function<void(d
       if (!is_open(sums_[i])) continue;
       some = true;
       takes_part[i] |= 2;
-      for (std::uint32_t j = first_neighbour_[i]; j < first_neighbour_[i + 1]; ++j) {
-        if (polygons_.polygons[neighbours_[j]].casts) takes_part[neighbours_[j]] |= 1;
+      for (const std::uint32_t j : pairs_.neighbours(i)) {
+        if (polygons_.polygons[j].casts) takes_part[j] |= 1;
       }
     }
     if (!some) return RunOutcome::kDone;
@@ -304,8 +303,8 @@ RunOutcome ContourRun<Space, Numbers>::find_open_ones(const std::function<void(d
       result_.work[Counter::kOpenPolygons] += takes_part[i] >> 1;
     }
     SectorRun<Space> exact(scene_, run_options_, rules_, scene_space_, result_.light,
-                           options_.kernel.options(), LeafMethod::kSubtract, Cover::kPartition,
-                           {parts, receives});
+                           std::move(space), std::move(*facing_), LeafMethod::kSubtract,
+                           Cover::kPartition, {parts, receives});
     const RunOutcome outcome = exact.run({});
     if (outcome != RunOutcome::kDone) return outcome;
     stages_ += exact.stage_counts();
@@ -330,8 +329,10 @@ Expected<ShadowResult> compute_by_contour_here(const RunTask& task) {
   const LightList& lights = task.lights;
   ShadowResult result = empty_result(options);
   const double start = cpu_seconds();
+  const Expected<SimdLevel> level = chosen_simd_level();
+  if (!level) return tl::unexpected<Error>(level.error());
   typename Space::SceneSpace scene_space(task.scene.geometry, options.kernel.options());
-  ContourRun<Space, Numbers> run(task.scene, options, task.rules, scene_space);
+  ContourRun<Space, Numbers> run(task.scene, options, task.rules, scene_space, lanes(*level));
   for (std::size_t i = 0; i < lights.size(); ++i) {
     std::function<void(double)> progress;
     if (options.control.progress) {

@@ -25,10 +25,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "algorithms/contour/contour_sums.h"
 #include "algorithms/contour/edge_lists.h"
+#include "algorithms/contour/light_charts.h"
 
 namespace gnomon {
 
@@ -52,14 +54,16 @@ template <class Numbers, class Sides>
 class ContourWalk {
  public:
   using T = typename Numbers::T;
+  using Survey = EdgeSurvey<Numbers, Sides>;
 
   ContourWalk(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons,
-              const ContourMeasure<Numbers>& measure, Sides& sides,
-              std::span<ContourSum<Numbers>> sums)
+              const ContourMeasure<Numbers>& measure, std::span<const DepthRange> depths,
+              Sides& sides, const Lanes& lanes, std::span<ContourSum<Numbers>> sums)
       : light_(&light),
         polygons_(&polygons),
         measure_(&measure),
-        survey_(light, polygons, sides),
+        depths_(depths),
+        survey_(light, polygons, sides, lanes),
         sums_(sums) {}
 
   /// Adds what polygon p gets by its own edges and takes from those behind it. `neighbours`: all
@@ -73,7 +77,11 @@ class ContourWalk {
   using PlaceOnEdge = Place<Numbers>;
 
   // Filling of lists_.
+  void find_silent_edges();
+  void find_beside(std::uint32_t k);
   void meet(std::uint32_t q);
+  bool meet_block(std::uint32_t q) requires(Survey::kInBlocks);
+  void meet_outside(std::uint32_t q);
   void meet_on_edge(std::uint32_t k, std::uint32_t q, const LineThrough& through);
   void meet_in_plane(EdgeLists<Numbers>& lists, std::uint32_t q, LineCover cover,
                      const Behind<Numbers>& entry);
@@ -94,6 +102,11 @@ class ContourWalk {
   bool piece(std::uint32_t k, const PlaceOnEdge& low, PlaceOnEdge& high);
   int depth_order(const Behind<Numbers>& a, const Behind<Numbers>& b,
                   const PlaceOnEdge& place) const;
+  /// 1 if all of a is nearer than all of b, -1 if it is behind it.
+  int range_order(std::uint32_t a, std::uint32_t b) const {
+    if (depths_[a].low > depths_[b].high) return 1;
+    return depths_[a].high < depths_[b].low ? -1 : 0;
+  }
   bool is_first(std::uint32_t k, const Behind<Numbers>& a, const Behind<Numbers>& b,
                 const PlaceOnEdge& low, const PlaceOnEdge& high);
   int level_order(std::uint32_t k, std::uint32_t a, std::uint32_t b);
@@ -130,19 +143,29 @@ class ContourWalk {
   const LightRays<Numbers>* light_;
   const FacingPolygons<Numbers>* polygons_;
   const ContourMeasure<Numbers>* measure_;
-  EdgeSurvey<Numbers, Sides> survey_;
+  std::span<const DepthRange> depths_;
+  Survey survey_;
   std::span<ContourSum<Numbers>> sums_;
   std::uint32_t p_ = 0;                    // the polygon
   std::vector<EdgeLists<Numbers>> lists_;  // of its edges
+  // Of its edges: whether it casts nothing on what is strictly below it, since it is not a
+  // caster's, or another caster goes on from it.
+  std::vector<std::uint8_t> silent_;
+  bool all_edges_silent_ = false;
+  int order_ = 0;  // of the polygon that is met: 1: all of it is behind p_, -1: before it
   std::vector<Segment<Numbers>> seen_, free_;
   std::vector<Stretch<Numbers>> covers_;
   struct Event {
-    PlaceOnEdge at;
-    std::uint32_t entry = 0;
+    T t{};
+    std::uint32_t entry = 0;  // of clipped_
     bool begins = false;
   };
-  static constexpr std::uint32_t kNoEntry = 0xffffffffu;
-  std::vector<Event> events_;          // of polygons behind an edge
+  struct Clipped {
+    PlaceOnEdge low, high;
+    std::uint32_t entry = 0;  // of lists_[k].behind
+  };
+  std::vector<Event> events_;  // along a segment
+  std::vector<Clipped> clipped_;
   std::vector<std::uint32_t> active_;  // of lists_[k].behind
   std::span<const std::uint32_t> neighbours_;
   std::uint64_t intervals_ = 0, segments_ = 0;
@@ -157,29 +180,114 @@ void ContourWalk<Numbers, Sides>::walk(std::uint32_t p, std::span<const std::uin
   const std::uint32_t n = polygons_->polygons[p].count;
   if (lists_.size() < n) lists_.resize(n);
   for (std::uint32_t k = 0; k < n; ++k) lists_[k].clear();
+  find_silent_edges();
   for (const std::uint32_t q : neighbours) meet(q);
   for (std::uint32_t k = 0; k < n; ++k) walk_edge(k);
 }
 
 template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::find_silent_edges() {
+  const FacingPolygon& own = polygons_->polygons[p_];
+  silent_.assign(own.count, 1);
+  all_edges_silent_ = true;
+  if (!own.casts) return;
+  for (std::uint32_t k = 0; k < own.count; ++k) {
+    silent_[k] = polygons_->is_shared[own.first + k];
+    all_edges_silent_ = all_edges_silent_ && silent_[k] != 0;
+  }
+}
+
+template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::meet(std::uint32_t q) {
   const FacingPolygon& own = polygons_->polygons[p_];
-  if (!own.casts && !casts(q)) return;
+  const DepthRange mine = depths_[p_], its = depths_[q];
+  const bool below = its.high < mine.low, above = mine.high < its.low;
+  if (!casts(q) && (above || !own.casts)) return;
+  if (below && all_edges_silent_) return;
+  order_ = below ? 1 : above ? -1 : 0;
+  if constexpr (Survey::kInBlocks) {
+    if (own.count <= 4 && polygons_->polygons[q].count <= 4) {
+      if (meet_block(q) && order_ == 0 && casts(q)) crease(q);
+      return;
+    }
+  }
+  if (!survey_.find_signs(p_, q)) {
+    // They do not overlap, but may share a line: then the one that has no corner inside is the last
+    // whose signs were found.
+    if (casts(q) && !all_edges_silent_) meet_outside(q);
+    return;
+  }
   for (std::uint32_t k = 0; k < own.count; ++k) {
+    if ((below && silent_[k]) || !survey_.may_go_through(k, q)) continue;
     const LineThrough through = survey_.through(p_, k, q);
     if (through.cover != LineCover::kNone) meet_on_edge(k, q, through);
   }
-  if (casts(q)) crease(q);
+  if (order_ == 0 && casts(q)) crease(q);
+}
+
+// As meet(), of two polygons of at most four corners. False: they do not overlap.
+template <class Numbers, class Sides>
+bool ContourWalk<Numbers, Sides>::meet_block(std::uint32_t q) requires(Survey::kInBlocks) {
+  const BlockSigns signs = survey_.block_signs(p_, q);
+  const std::uint32_t n = polygons_->polygons[p_].count;
+  // Bit 4 k: whether any corner is on that side of edge k.
+  const auto any = [](unsigned set) { return (set | set >> 1 | set >> 2 | set >> 3) & 0x1111u; };
+  const unsigned lines = 0x1111u >> 4 * (4 - n);
+  const unsigned some_left = any(signs.positive);
+  const bool overlaps = some_left == lines;
+  if (!overlaps && (!casts(q) || all_edges_silent_)) return false;
+  // Where all corners are on one side, the polygon is beside the edge if two are on its line.
+  const unsigned on_line = valid_signs(n, polygons_->polygons[q].count) &
+                           ~static_cast<unsigned>(signs.positive | signs.negative);
+  unsigned met = overlaps ? (some_left & any(signs.negative)) | any(on_line) : any(on_line);
+  for (; met != 0; met &= met - 1) {
+    const auto bit = static_cast<std::uint32_t>(std::countr_zero(met));
+    const std::uint32_t k = bit / 4;
+    if (order_ > 0 && silent_[k]) continue;
+    const LineThrough through =
+        survey_.through_block(q, signs.positive >> bit & 15u, signs.negative >> bit & 15u);
+    if (through.cover == LineCover::kNone) continue;
+    if (!overlaps && through.cover != LineCover::kOuter) continue;
+    meet_on_edge(k, q, through);
+  }
+  return overlaps;
+}
+
+// A polygon wholly outside of an edge is beside the edge only if it has one on its line.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::meet_outside(std::uint32_t q) {
+  for (std::uint32_t k = 0; k < polygons_->polygons[p_].count; ++k) {
+    const LineThrough through = survey_.through(p_, k, q);
+    if (through.cover == LineCover::kOuter && !silent_[k]) meet_on_edge(k, q, through);
+    if (survey_.is_outside(k)) break;
+  }
 }
 
 template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
                                                const LineThrough& through) {
-  Stretch<Numbers> stretch;
-  if (!survey_.interval(p_, k, q, through, stretch)) return;
-  ++intervals_;
   const std::uint32_t next = k + 1 == polygons_->polygons[p_].count ? 0 : k + 1;
+  Stretch<Numbers> stretch;
+  int from = order_, to = order_;
+  if (order_ == 0) {
+    // Who is nearer may tell that nothing more is asked for, and costs less than the interval.
+    if (!silent_[k] && !survey_.interval(p_, k, q, through, stretch)) return;
+    from = survey_.nearer(q, p_, k, survey_.depth(q, p_, k));
+    to = survey_.nearer(q, p_, next, survey_.depth(q, p_, next));
+    if (silent_[k]) {
+      if (from >= 0 && to >= 0 && from + to > 0) return;
+      if (!survey_.interval(p_, k, q, through, stretch)) return;
+    }
+  } else if (!survey_.interval(p_, k, q, through, stretch)) {
+    return;
+  }
+  ++intervals_;
   EdgeLists<Numbers>& lists = lists_[k];
+  if (from <= 0 && to <= 0 && from + to < 0) {
+    if (!casts(q)) return;
+    (through.cover == LineCover::kOuter ? lists.taken : lists.hidden).push_back(stretch);
+    return;
+  }
   Behind<Numbers> entry{stretch.low,
                         stretch.high,
                         survey_.depth(q, p_, k),
@@ -187,23 +295,17 @@ void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
                         survey_.depth_error(q, p_),
                         q,
                         through.cover == LineCover::kBoth};
-  const int from = survey_.nearer(q, p_, k, entry.depth_from);
-  const int to = survey_.nearer(q, p_, next, entry.depth_to);
   if (plane(q) == plane(p_)) {
     meet_in_plane(lists, q, through.cover, entry);
   } else if (from == 0 && to == 0) {
     meet_level(lists, q, through.cover, entry);
   } else if (from * to >= 0) {
-    put(lists, through.cover, from + to < 0, casts(q), entry);
+    put(lists, through.cover, false, casts(q), entry);
   } else {
     // The edge goes through the plane of q.
-    const T own_from = light_->directional ? survey_.depth(p_, p_, k) : T(1);
-    const T own_to = light_->directional ? survey_.depth(p_, p_, next) : T(1);
-    double error = entry.depth_error;
-    if (Numbers::kCertified && light_->directional) error += survey_.depth_error(p_, p_);
-    const PlaceOnEdge pierced =
-        zero_between<Numbers>(T(own_from - entry.depth_from), T(own_to - entry.depth_to), error,
-                              PlaceName::support(plane(q)));
+    const PlaceOnEdge pierced = zero_between<Numbers>(
+        survey_.depth_over(p_, q, k), survey_.depth_over(p_, q, next),
+        Numbers::kCertified ? survey_.depth_over_error(p_, q) : 0, PlaceName::support(plane(q)));
     Behind<Numbers> before = entry, after = entry;
     before.high = earlier_of(stretch.high, pierced);
     after.low = later_of(stretch.low, pierced);
@@ -253,6 +355,20 @@ void ContourWalk<Numbers, Sides>::meet_level(EdgeLists<Numbers>& lists, std::uin
   } else if (cover == LineCover::kBoth && casts(p_)) {
     lists.level.push_back(entry);
   }
+}
+
+// Of a silent edge, what is beside it is only looked for if its plane is another's, too.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::find_beside(std::uint32_t k) {
+  lists_[k].beside.clear();
+  const std::uint8_t silent = std::exchange(silent_[k], 0);
+  for (const std::uint32_t q : neighbours_) {
+    if (!casts(q)) continue;
+    const LineThrough through = survey_.through_by_one(p_, k, q);
+    order_ = 0;
+    if (through.cover == LineCover::kOuter) meet_on_edge(k, q, through);
+  }
+  silent_[k] = silent;
 }
 
 }  // namespace gnomon

@@ -11,11 +11,15 @@
 #ifndef GNOMON_ALGORITHMS_CONTOUR_EDGE_LISTS_H
 #define GNOMON_ALGORITHMS_CONTOUR_EDGE_LISTS_H
 
+#include <array>
+#include <bit>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "algorithms/contour/facing_polygons.h"
 #include "algorithms/contour/input_sides.h"
+#include "algorithms/contour/lanes/lanes.h"
 
 namespace gnomon {
 
@@ -56,11 +60,18 @@ struct EdgeLists {
 enum class LineCover : std::uint8_t { kNone, kBoth, kInner, kOuter };
 
 /// Where the line of an edge goes through a polygon: it enters through edge `in` and leaves through
-/// edge `out`, or through a corner of these (a known one is named).
+/// edge `out`, or through a corner of these that is on the line.
 struct LineThrough {
+  static constexpr std::uint32_t kNoCorner = 0xffffffffu;
   LineCover cover = LineCover::kNone;
   std::uint32_t in = 0, out = 0;
-  PlaceName in_name, out_name;
+  std::uint32_t in_corner = kNoCorner, out_corner = kNoCorner;
+};
+
+/// Corners of a polygon on the left and on the right of a line, as bits; the others are on it.
+struct CornerSet {
+  static constexpr std::uint32_t kMost = 64;
+  std::uint64_t left = 0, right = 0;
 };
 
 /// The crease of two polygons from one end of the first one's chord to the other, the side on which
@@ -80,17 +91,67 @@ struct MaybeSign {
   bool known = true;
 };
 
+/// Where a line goes through a polygon of three or four corners, by the set of those on its left:
+/// it enters through an edge from the left to the right, and leaves through one back.
+struct BlockEnds {
+  std::uint8_t in = 0, out = 0;
+};
+constexpr BlockEnds ends_of_block(unsigned n, unsigned left) {
+  BlockEnds ends;
+  for (unsigned k = n; k-- > 0;) {
+    const bool here = left >> k & 1, then = left >> (k + 1) % n & 1;
+    if (here && !then) ends.in = static_cast<std::uint8_t>(k);
+    if (!here && then) ends.out = static_cast<std::uint8_t>(k);
+  }
+  return ends;
+}
+inline constexpr auto kBlockEnds = [] {
+  std::array<std::array<BlockEnds, 16>, 2> table{};
+  for (unsigned n = 3; n <= 4; ++n) {
+    for (unsigned left = 0; left < 1u << n; ++left) table[n - 3][left] = ends_of_block(n, left);
+  }
+  return table;
+}();
+/// The bits of BlockSigns that are of lines and corners that there are.
+constexpr unsigned valid_signs(std::uint32_t lines, std::uint32_t corners) {
+  return (0x1111u >> 4 * (4 - lines)) * ((1u << corners) - 1);
+}
+
 template <class Numbers, class Sides>
 class EdgeSurvey {
  public:
   using T = typename Numbers::T;
-  EdgeSurvey(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons, Sides& sides)
-      : light_(&light), polygons_(&polygons), sides_(&sides) {}
+  /// Whether signs are found four lines and four corners at a time.
+  static constexpr bool kInBlocks = std::is_same_v<T, double> && !Numbers::kAsksKernel;
+  EdgeSurvey(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons, Sides& sides,
+             const Lanes& lanes)
+      : light_(&light), polygons_(&polygons), sides_(&sides), lanes_(&lanes) {}
 
   /// Sign of the line of edge k of p at corner j of q; its value in `value`.
   int side(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t j, T& value);
-  /// Where the line of edge k of polygon p goes through polygon q.
+  int undecided_side(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t j);
+  int undecided_nearer(std::uint32_t q, std::uint32_t p, std::uint32_t j);
+  /// The signs of the lines of all edges of p at the corners of q, for sides_of_line(). False: no
+  /// corner of q is inside of one of the lines, so that the two do not overlap.
+  bool find_signs(std::uint32_t p, std::uint32_t q);
+  /// Where the line of edge k of polygon p goes through polygon q. Requires: find_signs(p, q).
   LineThrough through(std::uint32_t p, std::uint32_t k, std::uint32_t q);
+  /// The same without find_signs().
+  LineThrough through_by_one(std::uint32_t p, std::uint32_t k, std::uint32_t q);
+  /// The same for polygons of at most four corners in doubles, as one block of signs; what the
+  /// numbers leave open is decided.
+  BlockSigns block_signs(std::uint32_t p, std::uint32_t q) requires(kInBlocks);
+  /// Where the line goes whose signs of four corners are in a block, of a polygon of n corners.
+  LineThrough through_block(std::uint32_t q, unsigned left, unsigned right) const;
+  /// Whether, by find_signs(), no corner is inside of edge k's line.
+  bool is_outside(std::uint32_t k) const { return sets_[k].left == 0; }
+  /// False if all corners are on one side of edge k's line, by find_signs().
+  bool may_go_through(std::uint32_t k, std::uint32_t q) const {
+    const std::uint32_t count = polygons_->polygons[q].count;
+    if (count > CornerSet::kMost) return true;
+    const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - count);
+    return sets_[k].left != all && sets_[k].right != all;
+  }
   /// The interval of edge k of p in q, which its line goes `through`. False: there is none.
   bool interval(std::uint32_t p, std::uint32_t k, std::uint32_t q, const LineThrough& through,
                 Stretch<Numbers>& stretch);
@@ -123,35 +184,54 @@ class EdgeSurvey {
 
  private:
   LineThrough name_ends(std::uint32_t q, LineCover cover, bool zero_is_left) const;
+  void find_sign(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t j,
+                 CornerSet& set);
+  LineThrough through_set(std::uint32_t q, const CornerSet& set) const;
+  /// What a place on an edge is where it crosses an edge of another polygon.
+  PlaceName name_of(const FacingPolygon& other, std::uint32_t edge, std::uint32_t corner) const {
+    return corner != LineThrough::kNoCorner ? PlaceName::vertex(polygons_->vertex(other, corner))
+                                            : PlaceName::line(polygons_->edge(other, edge).index());
+  }
+  LineThrough ends_of_set(std::uint32_t q, std::uint64_t left, std::uint64_t zero,
+                          LineCover cover) const;
   /// From signs_, of which so many are on the left and on the right.
   LineThrough through_signs(std::uint32_t q, std::uint32_t left, std::uint32_t right) const;
 
   const LightRays<Numbers>* light_;
   const FacingPolygons<Numbers>* polygons_;
   Sides* sides_;
+  const Lanes* lanes_;
+  std::vector<CornerSet> sets_;     // of each edge of a polygon: the corners of another
   std::vector<std::int8_t> signs_;  // of the corners of a polygon against a line
 };
 
 template <class Numbers, class Sides>
 int EdgeSurvey<Numbers, Sides>::side(std::uint32_t p, std::uint32_t k, std::uint32_t q,
                                      std::uint32_t j, T& value) {
-  const FacingPolygon& own = polygons_->polygons[p];
-  const FacingPolygon& other = polygons_->polygons[q];
-  value = dot_product(polygons_->line(own, k), polygons_->corner(other, j));
-  if constexpr (Numbers::kAsksKernel) {
-    return sides_->of_line(p, k, q, j);
-  } else {
+  if constexpr (!Numbers::kAsksKernel) {
+    const FacingPolygon& own = polygons_->polygons[p];
+    value = dot_product(polygons_->line(own, k), polygons_->corner(polygons_->polygons[q], j));
     const double bound = polygons_->error_of_line(own, k) * polygons_->reach[q];
     if (value > bound) return 1;
     if (value < -bound) return -1;
     if constexpr (!Numbers::kCertified) return 0;
-    const VertexId vertex = polygons_->vertex(other, j);
+  }
+  return undecided_side(p, k, q, j);
+}
+
+// What the numbers leave open: an end of the edge is on its line, all else the kernel decides.
+template <class Numbers, class Sides>
+int EdgeSurvey<Numbers, Sides>::undecided_side(std::uint32_t p, std::uint32_t k, std::uint32_t q,
+                                               std::uint32_t j) {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const VertexId vertex = polygons_->vertex(polygons_->polygons[q], j);
+  if constexpr (Numbers::kCertified) {
     if (vertex == polygons_->vertex(own, k) ||
         vertex == polygons_->vertex(own, k + 1 == own.count ? 0 : k + 1)) {
       return 0;
     }
-    return sides_->of_line(p, k, q, j);
   }
+  return sides_->of_line(p, k, q, j);
 }
 
 // The line enters where it goes from corners on the left to corners on the right.
@@ -164,10 +244,8 @@ LineThrough EdgeSurvey<Numbers, Sides>::name_ends(std::uint32_t q, LineCover cov
     return signs_[j] > 0 || (signs_[j] == 0 && zero_is_left);
   };
   // A corner on the line is where the line crosses the two edges that meet there.
-  const auto name = [&](std::uint32_t edge, std::uint32_t next) {
-    const std::uint32_t corner = signs_[edge] == 0 ? edge : next;
-    return signs_[corner] == 0 ? PlaceName::vertex(polygons_->vertex(other, corner))
-                               : PlaceName::line(polygons_->edge(other, edge).index());
+  const auto corner = [&](std::uint32_t edge, std::uint32_t next) {
+    return signs_[edge] == 0 ? edge : signs_[next] == 0 ? next : LineThrough::kNoCorner;
   };
   LineThrough result;
   bool enters = false, leaves = false;
@@ -177,11 +255,11 @@ LineThrough EdgeSurvey<Numbers, Sides>::name_ends(std::uint32_t q, LineCover cov
     if (left && !then_left && !enters) {
       enters = true;
       result.in = j;
-      result.in_name = name(j, next);
+      result.in_corner = corner(j, next);
     } else if (!left && then_left && !leaves) {
       leaves = true;
       result.out = j;
-      result.out_name = name(j, next);
+      result.out_corner = corner(j, next);
     }
   }
   if (enters && leaves) result.cover = cover;
@@ -189,7 +267,150 @@ LineThrough EdgeSurvey<Numbers, Sides>::name_ends(std::uint32_t q, LineCover cov
 }
 
 template <class Numbers, class Sides>
+void EdgeSurvey<Numbers, Sides>::find_sign(std::uint32_t p, std::uint32_t k, std::uint32_t q,
+                                           std::uint32_t j, CornerSet& set) {
+  T value;
+  const int sign = side(p, k, q, j, value);
+  set.left |= std::uint64_t{sign > 0} << j;
+  set.right |= std::uint64_t{sign < 0} << j;
+}
+
+template <class Numbers, class Sides>
+BlockSigns EdgeSurvey<Numbers, Sides>::block_signs(std::uint32_t p,
+                                                   std::uint32_t q) requires(kInBlocks) {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const FacingPolygon& other = polygons_->polygons[q];
+  const double reach = polygons_->reach[q];
+  const double* errors = &polygons_->line_error[4 * std::size_t{own.block}];
+  const double bounds[4] = {errors[0] * reach, errors[1] * reach, errors[2] * reach,
+                            errors[3] * reach};
+  BlockSigns signs =
+      lanes_->block_signs(polygons_->lines[own.block].x, bounds, polygons_->corners[other.block].x);
+  const unsigned valid = valid_signs(own.count, other.count);
+  signs.positive = static_cast<std::uint16_t>(signs.positive & valid);
+  signs.negative = static_cast<std::uint16_t>(signs.negative & valid);
+  if constexpr (Numbers::kCertified) {
+    for (unsigned open = valid & ~(signs.positive | signs.negative); open != 0; open &= open - 1) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(open));
+      const int sign = undecided_side(p, bit / 4, q, bit % 4);
+      if (sign > 0) signs.positive = static_cast<std::uint16_t>(signs.positive | 1u << bit);
+      if (sign < 0) signs.negative = static_cast<std::uint16_t>(signs.negative | 1u << bit);
+    }
+  }
+  return signs;
+}
+
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::through_block(std::uint32_t q, unsigned left,
+                                                      unsigned right) const {
+  const std::uint32_t n = polygons_->polygons[q].count;
+  if ((left | right) == (1u << n) - 1) {
+    if (left == 0 || right == 0) return {};
+    const BlockEnds ends = kBlockEnds[n - 3][left];
+    return {LineCover::kBoth, ends.in, ends.out};
+  }
+  return through_set(q, {left, right});
+}
+
+// Four lines and four corners at once where numbers are doubles and decide; what they leave open is
+// decided one by one.
+template <class Numbers, class Sides>
+bool EdgeSurvey<Numbers, Sides>::find_signs(std::uint32_t p, std::uint32_t q) {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const FacingPolygon& other = polygons_->polygons[q];
+  if (sets_.size() < own.count) sets_.resize(own.count);
+  if (other.count > CornerSet::kMost) return true;
+  const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - other.count);
+  if constexpr (kInBlocks) {
+    const double reach = polygons_->reach[q];
+    const auto settle = [&](std::uint32_t k, CornerSet set) {
+      set.left &= all;
+      set.right &= all;
+      if constexpr (Numbers::kCertified) {
+        for (std::uint64_t open = all & ~(set.left | set.right); open != 0; open &= open - 1) {
+          find_sign(p, k, q, static_cast<std::uint32_t>(std::countr_zero(open)), set);
+        }
+      }
+      sets_[k] = set;
+    };
+    const double* corners = polygons_->corners[other.block].x;
+    if (other.count <= 4) {
+      for (std::uint32_t k = 0; k < own.count; k += 4) {
+        const double* errors = &polygons_->line_error[4 * std::size_t{own.block} + k];
+        const double bounds[4] = {errors[0] * reach, errors[1] * reach, errors[2] * reach,
+                                  errors[3] * reach};
+        const BlockSigns signs =
+            lanes_->block_signs(polygons_->lines[own.block + k / 4].x, bounds, corners);
+        for (std::uint32_t i = 0; i < 4 && k + i < own.count; ++i) {
+          settle(k + i, {std::uint64_t{signs.positive} >> 4 * i & 15,
+                         std::uint64_t{signs.negative} >> 4 * i & 15});
+          if (sets_[k + i].left == 0) return false;
+        }
+      }
+    } else {
+      for (std::uint32_t k = 0; k < own.count; ++k) {
+        const Vector<double> line = polygons_->line(own, k);
+        const CornerSigns signs = lanes_->corner_signs(
+            line.data(), polygons_->error_of_line(own, k) * reach, corners, other.blocks());
+        settle(k, {signs.positive, signs.negative});
+        if (sets_[k].left == 0) return false;
+      }
+    }
+  } else {
+    for (std::uint32_t k = 0; k < own.count; ++k) {
+      sets_[k] = {};
+      for (std::uint32_t j = 0; j < other.count; ++j) find_sign(p, k, q, j, sets_[k]);
+      if (sets_[k].left == 0) return false;
+    }
+  }
+  return true;
+}
+
+// The line enters where it goes from corners on the left to corners on the right.
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::ends_of_set(std::uint32_t q, std::uint64_t left,
+                                                    std::uint64_t zero, LineCover cover) const {
+  const FacingPolygon& other = polygons_->polygons[q];
+  const std::uint32_t n = other.count;
+  const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - n);
+  const std::uint64_t next = (left >> 1 | left << (n - 1)) & all;  // bit j: corner j + 1
+  const std::uint64_t entering = left & ~next, leaving = ~left & next & all;
+  LineThrough result;
+  if (entering == 0 || leaving == 0) return result;  // rounded signs that are no polygon's
+  result.cover = cover;
+  result.in = static_cast<std::uint32_t>(std::countr_zero(entering));
+  result.out = static_cast<std::uint32_t>(std::countr_zero(leaving));
+  if (zero != 0) {
+    // A corner on the line is where the line crosses the two edges that meet there.
+    const auto corner = [&](std::uint32_t edge) {
+      const std::uint32_t then = edge + 1 == n ? 0 : edge + 1;
+      return zero >> edge & 1 ? edge : zero >> then & 1 ? then : LineThrough::kNoCorner;
+    };
+    result.in_corner = corner(result.in);
+    result.out_corner = corner(result.out);
+  }
+  return result;
+}
+
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::through_set(std::uint32_t q, const CornerSet& set) const {
+  const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - polygons_->polygons[q].count);
+  const std::uint64_t zero = all & ~(set.left | set.right);
+  if (set.left != 0 && set.right != 0) return ends_of_set(q, set.left, zero, LineCover::kBoth);
+  if ((zero & (zero - 1)) == 0 || zero == all) return {};  // fewer than two corners on the line
+  return set.left != 0 ? ends_of_set(q, set.left, zero, LineCover::kInner)
+                       : ends_of_set(q, zero, zero, LineCover::kOuter);
+}
+
+template <class Numbers, class Sides>
 LineThrough EdgeSurvey<Numbers, Sides>::through(std::uint32_t p, std::uint32_t k, std::uint32_t q) {
+  if (polygons_->polygons[q].count > CornerSet::kMost) return through_by_one(p, k, q);
+  return through_set(q, sets_[k]);
+}
+
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::through_by_one(std::uint32_t p, std::uint32_t k,
+                                                       std::uint32_t q) {
   const std::uint32_t n = polygons_->polygons[q].count;
   signs_.resize(n);
   std::uint32_t left = 0, right = 0;
@@ -220,24 +441,42 @@ template <class Numbers, class Sides>
 bool EdgeSurvey<Numbers, Sides>::interval(std::uint32_t p, std::uint32_t k, std::uint32_t q,
                                           const LineThrough& through, Stretch<Numbers>& stretch) {
   const FacingPolygon& own = polygons_->polygons[p];
+  const FacingPolygon& other = polygons_->polygons[q];
   const std::uint32_t next = k + 1 == own.count ? 0 : k + 1;
-  const auto error = [&](std::uint32_t edge) {
-    return polygons_->error_of_line(polygons_->polygons[q], edge) * polygons_->reach[p];
+  const Vector<T> from = polygons_->corner(own, k), to = polygons_->corner(own, next);
+  const double reach = polygons_->reach[p];
+  const auto sign = [&](std::uint32_t edge, const T& value, double bound, std::uint32_t j) {
+    if constexpr (!Numbers::kAsksKernel) {
+      if (value > bound) return 1;
+      if (value < -bound) return -1;
+      if constexpr (!Numbers::kCertified) return 0;
+    }
+    return undecided_side(q, edge, p, j);
   };
-  T in_from, in_to, out_from, out_to;
-  const int enters_from = side(q, through.in, p, k, in_from);
-  const int enters_to = side(q, through.in, p, next, in_to);
-  const bool starts_inside = enters_from > 0 || (enters_from == 0 && enters_to > 0);
-  if (!starts_inside && !(enters_from < 0 && enters_to > 0)) return false;
-  const int leaves_to = side(q, through.out, p, next, out_to);
-  const int leaves_from = side(q, through.out, p, k, out_from);
-  if (starts_inside ? leaves_from <= 0 : (leaves_to < 0 && leaves_from <= 0)) return false;
+  const Vector<T> in = polygons_->line(other, through.in);
+  const double in_error = polygons_->error_of_line(other, through.in) * reach;
+  const T in_from = dot_product(in, from), in_to = dot_product(in, to);
+  const int enters_from = sign(through.in, in_from, in_error, k);
+  bool starts_inside = enters_from > 0;
+  if (!starts_inside) {
+    if (sign(through.in, in_to, in_error, next) <= 0) return false;
+    starts_inside = enters_from == 0;
+  }
+  const Vector<T> out = polygons_->line(other, through.out);
+  const double out_error = polygons_->error_of_line(other, through.out) * reach;
+  const T out_from = dot_product(out, from), out_to = dot_product(out, to);
+  const int leaves_to = sign(through.out, out_to, out_error, next);
+  if ((starts_inside || leaves_to < 0) && sign(through.out, out_from, out_error, k) <= 0) {
+    return false;
+  }
   stretch.low = starts_inside
                     ? Place<Numbers>::from()
-                    : zero_between<Numbers>(in_from, in_to, error(through.in), through.in_name);
-  stretch.high = leaves_to >= 0 ? Place<Numbers>::to()
-                                : zero_between<Numbers>(out_from, out_to, error(through.out),
-                                                        through.out_name);
+                    : zero_between<Numbers>(in_from, in_to, in_error,
+                                            name_of(other, through.in, through.in_corner));
+  stretch.high = leaves_to >= 0
+                     ? Place<Numbers>::to()
+                     : zero_between<Numbers>(out_from, out_to, out_error,
+                                             name_of(other, through.out, through.out_corner));
   if constexpr (!Numbers::kCertified) return stretch.low.t < stretch.high.t;
   return true;
 }
@@ -268,8 +507,20 @@ int EdgeSurvey<Numbers, Sides>::nearer(std::uint32_t q, std::uint32_t p, std::ui
     if (difference > bound) return 1;
     if (difference < -bound) return -1;
     if constexpr (!Numbers::kCertified) return 0;
-    return sides_->of_support(q, p, j);
+    return undecided_nearer(q, p, j);
   }
+}
+
+// A corner of both polygons is on both planes; all else the kernel decides.
+template <class Numbers, class Sides>
+int EdgeSurvey<Numbers, Sides>::undecided_nearer(std::uint32_t q, std::uint32_t p,
+                                                 std::uint32_t j) {
+  const VertexId vertex = polygons_->vertex(polygons_->polygons[p], j);
+  const FacingPolygon& other = polygons_->polygons[q];
+  for (std::uint32_t i = 0; i < other.count; ++i) {
+    if (polygons_->vertex(other, i) == vertex) return 0;
+  }
+  return sides_->of_support(q, p, j);
 }
 
 // The depth at a polygon's own corner is 1 for a point light, exactly.
@@ -369,9 +620,9 @@ bool EdgeSurvey<Numbers, Sides>::interval_of_crease(const Crease<Numbers>& creas
   if (!starts_inside && !(enters_from < 0 && enters_to > 0)) return false;
   if (starts_inside ? leaves_from <= 0 : (leaves_to < 0 && leaves_from <= 0)) return false;
   stretch.low = starts_inside ? Place<Numbers>::from()
-                              : zero_between<Numbers>(in_from, in_to, error, through.in_name);
+                              : zero_between<Numbers>(in_from, in_to, error, PlaceName());
   stretch.high = leaves_to >= 0 ? Place<Numbers>::to()
-                                : zero_between<Numbers>(out_from, out_to, error, through.out_name);
+                                : zero_between<Numbers>(out_from, out_to, error, PlaceName());
   if constexpr (!Numbers::kCertified) return stretch.low.t < stretch.high.t;
   return true;
 }

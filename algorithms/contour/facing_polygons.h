@@ -44,8 +44,11 @@ struct FacingPolygons {
   using T = typename Numbers::T;
 
   std::vector<FacingPolygon> polygons;
-  std::vector<VertexId> vertices;              // by corner
-  std::vector<PlaneRef> edges;                 // by corner: the edge from it to the next, by EdgeId
+  std::vector<VertexId> vertices;  // by corner
+  std::vector<PlaneRef> edges;     // by corner: the edge from it to the next, by EdgeId
+  /// By corner: whether its edge is that of two casters that go on from each other there, and no
+  /// third one's. Where only the edges of meshes are looked at, none but silhouettes cast shadows.
+  std::vector<std::uint8_t> is_shared;
   std::vector<VectorBlock<T>> corners, lines;  // interior on the positive side of lines
   std::vector<double> line_error;  // by corner, padded as blocks: of a line's value for |r_k| <= 1
   std::vector<double> reach;       // by polygon: the largest |r_k| of its corners
@@ -65,8 +68,12 @@ struct FacingPolygons {
 
   /// Lays out the parts of `facing`, in its order. The arrays are kept from light to light.
   void lay_out(const PreparedScene& scene, const FacingParts& facing);
+  void find_shared_edges(std::size_t edge_count);
   /// Fills polygons [begin, end) with the numbers of one light.
   void fill(const LightRays<Numbers>& light, std::uint32_t begin, std::uint32_t end);
+
+ private:
+  std::vector<std::uint8_t> edge_users_;
 };
 
 template <class Numbers>
@@ -92,10 +99,32 @@ void FacingPolygons<Numbers>::lay_out(const PreparedScene& scene, const FacingPa
     first += part.count;
     block += polygons[i].blocks();
   }
+  find_shared_edges(scene.geometry.edges.size());
   corners.resize(block);
   lines.resize(block);
   line_error.resize(4 * std::size_t{block});
   reach.resize(polygons.size());
+}
+
+template <class Numbers>
+void FacingPolygons<Numbers>::find_shared_edges(std::size_t edge_count) {
+  // Of each edge: how often it is there in either direction (2: more than once), and whether all
+  // of its polygons cast.
+  constexpr std::uint8_t kDoesNotCast = 16;
+  edge_users_.assign(edge_count, 0);
+  for (const FacingPolygon& p : polygons) {
+    for (std::uint32_t k = 0; k < p.count; ++k) {
+      const PlaneRef edge = edges[p.first + k];
+      std::uint8_t& users = edge_users_[edge.index()];
+      const int shift = edge.flipped() ? 2 : 0;
+      if ((users >> shift & 3) < 2) users = static_cast<std::uint8_t>(users + (1 << shift));
+      if (!p.casts) users |= kDoesNotCast;
+    }
+  }
+  is_shared.resize(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    is_shared[i] = edge_users_[edges[i].index()] == (1 | 1 << 2);
+  }
 }
 
 template <class Numbers>

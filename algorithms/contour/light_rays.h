@@ -189,8 +189,12 @@ void fill_certified(const LightIntegers& light,
                     LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   const Geometry& geometry = *light.geometry;
   const bool directional = light.light.directional;
-  const auto scaled = [&](const Int& value) {
-    return to_double_scaled(value, static_cast<long>(light.q_bits));
+  const auto scaled = [&, scale = std::ldexp(1.0, -static_cast<int>(light.q_bits))](const Int& x) {
+    if constexpr (std::is_same_v<Int, std::int64_t> || std::is_same_v<Int, Int128>) {
+      return static_cast<double>(x) * scale;
+    } else {
+      return to_double_scaled(x, static_cast<long>(light.q_bits));
+    }
   };
   double third = 0;
   if (directional) {
@@ -205,7 +209,8 @@ void fill_certified(const LightIntegers& light,
   for (EdgeId e = 0; e < geometry.edges.size(); ++e) {
     const auto [from, to] = geometry.edges[e];
     const Vector3<Int> difference = gnomon::difference(light.q<Int>(to), light.q<Int>(from));
-    const Vector<double> d{scaled(difference[0]), scaled(difference[1]), scaled(difference[2])};
+    const Vector<double> d{scaled(difference[0]), scaled(difference[1]),
+                           directional ? 0 : scaled(difference[2])};
     const Vector<double>& a = result.rays[from];
     result.lines[e] = cross_product(a, d);
     result.line_error[e] = ContourBounds::kLine * largest(a) * largest(d);

@@ -6,7 +6,7 @@
 // Guarantee: complete, each pair once, and the same rows for every number of threads and every
 // level of vector instructions. Cost: O(n log n + pairs) for any boxes that a sample of them
 // represents. Memory: about 100 bytes a box that reaches few strips, at most 400 for tall ones, and
-// 16 a pair (24 where owners have several boxes); kept from run to run.
+// 16 to 20 a pair (twice that where owners have several boxes); kept from run to run.
 #ifndef GNOMON_ALGORITHMS_CONTOUR_PAIR_SEARCH_H
 #define GNOMON_ALGORITHMS_CONTOUR_PAIR_SEARCH_H
 
@@ -26,7 +26,7 @@ namespace gnomon {
 struct PairOptions {
   std::span<const std::uint8_t> casts = {};  // of each owner, 0 or 1; empty: all cast
   unsigned jobs = 1;                         // 1: the calling thread; else those of its arena
-  std::uint64_t most_pairs = kMostPairs;
+  std::uint64_t most_pairs = kMostPairs;     // so that memory has a limit
   /// The most pairs that rows can number.
   static constexpr std::uint64_t kMostPairs = 0x7fffffff;
 };

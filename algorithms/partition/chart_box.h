@@ -4,6 +4,7 @@
 #define GNOMON_ALGORITHMS_PARTITION_CHART_BOX_H
 
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace gnomon {
@@ -18,6 +19,17 @@ struct ChartBox {
            other.low[1] < high[1];
   }
 };
+
+/// Returns a float that is not larger than a double, so that bounds in doubles become certified
+/// floats. A double above all floats gets the largest float, and not infinity.
+inline float float_below(double x) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  const double below = x - std::fabs(x) * 0x1p-22 - 0x1p-140;
+  if (below >= static_cast<double>(kMost)) return kMost;
+  if (below <= -static_cast<double>(kMost)) return -std::numeric_limits<float>::infinity();
+  return static_cast<float>(below);
+}
+inline float float_above(double x) { return -float_below(-x); }
 
 }  // namespace gnomon
 

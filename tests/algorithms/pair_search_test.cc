@@ -313,7 +313,7 @@ TEST_P(PairSearchTest, ABoxMayOnlyTouch) {
 
 /// Many boxes are compared between levels and numbers of threads only, and by the sum of a sample.
 TEST_P(PairSearchTest, ManyBoxes) {
-  constexpr std::uint32_t kCount = 120000;
+  constexpr std::uint32_t kCount = 70000;
   Random random(6);
   for (const auto& [name, add] : kinds()) {
     const std::string_view kind = name;
