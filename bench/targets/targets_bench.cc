@@ -4,6 +4,8 @@
 // all ratios medians over the rounds of one run. Where another build is named its shares must be
 // equal to this one's, as rationals on small scenes and within certified bounds on those measured.
 #include <fmt/format.h>
+#include <rapidjson/prettywriter.h>
+#include <rapidjson/stringbuffer.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -31,6 +33,28 @@ std::string own_command() {
   return command.string();
 }
 
+void print_json(const TargetRun& run, const std::string& before) {
+  rapidjson::StringBuffer buffer;
+  rapidjson::PrettyWriter<rapidjson::StringBuffer> writer(buffer);
+  writer.SetIndent(' ', 1);
+  writer.StartObject();
+  const auto text = [&writer](const char* key, const std::string& value) {
+    writer.Key(key);
+    writer.String(value.c_str());
+  };
+  text("machine", machine_text());
+  text("against", before);
+  writer.Key("short");
+  writer.Bool(run.small());
+  writer.Key("answers_agree");
+  writer.Bool(run.good);
+  writer.Key("targets");
+  const std::string rows = run.verdicts.json();
+  writer.RawValue(rows.data(), rows.size(), rapidjson::kArrayType);
+  writer.EndObject();
+  fmt::print("{}\n", buffer.GetString());
+}
+
 }  // namespace
 
 bool run_targets(Extent extent, const std::string& against, bool json) {
@@ -46,9 +70,7 @@ bool run_targets(Extent extent, const std::string& against, bool json) {
     measure(run);
   }
   if (json) {
-    fmt::print(
-        "{{\n\"short\": {},\n\"against\": \"{}\",\n\"answers_agree\": {},\n\"targets\": {}\n}}\n",
-        run.small(), before, run.good, run.verdicts.json());
+    print_json(run, before);
     return run.good;
   }
   fmt::print("\n");
