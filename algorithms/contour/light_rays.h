@@ -206,12 +206,18 @@ void fill_certified(const LightIntegers& light,
     const Vector3<Int> q = light.q<Int>(v);
     result.rays[v] = {scaled(q[0]), scaled(q[1]), directional ? third : scaled(q[2])};
   }
+  // Rays of at most 52 bits are exactly their doubles, and so are the differences of two.
+  const bool exact_rays = light.narrow && light.q_bits <= 52;
   for (EdgeId e = 0; e < geometry.edges.size(); ++e) {
     const auto [from, to] = geometry.edges[e];
-    const Vector3<Int> difference = gnomon::difference(light.q<Int>(to), light.q<Int>(from));
-    const Vector<double> d{scaled(difference[0]), scaled(difference[1]),
-                           directional ? 0 : scaled(difference[2])};
     const Vector<double>& a = result.rays[from];
+    Vector<double> d{0, 0, 0};
+    if (exact_rays) {
+      d = difference_of(result.rays[to], a);
+    } else {
+      const Vector3<Int> difference = gnomon::difference(light.q<Int>(to), light.q<Int>(from));
+      for (int k = 0; k < (directional ? 2 : 3); ++k) d[k] = scaled(difference[k]);
+    }
     result.lines[e] = cross_product(a, d);
     result.line_error[e] = ContourBounds::kLine * largest(a) * largest(d);
   }
