@@ -108,15 +108,17 @@ ShadowOptions shadow_options_of(const ShadowsOptions& options, const LoadedScene
   return shadows;
 }
 
-/// The counts of a light without what it has for each part.
-LightResult counts_of(LightResult light) {
-  light.parts = {};
-  light.area_fractions = {};
-  light.exact_fractions = {};
-  light.fragments = {};
-  light.points = {};
-  light.exact_points = {};
-  return light;
+/// The counts of a light alone, for --stats.
+LightResult counts_of(const LightResult& light) {
+  LightResult counts;
+  counts.light = light.light;
+  counts.method = light.method;
+  counts.facing_parts = light.facing_parts;
+  counts.facing_edges = light.facing_edges;
+  counts.tree_nodes = light.tree_nodes;
+  counts.fragment_total = light.fragment_total;
+  counts.work = light.work;
+  return counts;
 }
 
 /// Classifies all lights. The table of shares gets each light as soon as it is done; the lights are
@@ -139,7 +141,7 @@ Expected<ShadowResult> classify(const ShadowsOptions& options, const LoadedScene
     if (options.keeps_lights()) {
       kept.push_back(std::move(light));
     } else if (options.stats) {
-      kept.push_back(counts_of(std::move(light)));
+      kept.push_back(counts_of(light));
     }
     return written;
   };

@@ -212,11 +212,17 @@ class PlainScene {
   // ------------------------------------------------------------------------------------- vertices
 
   bool number(Number& result) {
+    const bool decimal = scene_.numbers == NumberMeaning::kDecimal;
+    std::int32_t integer = 0;
+    if (scanner_.short_integer(integer)) {
+      result =
+          decimal ? Number::from_short_decimal(integer, 0) : Number(static_cast<double>(integer));
+      return true;
+    }
     JsonNumber number;
     if (!scanner_.number(number)) return false;
     constexpr std::int32_t kSmallExponent = 1000;
     const bool is_short = number.is_short && std::abs(number.exponent) <= kSmallExponent;
-    const bool decimal = scene_.numbers == NumberMeaning::kDecimal;
     if (is_short && decimal) {
       result = Number::from_short_decimal(number.mantissa, number.exponent);
       return true;
@@ -233,15 +239,10 @@ class PlainScene {
   static bool double_nearest_to(const JsonNumber& number, Number& result) {
     constexpr std::int64_t kExactIntegers = std::int64_t{1} << 53;
     constexpr std::int32_t kExactPowerOfTen = 22;
-    if (number.is_short && std::abs(number.mantissa) <= kExactIntegers) {
-      if (number.exponent == 0) {
-        result = Number(static_cast<double>(number.mantissa));
-        return true;
-      }
-      if (std::abs(number.exponent) <= kExactPowerOfTen) {
-        result = Number(Number::from_short_decimal(number.mantissa, number.exponent).nearest());
-        return true;
-      }
+    if (number.is_short && std::abs(number.mantissa) <= kExactIntegers &&
+        std::abs(number.exponent) <= kExactPowerOfTen) {
+      result = Number(Number::from_short_decimal(number.mantissa, number.exponent).nearest());
+      return true;
     }
     double value = 0;
     const char* const end = number.text.data() + number.text.size();

@@ -29,7 +29,8 @@ class Numbering {
   /// Numbers the things 0 .. n-1. Requires: n < 2^32 - 1; hash(i) equal for equal things;
   /// equal(i, j) an equivalence; both may be called by several threads at a time.
   template <class Hash, class Equal>
-  Numbering(std::size_t n, const Hash& hash, const Equal& equal) : number_(n) {
+  Numbering(std::size_t n, const Hash& hash, const Equal& equal) {
+    resize_in_large_pages(number_, n);
     first_of_equal(hash, equal);
     number_in_order();
   }

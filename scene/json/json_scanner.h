@@ -7,12 +7,12 @@
 #ifndef GNOMON_SCENE_JSON_JSON_SCANNER_H
 #define GNOMON_SCENE_JSON_JSON_SCANNER_H
 
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
 
 #include "scene/base/text_window.h"
+#include "scene/json/eight_characters.h"
 
 namespace gnomon {
 
@@ -106,6 +106,9 @@ class JsonScanner {
   /// A string in valid UTF-8 without escapes and control characters; `value` lies in the window.
   bool string(std::string_view& value);
   bool number(JsonNumber& value);
+  /// A number without a point or an exponent and of less than eight digits, as most are. Otherwise
+  /// nothing is taken.
+  bool short_integer(std::int32_t& value);
   /// An integer from 0 to 2^32 - 1, without a point or an exponent.
   bool index(std::uint32_t& value);
   /// Any value, with arrays and objects inside one another to a small depth.
@@ -129,6 +132,86 @@ class JsonScanner {
   const char* at_;
   const char* end_;  // a NUL, which no token holds
 };
+
+inline std::ptrdiff_t JsonScanner::digits(std::uint64_t& value) {
+  using namespace eight_characters;
+  const char* const first = at_;
+  while (end_ - at_ >= 8) {
+    const std::uint64_t word = load_eight(at_) ^ ('0' * kEveryByte);
+    const std::uint64_t marks = no_digits(word);
+    if (marks == 0) {
+      value = value * kPowersOfTen[8] + value_of_digits(word);
+      at_ += 8;
+      continue;
+    }
+    const std::ptrdiff_t count = bytes_below(marks);
+    // Zeros come in before the digits.
+    if (count != 0) value = value * kPowersOfTen[count] + value_of_digits(word << (64 - 8 * count));
+    at_ += count;
+    return at_ - first;
+  }
+  for (; is_digit(*at_); ++at_) value = value * 10 + static_cast<std::uint64_t>(*at_ - '0');
+  return at_ - first;
+}
+
+inline bool JsonScanner::short_integer(std::int32_t& value) {
+  using namespace eight_characters;
+  skip_blanks();
+  const bool negative = *at_ == '-';
+  const char* const first = at_ + (negative ? 1 : 0);
+  if (end_ - first < 8) return false;
+  const std::uint64_t word = load_eight(first) ^ ('0' * kEveryByte);
+  const std::uint64_t marks = no_digits(word);
+  if (marks == 0) return false;
+  const std::ptrdiff_t count = bytes_below(marks);
+  const char after = first[count];
+  if (count == 0 || (count > 1 && *first == '0') || after == '.' || (after | 0x20) == 'e') {
+    return false;
+  }
+  const auto magnitude = static_cast<std::int32_t>(value_of_digits(word << (64 - 8 * count)));
+  value = negative ? -magnitude : magnitude;
+  at_ = first + count;
+  return true;
+}
+
+inline bool JsonScanner::number(JsonNumber& value) {
+  skip_blanks();
+  const char* const begin = at_;
+  const bool negative = *at_ == '-';
+  if (negative) ++at_;
+  const char* const first = at_;
+  std::uint64_t magnitude = 0;
+  std::ptrdiff_t count = digits(magnitude);
+  if (count == 0 || (count > 1 && *first == '0')) return false;
+  value.exponent = 0;
+  value.is_short = true;
+  if (*at_ == '.') {
+    ++at_;
+    const std::ptrdiff_t places = digits(magnitude);
+    if (places == 0) return false;
+    count += places;
+    value.exponent = -static_cast<std::int32_t>(places);
+  }
+  if (*at_ == 'e' || *at_ == 'E') {
+    ++at_;
+    if (!exponent(value)) return false;
+  }
+  value.is_short = value.is_short && count <= JsonNumber::kMostShortDigits;
+  const auto mantissa = static_cast<std::int64_t>(value.is_short ? magnitude : 0);
+  value.mantissa = negative ? -mantissa : mantissa;
+  value.text = std::string_view(begin, static_cast<std::size_t>(at_ - begin));
+  return true;
+}
+
+inline bool JsonScanner::index(std::uint32_t& value) {
+  skip_blanks();
+  const char* const first = at_;
+  std::uint64_t wide = 0;
+  const std::ptrdiff_t count = digits(wide);
+  constexpr std::ptrdiff_t kMostDigits = 10;
+  value = static_cast<std::uint32_t>(wide);
+  return count != 0 && count <= kMostDigits && value == wide && (count == 1 || *first != '0');
+}
 
 }  // namespace gnomon
 

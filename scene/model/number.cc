@@ -171,6 +171,8 @@ double round_decimal(const mpz_class& mantissa, std::int32_t exponent) {
 
 }  // namespace
 
+void Number::release() noexcept { delete big_; }
+
 void Number::set(mpz_class mantissa, std::int64_t exponent, std::uint8_t base) {
   base_ = base;
   if (sgn(mantissa) == 0) return;

@@ -49,12 +49,12 @@ class Number {
   }
   Number(Number&& other) noexcept { take(other); }
   Number& operator=(Number other) noexcept {
-    if (is_big_) delete big_;
+    if (is_big_) release();
     take(other);
     return *this;
   }
   ~Number() {
-    if (is_big_) delete big_;
+    if (is_big_) release();
   }
 
   /// mantissa * base^exponent, base 2 or 10; normalised (no factor of the base left in the
@@ -118,6 +118,8 @@ class Number {
   friend bool operator==(const Number& a, const Number& b);
 
  private:
+  /// Requires: a mantissa on the heap. Not inline, so that everything around it is.
+  void release() noexcept;
   /// Takes the value of another, which is left with one without a mantissa on the heap. Requires:
   /// this has none.
   void take(Number& other) noexcept {
