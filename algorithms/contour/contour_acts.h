@@ -15,9 +15,11 @@ template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::uncovered(std::span<const Segment<Numbers>> base,
                                             std::vector<Stretch<Numbers>>& covers,
                                             std::vector<Segment<Numbers>>& result) {
-  std::sort(covers.begin(), covers.end(), [](const auto& a, const auto& b) {
-    return a.low.t != b.low.t ? a.low.t < b.low.t : b.high.t < a.high.t;
-  });
+  if (covers.size() > 1) {
+    std::sort(covers.begin(), covers.end(), [](const auto& a, const auto& b) {
+      return a.low.t != b.low.t ? a.low.t < b.low.t : b.high.t < a.high.t;
+    });
+  }
   result.clear();
   for (const Segment<Numbers>& segment : base) {
     PlaceOnEdge at = segment.low;
@@ -53,24 +55,37 @@ void ContourWalk<Numbers, Sides>::walk_edge(std::uint32_t k) {
   for (const Stretch<Numbers>& stretch : lists.hidden) {
     sum.flags |= certainly_before(stretch.low, stretch.high) ? kHoldsShadow : kPerhapsShadow;
   }
-  uncovered({&whole, 1}, lists.hidden, seen_);
+  if (lists.hidden.empty()) {
+    seen_.assign(1, whole);
+  } else {
+    uncovered({&whole, 1}, lists.hidden, seen_);
+  }
   for (const Segment<Numbers>& segment : seen_) add_own(k, segment);
   if (!casts(p_) || seen_.empty()) return;
   if (lists.behind.empty() && lists.level.empty()) return;
-  for (const Behind<Numbers>& receiver : lists.level) act_level(k, receiver);
-  if (lists.behind.empty()) return;
-  // Below a caster that goes on from the edge, or through it, nothing is seen beside the edge.
-  covers_ = lists.taken;
-  for (const Behind<Numbers>& other : lists.beside) covers_.push_back({other.low, other.high});
-  for (const Behind<Numbers>& other : lists.level) {
-    if (casts(other.polygon)) covers_.push_back({other.low, other.high});
+  if (!lists.level.empty()) {
+    if (silent_[k]) find_beside(k);
+    for (const Behind<Numbers>& receiver : lists.level) act_level(k, receiver);
   }
-  uncovered(seen_, covers_, free_);
-  if (free_.empty()) return;
-  std::sort(lists.behind.begin(), lists.behind.end(), [](const auto& a, const auto& b) {
-    return a.low.t != b.low.t ? a.low.t < b.low.t : a.polygon < b.polygon;
-  });
-  for (const Segment<Numbers>& segment : free_) {
+  if (lists.behind.empty() || silent_[k]) return;
+  // Below a caster that goes on from the edge, or through it, nothing is seen beside the edge.
+  std::span<const Segment<Numbers>> free = seen_;
+  if (!lists.taken.empty() || !lists.beside.empty() || !lists.level.empty()) {
+    covers_ = lists.taken;
+    for (const Behind<Numbers>& other : lists.beside) covers_.push_back({other.low, other.high});
+    for (const Behind<Numbers>& other : lists.level) {
+      if (casts(other.polygon)) covers_.push_back({other.low, other.high});
+    }
+    uncovered(seen_, covers_, free_);
+    free = free_;
+  }
+  if (free.empty()) return;
+  if (lists.behind.size() > 1) {
+    std::sort(lists.behind.begin(), lists.behind.end(), [](const auto& a, const auto& b) {
+      return a.low.t != b.low.t ? a.low.t < b.low.t : a.polygon < b.polygon;
+    });
+  }
+  for (const Segment<Numbers>& segment : free) {
     if (segment.sure) {
       act_along(k, segment);
     } else {
@@ -123,44 +138,60 @@ bool ContourWalk<Numbers, Sides>::is_above_outside(std::uint32_t k, std::uint32_
 template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::act_along(std::uint32_t k, const Segment<Numbers>& segment) {
   const std::vector<Behind<Numbers>>& behind = lists_[k].behind;
+  if (behind.size() == 1) {
+    const Behind<Numbers>& only = behind.front();
+    PlaceOnEdge low = later_of(only.low, segment.low), high = earlier_of(only.high, segment.high);
+    if (certainly_before(low, high)) {
+      if (only.covers_both) take_from(k, only, low, high);
+    } else if (shorten(low, high)) {
+      perhaps_at(k, low, high);
+    }
+    return;
+  }
   events_.clear();
+  clipped_.clear();
   for (std::uint32_t i = 0; i < behind.size(); ++i) {
     const Behind<Numbers>& entry = behind[i];
     if (certainly_before(segment.high, entry.low)) break;  // so are all that follow
     if (certainly_before(entry.high, segment.low)) continue;
-    const PlaceOnEdge low = later_of(entry.low, segment.low);
-    PlaceOnEdge high = earlier_of(entry.high, segment.high);
-    if (high.t < low.t) high.t = low.t;  // within the bounds; it ends after it begins
-    events_.push_back({low, i, true});
-    events_.push_back({high, i, false});
+    Clipped part{later_of(entry.low, segment.low), earlier_of(entry.high, segment.high), i};
+    if (part.high.t < part.low.t) part.high.t = part.low.t;  // within the bounds
+    const auto index = static_cast<std::uint32_t>(clipped_.size());
+    events_.push_back({part.low.t, index, true});
+    events_.push_back({part.high.t, index, false});
+    clipped_.push_back(std::move(part));
   }
   if (events_.empty()) return;
-  events_.push_back({segment.high, kNoEntry, false});
   std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
-    if (a.at.t != b.at.t) return a.at.t < b.at.t;
+    if (a.t != b.t) return a.t < b.t;
     return a.entry != b.entry ? a.entry < b.entry : a.begins > b.begins;
   });
   active_.clear();
   PlaceOnEdge at = segment.low;
-  for (const Event& event : events_) {
-    if (certainly_before(at, event.at)) {
+  const auto go_to = [&](const PlaceOnEdge& next) {
+    if (certainly_before(at, next)) {
       // The order of depths may change on the way.
       while (!active_.empty()) {
-        PlaceOnEdge end = event.at;
+        PlaceOnEdge end = next;
         if (!piece(k, at, end)) perhaps_at(k, at, end);
-        if (!(end.t < event.at.t)) break;
+        if (!(end.t < next.t)) break;
         at = end;
       }
-    } else if (!certainly_no_gap(at, event.at)) {
-      perhaps_at(k, at, event.at);
+    } else if (!certainly_no_gap(at, next)) {
+      perhaps_at(k, at, next);
     }
-    at = event.at;
+    at = next;
+  };
+  for (const Event& event : events_) {
+    const Clipped& part = clipped_[event.entry];
+    go_to(event.begins ? part.low : part.high);
     if (event.begins) {
-      active_.push_back(event.entry);
+      active_.push_back(part.entry);
     } else {
-      std::erase(active_, event.entry);
+      std::erase(active_, part.entry);
     }
   }
+  go_to(segment.high);
 }
 
 // Between two places where nothing begins or ends. `high` comes nearer where the order changes.
@@ -169,6 +200,11 @@ template <class Numbers, class Sides>
 bool ContourWalk<Numbers, Sides>::piece(std::uint32_t k, const PlaceOnEdge& low,
                                         PlaceOnEdge& high) {
   const std::vector<Behind<Numbers>>& behind = lists_[k].behind;
+  if (active_.size() == 1) {
+    const Behind<Numbers>& only = behind[active_.front()];
+    if (only.covers_both) take_from(k, only, low, high);
+    return true;
+  }
   // The first caster just after `low`, and where another polygon's depth passes its.
   const Behind<Numbers>* top = nullptr;
   for (const std::uint32_t i : active_) {
@@ -208,6 +244,7 @@ bool ContourWalk<Numbers, Sides>::is_first(std::uint32_t k, const Behind<Numbers
                                            const Behind<Numbers>& b, const PlaceOnEdge& low,
                                            const PlaceOnEdge& high) {
   if (plane(a.polygon) == plane(b.polygon)) return false;
+  if (const int order = range_order(a.polygon, b.polygon); order != 0) return order > 0;
   int order = depth_order(a, b, low);
   const int at_high = depth_order(a, b, high);
   if (order * at_high < 0 && !(low.t < passing(a, b, low, high).t)) order = 0;  // it just changed
@@ -268,6 +305,7 @@ void ContourWalk<Numbers, Sides>::end_where_order_changes(const Behind<Numbers>&
                                                           const PlaceOnEdge& low,
                                                           PlaceOnEdge& high) {
   if (plane(entry.polygon) == plane(top.polygon)) return;
+  if (range_order(entry.polygon, top.polygon) != 0) return;
   if (depth_order(entry, top, low) * depth_order(entry, top, high) >= 0) return;
   const PlaceOnEdge end = passing(entry, top, low, high);
   if (low.t < end.t && end.t < high.t) high = end;
@@ -280,6 +318,7 @@ bool ContourWalk<Numbers, Sides>::is_behind(std::uint32_t k, const Behind<Number
                                             const Behind<Numbers>& top, const PlaceOnEdge& low,
                                             const PlaceOnEdge& high) {
   if (plane(entry.polygon) == plane(top.polygon)) return false;
+  if (const int order = range_order(entry.polygon, top.polygon); order != 0) return order < 0;
   const int at_low = depth_order(entry, top, low), at_high = depth_order(entry, top, high);
   if (at_low == at_high && at_low != 0) return at_low < 0;
   const int known = level_order(k, entry.polygon, top.polygon);

@@ -93,7 +93,7 @@ class ContourRun {
   }
   void measure(std::uint32_t begin, std::uint32_t end);
   void set_classes();
-  RunOutcome find_open_ones(const std::function<void(double)>& progress);
+  RunOutcome find_open_ones(Space space, const std::function<void(double)>& progress);
   bool is_open(const Sum& sum) const;
 
   const PreparedScene& scene_;
@@ -123,8 +123,18 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
     T whole(0);
     double error = 0;
     for (std::uint32_t k = 1; k + 1 < p.count; ++k) {
+      if constexpr (Numbers::kCertified) {
+        if (!rays_.positions.empty()) {
+          double size;
+          const Vector<double> difference =
+              rays_.difference(polygons_.vertex(p, 0), polygons_.vertex(p, k), size);
+          whole += dot_product(polygons_.line(p, k), difference);
+          error += polygons_.error_of_line(p, k) * size;
+          continue;
+        }
+        error += polygons_.error_of_line(p, k) * polygons_.reach[i];
+      }
       whole += dot_product(polygons_.line(p, k), corner);
-      if constexpr (Numbers::kCertified) error += polygons_.error_of_line(p, k);
     }
     measure_.relative_error[i] = 0;
     if (!(whole > 0)) {
@@ -135,8 +145,7 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
     measure_.scale[i] = T(1 / whole);
     if constexpr (Numbers::kCertified) {
       // Summing n values rounds by less than n u of their sum, the quotient by u.
-      measure_.relative_error[i] =
-          1.01 * error * polygons_.reach[i] * measure_.scale[i] + (p.count + 2) * Ball::kUnit;
+      measure_.relative_error[i] = 1.01 * error * measure_.scale[i] + (p.count + 2) * Ball::kUnit;
       if (!(measure_.relative_error[i] < 0x1p-20)) sums_[i].flags |= kContourOpen;
     }
   }
@@ -172,7 +181,7 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   if (!pairs_.run(charts_.charts(), count, {.casts = casts_, .jobs = jobs_})) {
     return RunOutcome::kTooManyFragments;
   }
-  const Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
+  Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
   tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers;
   std::atomic<bool> no_ieee = false, stopped = false;
   std::atomic<std::uint32_t> done = 0;
@@ -186,8 +195,8 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
       }
       worker = std::make_unique<Worker>(Worker{sides.fork(), std::vector<Sum>(count)});
     }
-    ContourWalk<Numbers, Sides> walk(rays_, polygons_, measure_, charts_.depths(), worker->sides,
-                                     lanes_, worker->sums);
+    ContourWalk<Numbers, Sides> walk(rays_, polygons_, measure_, charts_.depths(), rules_,
+                                     worker->sides, lanes_, worker->sums);
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::atomic<bool>* interrupted = options_.control.interrupted;
       if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) {
@@ -205,9 +214,11 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   for (const std::unique_ptr<Worker>& worker : workers) {
     for (std::uint32_t i = 0; i < count; ++i) sums_[i] += worker->sums[i];
     stages_ += worker->sides.space().stage_counts();
+    result_.work[Counter::kIntervals] += worker->intervals;
+    result_.work[Counter::kSegments] += worker->segments;
   }
   set_classes();
-  return find_open_ones(progress);
+  return find_open_ones(sides.space().fork(), progress);
 }
 
 /// Whether the bounds leave open a polygon's class or much of its share.
@@ -278,7 +289,8 @@ void ContourRun<Space, Numbers>::set_classes() {
 /// Exact subtraction for what is open: the sectors method on these polygons and what may shadow
 /// them.
 template <SectorSpaceModel Space, class Numbers>
-RunOutcome ContourRun<Space, Numbers>::find_open_ones(const std::function<void(double)>& progress) {
+RunOutcome ContourRun<Space, Numbers>::find_open_ones(Space space,
+                                                      const std::function<void(double)>& progress) {
   if constexpr (Numbers::kCertified) {
     std::vector<std::uint8_t> takes_part(polygons_.size());  // 1: casts; 2: receives
     bool some = false;
@@ -300,8 +312,8 @@ RunOutcome ContourRun<Space, Numbers>::find_open_ones(const std::function<void(d
       result_.work[Counter::kOpenPolygons] += takes_part[i] >> 1;
     }
     SectorRun<Space> exact(scene_, run_options_, rules_, scene_space_, result_.light,
-                           options_.kernel.options(), LeafMethod::kSubtract, Cover::kPartition,
-                           {parts, receives});
+                           std::move(space), std::move(*facing_), LeafMethod::kSubtract,
+                           Cover::kPartition, {parts, receives});
     const RunOutcome outcome = exact.run({});
     if (outcome != RunOutcome::kDone) return outcome;
     stages_ += exact.stage_counts();

@@ -53,8 +53,9 @@ struct ContourSum<ContourNumbers<double, Trust::kCertified>> {
       flags |= kContourOpen;
       return;
     }
-    units += static_cast<std::uint64_t>(std::llrint(std::ldexp(share, kBits)));
-    error = std::min(kMostError, error + 2 + static_cast<std::uint64_t>(std::ldexp(bound, kBits)));
+    constexpr double kUnits = 0x1p60;
+    units += static_cast<std::uint64_t>(static_cast<std::int64_t>(share * kUnits));
+    error = std::min(kMostError, error + 2 + static_cast<std::uint64_t>(bound * kUnits));
   }
   void operator+=(const ContourSum& other) {
     units += other.units;

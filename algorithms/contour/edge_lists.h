@@ -11,8 +11,10 @@
 #ifndef GNOMON_ALGORITHMS_CONTOUR_EDGE_LISTS_H
 #define GNOMON_ALGORITHMS_CONTOUR_EDGE_LISTS_H
 
+#include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -45,6 +47,8 @@ struct EdgeLists {
   std::vector<Behind<Numbers>> behind;   // below the edge
   std::vector<Behind<Numbers>> level;    // whose plane holds the edge, and which it may act on
   std::vector<Behind<Numbers>> beside;   // casters at the edge's own depth on its outer side alone
+  // What is hidden from the edge's first end on, and to its last: until where, and from where.
+  Place<Numbers> first, last;
 
   void clear() {
     hidden.clear();
@@ -52,6 +56,8 @@ struct EdgeLists {
     behind.clear();
     level.clear();
     beside.clear();
+    first = Place<Numbers>::from();
+    last = Place<Numbers>::to();
   }
 };
 
@@ -59,11 +65,12 @@ struct EdgeLists {
 enum class LineCover : std::uint8_t { kNone, kBoth, kInner, kOuter };
 
 /// Where the line of an edge goes through a polygon: it enters through edge `in` and leaves through
-/// edge `out`, or through a corner of these (a known one is named).
+/// edge `out`, or through a corner of these that is on the line.
 struct LineThrough {
+  static constexpr std::uint32_t kNoCorner = 0xffffffffu;
   LineCover cover = LineCover::kNone;
   std::uint32_t in = 0, out = 0;
-  PlaceName in_name, out_name;
+  std::uint32_t in_corner = kNoCorner, out_corner = kNoCorner;
 };
 
 /// Corners of a polygon on the left and on the right of a line, as bits; the others are on it.
@@ -89,23 +96,67 @@ struct MaybeSign {
   bool known = true;
 };
 
+/// Where a line goes through a polygon of three or four corners, by the set of those on its left:
+/// it enters through an edge from the left to the right, and leaves through one back.
+struct BlockEnds {
+  std::uint8_t in = 0, out = 0;
+};
+constexpr BlockEnds ends_of_block(unsigned n, unsigned left) {
+  BlockEnds ends;
+  for (unsigned k = n; k-- > 0;) {
+    const bool here = left >> k & 1, then = left >> (k + 1) % n & 1;
+    if (here && !then) ends.in = static_cast<std::uint8_t>(k);
+    if (!here && then) ends.out = static_cast<std::uint8_t>(k);
+  }
+  return ends;
+}
+inline constexpr auto kBlockEnds = [] {
+  std::array<std::array<BlockEnds, 16>, 2> table{};
+  for (unsigned n = 3; n <= 4; ++n) {
+    for (unsigned left = 0; left < 1u << n; ++left) table[n - 3][left] = ends_of_block(n, left);
+  }
+  return table;
+}();
+/// The bits of BlockSigns that are of lines and corners that there are.
+constexpr unsigned valid_signs(std::uint32_t lines, std::uint32_t corners) {
+  return (0x1111u >> 4 * (4 - lines)) * ((1u << corners) - 1);
+}
+
 template <class Numbers, class Sides>
 class EdgeSurvey {
  public:
   using T = typename Numbers::T;
+  /// Whether signs are found four lines and four corners at a time.
+  static constexpr bool kInBlocks = std::is_same_v<T, double> && !Numbers::kAsksKernel;
   EdgeSurvey(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons, Sides& sides,
              const Lanes& lanes)
       : light_(&light), polygons_(&polygons), sides_(&sides), lanes_(&lanes) {}
 
   /// Sign of the line of edge k of p at corner j of q; its value in `value`.
   int side(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t j, T& value);
+  int undecided_side(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t j);
+  int undecided_nearer(std::uint32_t q, std::uint32_t p, std::uint32_t j);
   /// The signs of the lines of all edges of p at the corners of q, for sides_of_line(). False: no
   /// corner of q is inside of one of the lines, so that the two do not overlap.
   bool find_signs(std::uint32_t p, std::uint32_t q);
   /// Where the line of edge k of polygon p goes through polygon q. Requires: find_signs(p, q).
   LineThrough through(std::uint32_t p, std::uint32_t k, std::uint32_t q);
+  /// The same without find_signs().
+  LineThrough through_by_one(std::uint32_t p, std::uint32_t k, std::uint32_t q);
+  /// The same for polygons of at most four corners in doubles, as one block of signs; what the
+  /// numbers leave open is decided.
+  BlockSigns block_signs(std::uint32_t p, std::uint32_t q) requires(kInBlocks);
+  /// Where the line goes whose signs of four corners are in a block, of a polygon of n corners.
+  LineThrough through_block(std::uint32_t q, unsigned left, unsigned right) const;
   /// Whether, by find_signs(), no corner is inside of edge k's line.
   bool is_outside(std::uint32_t k) const { return sets_[k].left == 0; }
+  /// False if all corners are on one side of edge k's line, by find_signs().
+  bool may_go_through(std::uint32_t k, std::uint32_t q) const {
+    const std::uint32_t count = polygons_->polygons[q].count;
+    if (count > CornerSet::kMost) return true;
+    const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - count);
+    return sets_[k].left != all && sets_[k].right != all;
+  }
   /// The interval of edge k of p in q, which its line goes `through`. False: there is none.
   bool interval(std::uint32_t p, std::uint32_t k, std::uint32_t q, const LineThrough& through,
                 Stretch<Numbers>& stretch);
@@ -115,6 +166,9 @@ class EdgeSurvey {
   /// 1 if corner j of p is nearer than the plane of q, -1 if it is behind, 0 on it; `depth`: of q
   /// there.
   int nearer(std::uint32_t q, std::uint32_t p, std::uint32_t j, const T& depth);
+  /// The corners of p that are nearer than the plane of q, to the left, and those that are behind
+  /// it, to the right, as far as the numbers tell. Requires: at most CornerSet::kMost corners.
+  CornerSet find_nearer(std::uint32_t q, std::uint32_t p) const;
   /// How much nearer corner j of p is than the plane of q, in units of depth, and the bound of
   /// that.
   T depth_over(std::uint32_t p, std::uint32_t q, std::uint32_t j) const;
@@ -122,6 +176,9 @@ class EdgeSurvey {
   /// 1 if polygon p is nearer than the plane of q on the inner side of its edge, which lies in
   /// that plane; 0 if the planes are one.
   int nearer_beside(std::uint32_t q, std::uint32_t p);
+  /// The same, taken from the corner of q that is farthest from edge k of p, whichever its side:
+  /// wrong, and what Rules::equal_depth_by_its_planes turns to.
+  int nearer_by_far_corner(std::uint32_t q, std::uint32_t p, std::uint32_t k);
 
   /// Where the plane of q cuts polygon p, what is nearer than q on the left: kBoth if corners are
   /// on both sides.
@@ -141,9 +198,11 @@ class EdgeSurvey {
   void find_sign(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t j,
                  CornerSet& set);
   LineThrough through_set(std::uint32_t q, const CornerSet& set) const;
+  Place<Numbers> meeting(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t edge,
+                         std::uint32_t corner, const T& at_from, const T& at_to,
+                         double error) const;
   LineThrough ends_of_set(std::uint32_t q, std::uint64_t left, std::uint64_t zero,
                           LineCover cover) const;
-  LineThrough through_by_one(std::uint32_t p, std::uint32_t k, std::uint32_t q);
   /// From signs_, of which so many are on the left and on the right.
   LineThrough through_signs(std::uint32_t q, std::uint32_t left, std::uint32_t right) const;
 
@@ -158,23 +217,30 @@ class EdgeSurvey {
 template <class Numbers, class Sides>
 int EdgeSurvey<Numbers, Sides>::side(std::uint32_t p, std::uint32_t k, std::uint32_t q,
                                      std::uint32_t j, T& value) {
-  const FacingPolygon& own = polygons_->polygons[p];
-  const FacingPolygon& other = polygons_->polygons[q];
-  value = dot_product(polygons_->line(own, k), polygons_->corner(other, j));
-  if constexpr (Numbers::kAsksKernel) {
-    return sides_->of_line(p, k, q, j);
-  } else {
+  if constexpr (!Numbers::kAsksKernel) {
+    const FacingPolygon& own = polygons_->polygons[p];
+    value = dot_product(polygons_->line(own, k), polygons_->corner(polygons_->polygons[q], j));
     const double bound = polygons_->error_of_line(own, k) * polygons_->reach[q];
     if (value > bound) return 1;
     if (value < -bound) return -1;
     if constexpr (!Numbers::kCertified) return 0;
-    const VertexId vertex = polygons_->vertex(other, j);
+  }
+  return undecided_side(p, k, q, j);
+}
+
+// What the numbers leave open: an end of the edge is on its line, all else the kernel decides.
+template <class Numbers, class Sides>
+int EdgeSurvey<Numbers, Sides>::undecided_side(std::uint32_t p, std::uint32_t k, std::uint32_t q,
+                                               std::uint32_t j) {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const VertexId vertex = polygons_->vertex(polygons_->polygons[q], j);
+  if constexpr (Numbers::kCertified) {
     if (vertex == polygons_->vertex(own, k) ||
         vertex == polygons_->vertex(own, k + 1 == own.count ? 0 : k + 1)) {
       return 0;
     }
-    return sides_->of_line(p, k, q, j);
   }
+  return sides_->of_line(p, k, q, j);
 }
 
 // The line enters where it goes from corners on the left to corners on the right.
@@ -187,10 +253,8 @@ LineThrough EdgeSurvey<Numbers, Sides>::name_ends(std::uint32_t q, LineCover cov
     return signs_[j] > 0 || (signs_[j] == 0 && zero_is_left);
   };
   // A corner on the line is where the line crosses the two edges that meet there.
-  const auto name = [&](std::uint32_t edge, std::uint32_t next) {
-    const std::uint32_t corner = signs_[edge] == 0 ? edge : next;
-    return signs_[corner] == 0 ? PlaceName::vertex(polygons_->vertex(other, corner))
-                               : PlaceName::line(polygons_->edge(other, edge).index());
+  const auto corner = [&](std::uint32_t edge, std::uint32_t next) {
+    return signs_[edge] == 0 ? edge : signs_[next] == 0 ? next : LineThrough::kNoCorner;
   };
   LineThrough result;
   bool enters = false, leaves = false;
@@ -200,11 +264,11 @@ LineThrough EdgeSurvey<Numbers, Sides>::name_ends(std::uint32_t q, LineCover cov
     if (left && !then_left && !enters) {
       enters = true;
       result.in = j;
-      result.in_name = name(j, next);
+      result.in_corner = corner(j, next);
     } else if (!left && then_left && !leaves) {
       leaves = true;
       result.out = j;
-      result.out_name = name(j, next);
+      result.out_corner = corner(j, next);
     }
   }
   if (enters && leaves) result.cover = cover;
@@ -220,6 +284,43 @@ void EdgeSurvey<Numbers, Sides>::find_sign(std::uint32_t p, std::uint32_t k, std
   set.right |= std::uint64_t{sign < 0} << j;
 }
 
+template <class Numbers, class Sides>
+BlockSigns EdgeSurvey<Numbers, Sides>::block_signs(std::uint32_t p,
+                                                   std::uint32_t q) requires(kInBlocks) {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const FacingPolygon& other = polygons_->polygons[q];
+  const double reach = polygons_->reach[q];
+  const double* errors = &polygons_->line_error[4 * std::size_t{own.block}];
+  const double bounds[4] = {errors[0] * reach, errors[1] * reach, errors[2] * reach,
+                            errors[3] * reach};
+  BlockSigns signs =
+      lanes_->block_signs(polygons_->lines[own.block].x, bounds, polygons_->corners[other.block].x);
+  const unsigned valid = valid_signs(own.count, other.count);
+  signs.positive = static_cast<std::uint16_t>(signs.positive & valid);
+  signs.negative = static_cast<std::uint16_t>(signs.negative & valid);
+  if constexpr (Numbers::kCertified) {
+    for (unsigned open = valid & ~(signs.positive | signs.negative); open != 0; open &= open - 1) {
+      const auto bit = static_cast<std::uint32_t>(std::countr_zero(open));
+      const int sign = undecided_side(p, bit / 4, q, bit % 4);
+      if (sign > 0) signs.positive = static_cast<std::uint16_t>(signs.positive | 1u << bit);
+      if (sign < 0) signs.negative = static_cast<std::uint16_t>(signs.negative | 1u << bit);
+    }
+  }
+  return signs;
+}
+
+template <class Numbers, class Sides>
+LineThrough EdgeSurvey<Numbers, Sides>::through_block(std::uint32_t q, unsigned left,
+                                                      unsigned right) const {
+  const std::uint32_t n = polygons_->polygons[q].count;
+  if ((left | right) == (1u << n) - 1) {
+    if (left == 0 || right == 0) return {};
+    const BlockEnds ends = kBlockEnds[n - 3][left];
+    return {LineCover::kBoth, ends.in, ends.out};
+  }
+  return through_set(q, {left, right});
+}
+
 // Four lines and four corners at once where numbers are doubles and decide; what they leave open is
 // decided one by one.
 template <class Numbers, class Sides>
@@ -229,7 +330,7 @@ bool EdgeSurvey<Numbers, Sides>::find_signs(std::uint32_t p, std::uint32_t q) {
   if (sets_.size() < own.count) sets_.resize(own.count);
   if (other.count > CornerSet::kMost) return true;
   const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - other.count);
-  if constexpr (std::is_same_v<T, double> && !Numbers::kAsksKernel) {
+  if constexpr (kInBlocks) {
     const double reach = polygons_->reach[q];
     const auto settle = [&](std::uint32_t k, CornerSet set) {
       set.left &= all;
@@ -288,15 +389,15 @@ LineThrough EdgeSurvey<Numbers, Sides>::ends_of_set(std::uint32_t q, std::uint64
   result.cover = cover;
   result.in = static_cast<std::uint32_t>(std::countr_zero(entering));
   result.out = static_cast<std::uint32_t>(std::countr_zero(leaving));
-  // A corner on the line is where the line crosses the two edges that meet there.
-  const auto name = [&](std::uint32_t edge) {
-    const std::uint32_t then = edge + 1 == n ? 0 : edge + 1;
-    if (zero >> edge & 1) return PlaceName::vertex(polygons_->vertex(other, edge));
-    if (zero >> then & 1) return PlaceName::vertex(polygons_->vertex(other, then));
-    return PlaceName::line(polygons_->edge(other, edge).index());
-  };
-  result.in_name = name(result.in);
-  result.out_name = name(result.out);
+  if (zero != 0) {
+    // A corner on the line is where the line crosses the two edges that meet there.
+    const auto corner = [&](std::uint32_t edge) {
+      const std::uint32_t then = edge + 1 == n ? 0 : edge + 1;
+      return zero >> edge & 1 ? edge : zero >> then & 1 ? then : LineThrough::kNoCorner;
+    };
+    result.in_corner = corner(result.in);
+    result.out_corner = corner(result.out);
+  }
   return result;
 }
 
@@ -349,26 +450,74 @@ template <class Numbers, class Sides>
 bool EdgeSurvey<Numbers, Sides>::interval(std::uint32_t p, std::uint32_t k, std::uint32_t q,
                                           const LineThrough& through, Stretch<Numbers>& stretch) {
   const FacingPolygon& own = polygons_->polygons[p];
+  const FacingPolygon& other = polygons_->polygons[q];
   const std::uint32_t next = k + 1 == own.count ? 0 : k + 1;
-  const auto error = [&](std::uint32_t edge) {
-    return polygons_->error_of_line(polygons_->polygons[q], edge) * polygons_->reach[p];
+  const Vector<T> from = polygons_->corner(own, k), to = polygons_->corner(own, next);
+  const double reach = polygons_->reach[p];
+  const auto sign = [&](std::uint32_t edge, const T& value, double bound, std::uint32_t j) {
+    if constexpr (!Numbers::kAsksKernel) {
+      if (value > bound) return 1;
+      if (value < -bound) return -1;
+      if constexpr (!Numbers::kCertified) return 0;
+    }
+    return undecided_side(q, edge, p, j);
   };
-  T in_from, in_to, out_from, out_to;
-  const int enters_from = side(q, through.in, p, k, in_from);
-  const int enters_to = side(q, through.in, p, next, in_to);
-  const bool starts_inside = enters_from > 0 || (enters_from == 0 && enters_to > 0);
-  if (!starts_inside && !(enters_from < 0 && enters_to > 0)) return false;
-  const int leaves_to = side(q, through.out, p, next, out_to);
-  const int leaves_from = side(q, through.out, p, k, out_from);
-  if (starts_inside ? leaves_from <= 0 : (leaves_to < 0 && leaves_from <= 0)) return false;
+  const Vector<T> in = polygons_->line(other, through.in);
+  const double in_error = polygons_->error_of_line(other, through.in) * reach;
+  const T in_from = dot_product(in, from), in_to = dot_product(in, to);
+  const int enters_from = sign(through.in, in_from, in_error, k);
+  bool starts_inside = enters_from > 0;
+  if (!starts_inside) {
+    if (sign(through.in, in_to, in_error, next) <= 0) return false;
+    starts_inside = enters_from == 0;
+  }
+  const Vector<T> out = polygons_->line(other, through.out);
+  const double out_error = polygons_->error_of_line(other, through.out) * reach;
+  const T out_from = dot_product(out, from), out_to = dot_product(out, to);
+  const int leaves_to = sign(through.out, out_to, out_error, next);
+  if ((starts_inside || leaves_to < 0) && sign(through.out, out_from, out_error, k) <= 0) {
+    return false;
+  }
   stretch.low = starts_inside
                     ? Place<Numbers>::from()
-                    : zero_between<Numbers>(in_from, in_to, error(through.in), through.in_name);
+                    : meeting(p, k, q, through.in, through.in_corner, in_from, in_to, in_error);
   stretch.high = leaves_to >= 0 ? Place<Numbers>::to()
-                                : zero_between<Numbers>(out_from, out_to, error(through.out),
-                                                        through.out_name);
+                                : meeting(p, k, q, through.out, through.out_corner, out_from,
+                                          out_to, out_error);
   if constexpr (!Numbers::kCertified) return stretch.low.t < stretch.high.t;
   return true;
+}
+
+// Where edge k of p crosses the line of an edge of q, with the values of that line at the ends.
+// From exact positions they are found again, as differences from an end of q's edge, which are much
+// less off for short edges.
+template <class Numbers, class Sides>
+Place<Numbers> EdgeSurvey<Numbers, Sides>::meeting(std::uint32_t p, std::uint32_t k,
+                                                   std::uint32_t q, std::uint32_t edge,
+                                                   std::uint32_t corner, const T& at_from,
+                                                   const T& at_to, double error) const {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const FacingPolygon& other = polygons_->polygons[q];
+  const PlaceName name = corner != LineThrough::kNoCorner
+                             ? PlaceName::vertex(polygons_->vertex(other, corner))
+                             : PlaceName::line(polygons_->edge(other, edge).index());
+  if constexpr (Numbers::kCertified) {
+    if (!light_->positions.empty()) {
+      // The same end, whichever polygon asks.
+      const PlaneRef ref = polygons_->edge(other, edge);
+      const VertexId base =
+          polygons_->vertex(other, ref.flipped() ? (edge + 1 == other.count ? 0 : edge + 1) : edge);
+      const Vector<double> line = polygons_->line(other, edge);
+      double from_size, to_size;
+      const Vector<double> from = light_->difference(polygons_->vertex(own, k), base, from_size);
+      const Vector<double> to =
+          light_->difference(polygons_->vertex(own, k + 1 == own.count ? 0 : k + 1), base, to_size);
+      return zero_between<Numbers>(
+          dot_product(line, from), dot_product(line, to),
+          polygons_->error_of_line(other, edge) * std::max(from_size, to_size), name);
+    }
+  }
+  return zero_between<Numbers>(at_from, at_to, error, name);
 }
 
 template <class Numbers, class Sides>
@@ -397,8 +546,20 @@ int EdgeSurvey<Numbers, Sides>::nearer(std::uint32_t q, std::uint32_t p, std::ui
     if (difference > bound) return 1;
     if (difference < -bound) return -1;
     if constexpr (!Numbers::kCertified) return 0;
-    return sides_->of_support(q, p, j);
+    return undecided_nearer(q, p, j);
   }
+}
+
+// A corner of both polygons is on both planes; all else the kernel decides.
+template <class Numbers, class Sides>
+int EdgeSurvey<Numbers, Sides>::undecided_nearer(std::uint32_t q, std::uint32_t p,
+                                                 std::uint32_t j) {
+  const VertexId vertex = polygons_->vertex(polygons_->polygons[p], j);
+  const FacingPolygon& other = polygons_->polygons[q];
+  for (std::uint32_t i = 0; i < other.count; ++i) {
+    if (polygons_->vertex(other, i) == vertex) return 0;
+  }
+  return sides_->of_support(q, p, j);
 }
 
 // The depth at a polygon's own corner is 1 for a point light, exactly.
@@ -416,6 +577,28 @@ double EdgeSurvey<Numbers, Sides>::depth_over_error(std::uint32_t p, std::uint32
   return bound * polygons_->reach[p] + Ball::kUnit;
 }
 
+// Depths are compared as one linear function of the corners' rays, which is not as sharp as
+// nearer(), but takes four corners at a time.
+template <class Numbers, class Sides>
+CornerSet EdgeSurvey<Numbers, Sides>::find_nearer(std::uint32_t q, std::uint32_t p) const {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const PlaneId other = polygons_->polygons[q].plane;
+  if constexpr (!kInBlocks) {
+    return {};
+  } else {
+    if (own.plane == other) return {};
+    const Vector<double>&a = light_->depths[own.plane], &b = light_->depths[other];
+    const Vector<double> line{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    double bound = 1.1 * (light_->depth_error[own.plane] + light_->depth_error[other]);
+    if constexpr (Numbers::kCertified) bound *= polygons_->reach[p];
+    if (!(bound < std::numeric_limits<double>::infinity())) return {};
+    const CornerSigns signs =
+        lanes_->corner_signs(line.data(), bound, polygons_->corners[own.block].x, own.blocks());
+    const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - own.count);
+    return {signs.positive & all, signs.negative & all};
+  }
+}
+
 template <class Numbers, class Sides>
 int EdgeSurvey<Numbers, Sides>::nearer_beside(std::uint32_t q, std::uint32_t p) {
   for (std::uint32_t j = 0; j < polygons_->polygons[p].count; ++j) {
@@ -423,6 +606,23 @@ int EdgeSurvey<Numbers, Sides>::nearer_beside(std::uint32_t q, std::uint32_t p) 
     if (sign != 0) return sign;
   }
   return 0;
+}
+
+template <class Numbers, class Sides>
+int EdgeSurvey<Numbers, Sides>::nearer_by_far_corner(std::uint32_t q, std::uint32_t p,
+                                                     std::uint32_t k) {
+  std::uint32_t far = 0;
+  T most(-1);
+  for (std::uint32_t j = 0; j < polygons_->polygons[q].count; ++j) {
+    T value = dot_product(polygons_->line(polygons_->polygons[p], k),
+                          polygons_->corner(polygons_->polygons[q], j));
+    if (value < 0) value = T(-value);
+    if (value > most) {
+      most = value;
+      far = j;
+    }
+  }
+  return -nearer(p, q, far, depth(p, q, far));
 }
 
 // --- Creases. ---
@@ -498,9 +698,9 @@ bool EdgeSurvey<Numbers, Sides>::interval_of_crease(const Crease<Numbers>& creas
   if (!starts_inside && !(enters_from < 0 && enters_to > 0)) return false;
   if (starts_inside ? leaves_from <= 0 : (leaves_to < 0 && leaves_from <= 0)) return false;
   stretch.low = starts_inside ? Place<Numbers>::from()
-                              : zero_between<Numbers>(in_from, in_to, error, through.in_name);
+                              : zero_between<Numbers>(in_from, in_to, error, PlaceName());
   stretch.high = leaves_to >= 0 ? Place<Numbers>::to()
-                                : zero_between<Numbers>(out_from, out_to, error, through.out_name);
+                                : zero_between<Numbers>(out_from, out_to, error, PlaceName());
   if constexpr (!Numbers::kCertified) return stretch.low.t < stretch.high.t;
   return true;
 }

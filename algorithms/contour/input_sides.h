@@ -29,7 +29,7 @@ class InputSides {
   InputSides(const PreparedScene& scene, typename Space::SceneSpace& scene_space, Space space,
              const FacingParts& facing, const FacingPolygons<Numbers>& polygons)
       : facing_(&facing), polygons_(&polygons), space_(std::move(space)) {
-    if constexpr (!KnowsInputSides<Space>) import(scene, scene_space);
+    if constexpr (!KnowsInputSides<Space> && Numbers::kAsksKernel) import(scene, scene_space);
   }
 
   Space& space() { return space_; }

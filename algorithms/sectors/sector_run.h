@@ -40,7 +40,7 @@ class SectorRun {
 
   /// Call everything in an arena of `jobs` threads.
   SectorRun(const PreparedScene& scene, const RunOptions& options, const Rules& rules,
-            SceneSpace& scene_space, std::uint32_t light, const KernelOptions& kernel_options,
+            SceneSpace& scene_space, std::uint32_t light, Space space, FacingParts facing,
             LeafMethod leaf_method, Cover cover, const SectorSubset& subset = {})
       : leaf_method_(leaf_method),
         cover_(cover),
@@ -50,8 +50,8 @@ class SectorRun {
         scene_space_(scene_space),
         light_(scene.lights[light].point),
         jobs_(Space::kParallel && options.tuning.jobs != 1 ? options.tuning.jobs : 1),
-        space_(scene_space, light_, kernel_options),
-        facing_(scene, space_, rules),
+        space_(std::move(space)),
+        facing_(std::move(facing)),
         charts_(charts_of(scene.geometry)),
         areas_(scene.parts.size()),
         sums_(scene.parts.size()),
@@ -112,7 +112,7 @@ class SectorRun {
   std::vector<Ball> areas_;
   FractionSums sums_;
   std::span<const std::uint8_t> receives_;  // of facing_.parts; empty: all do
-  std::vector<SectorState> states_;  // of facing_.parts
+  std::vector<SectorState> states_;         // of facing_.parts
   std::vector<SectorOutput> outputs_;
   StageCounts stages_;
   LightResult result_;
@@ -151,7 +151,8 @@ std::vector<SectorItem> SectorRun<Space>::import(LoopStore<Vertex>& loops) {
           loops.view({item.first, item.count, item.part}, scene_.parts[item.part].plane));
     }
   };
-  if (space_.knows_identity()) {
+  // Of a few parts, each edge's plane is made when it is met.
+  if (space_.knows_identity() && receives_.empty()) {
     in_parallel(
         static_cast<std::uint32_t>(scene_.geometry.edges.size()),
         [&](std::uint32_t begin, std::uint32_t end) { space_.make_edge_planes(begin, end); });
@@ -382,8 +383,10 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
   }
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    SectorRun<Space> run(scene, run_options, task.rules, scene_space, lights[i], kernel_options,
-                         leaf_method, cover);
+    Space space(scene_space, scene.lights[lights[i]].point, kernel_options);
+    FacingParts facing(scene, space, task.rules);
+    SectorRun<Space> run(scene, run_options, task.rules, scene_space, lights[i], std::move(space),
+                         std::move(facing), leaf_method, cover);
     std::function<void(double)> progress;
     if (options.control.progress) {
       progress = [&](double share) {
