@@ -10,6 +10,7 @@ namespace {
 constexpr std::string_view kChin1989 = "Chin & Feiner 1989";
 constexpr std::string_view kChin1992 = "Chin & Feiner 1992";
 constexpr std::string_view kSlater1992 = "Slater 1992";
+constexpr std::string_view kAppel1967 = "Appel 1967";
 
 constexpr std::array kMistakes = {
     MistakeInfo{Mistake::kPlanesFromFragments, "planes-from-fragments",
@@ -47,6 +48,15 @@ constexpr std::array kMistakes = {
     MistakeInfo{Mistake::kSupportBeforeEdges, "support-before-edges",
                 "the support plane of a complete volume stands above its edges in the tree",
                 kChin1989},
+    MistakeInfo{Mistake::kCollinearLeftOut, "collinear-left-out",
+                "a polygon with an edge on the line of another's edge counts as nothing there",
+                kAppel1967},
+    MistakeInfo{Mistake::kCasterSetsDiffer, "caster-sets-differ",
+                "backs that the light sees cast shadows by their edges, and hide no edge",
+                kAppel1967},
+    MistakeInfo{Mistake::kFarCornerDecides, "far-corner-decides",
+                "which of two is nearer beside an edge, a corner on any side of it decides",
+                kAppel1967},
 };
 
 }  // namespace
@@ -83,13 +93,16 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
   const bool svbsp = method == MethodId::kSvbsp, receiver = method == MethodId::kReceiver;
   const bool by_volumes = method == MethodId::kBasic || method == MethodId::kTiling;
   const bool by_order = svbsp || by_volumes;
+  // It makes no fragments, and where polygons are it asks of input corners alone.
+  const bool contour = method == MethodId::kContour;
   switch (mistake) {
     case Mistake::kNone:
       return true;
     case Mistake::kPlanesFromFragments:
       return svbsp && kernel == KernelId::kDouble;
     case Mistake::kVerticesPerSide:
-      return kernel == KernelId::kDouble && !by_volumes && method != MethodId::kSvbspFull;
+      return kernel == KernelId::kDouble && !by_volumes && method != MethodId::kSvbspFull &&
+             !contour;
     case Mistake::kCoplanarInSequence:
       return by_order;
     case Mistake::kLightInPlaneFaces:
@@ -98,9 +111,9 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kThicknessTooSmall:
       return has_thickness(kernel);
     case Mistake::kSliversDropped:
-      return true;
+      return !contour;
     case Mistake::kOnSwapped:
-      return !receiver;
+      return !receiver && !contour;
     case Mistake::kCoplanarDiesEarly:
       return by_volumes;
     case Mistake::kTileClosedEarly:
@@ -108,6 +121,10 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
       return method == MethodId::kTiling;
     case Mistake::kSupportBeforeEdges:
       return method == MethodId::kSvbspFull;
+    case Mistake::kCollinearLeftOut:
+    case Mistake::kCasterSetsDiffer:
+    case Mistake::kFarCornerDecides:
+      return contour;
     case Mistake::kUnionWithoutContinuedPlanes:
     case Mistake::kTVerticesLeftIn:
     case Mistake::kStraddlingLightFaces:
@@ -142,6 +159,9 @@ bool applies_to_area(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kTileClosedEarly:
     case Mistake::kClosedTileKeepsDead:
     case Mistake::kSupportBeforeEdges:
+    case Mistake::kCollinearLeftOut:
+    case Mistake::kCasterSetsDiffer:
+    case Mistake::kFarCornerDecides:
       return false;
   }
   return false;

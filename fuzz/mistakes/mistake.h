@@ -34,6 +34,9 @@ enum class Mistake : std::uint8_t {
   kTileClosedEarly,      // a tile closed before all of the new one's plane have received
   kClosedTileKeepsDead,  // a closed tile that keeps naming a volume that was dropped
   kSupportBeforeEdges,   // a support plane above the edges of its volume
+  kCollinearLeftOut,     // a polygon with an edge on the line of another's counts as nothing there
+  kCasterSetsDiffer,     // backs cast where edges act, and hide nothing
+  kFarCornerDecides,     // equal depth along an edge decided by a corner on either side of it
 };
 
 struct MistakeInfo {

@@ -74,6 +74,15 @@ Rules rules_of(Mistake mistake) {
     case Mistake::kSupportBeforeEdges:
       rules.edges_above_supports = false;
       break;
+    case Mistake::kCollinearLeftOut:
+      rules.edges_on_a_line_count = false;
+      break;
+    case Mistake::kCasterSetsDiffer:
+      rules.casters_are_the_same_in_each_step = false;
+      break;
+    case Mistake::kFarCornerDecides:
+      rules.equal_depth_by_its_planes = false;
+      break;
     case Mistake::kOnSwapped:
       rules.on_goes_to_its_own_side = false;
       break;

@@ -48,6 +48,12 @@ constexpr std::array kZoo = {
              "family-small-lattice", "misclassified"},
     ZooEntry{"support-before-edges", Mistake::kSupportBeforeEdges, "plane/svbsp-full", kPointScenes,
              "misclassified"},
+    ZooEntry{"collinear-left-out", Mistake::kCollinearLeftOut, "plane/contour", kPointScenes,
+             "misclassified"},
+    ZooEntry{"caster-sets-differ", Mistake::kCasterSetsDiffer, "plane/contour", kPointScenes,
+             "misclassified"},
+    ZooEntry{"far-corner-decides", Mistake::kFarCornerDecides, "plane/contour", kPointScenes,
+             "misclassified"},
     ZooEntry{"area-on-swapped", Mistake::kOnSwapped, "plane", kAreaScenes, "misclassified"},
 };
 

@@ -46,7 +46,7 @@ Expected<std::string> shadow_picture(const ZooEntry& entry, const Scene& scene,
   const auto wrong = zoo_case.shadows(entry.mistake);
   if (!wrong) return tl::unexpected(wrong.error());
   ShadowOptions exact;
-  exact.output.exact_points = true;
+  exact.output.exact_points = exact.output.exact_fractions = true;
   const auto right = compute_shadows(zoo_case.prepared(), exact);
   if (!right) return tl::unexpected(right.error());
   const Claims shown = zoo_case.candidate_of(*wrong, entry.mutant());

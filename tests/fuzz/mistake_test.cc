@@ -76,6 +76,15 @@ TEST(Mistakes, StraddlingLightFaces) {
   }
 }
 
+/// Two roofs in one place, a back over a corner, a ramp on a floor.
+TEST(Mistakes, OfContours) {
+  for (const char* sound : {"plane/contour", "rational/contour", "double/contour"}) {
+    expect_shown(test::regression_scene("y_collinear_left_out"), sound, "collinear-left-out");
+    expect_shown(test::regression_scene("y_caster_sets_differ"), sound, "caster-sets-differ");
+    expect_shown(test::regression_scene("y_far_corner_decides"), sound, "far-corner-decides");
+  }
+}
+
 /// A tile of 1 over a floor of 100, whose thickness is then more than 1.
 TEST(Mistakes, ThicknessTooLarge) {
   ScenePen pen;
@@ -106,6 +115,8 @@ TEST(Mistakes, NoneDoesNothingInSilence) {
     return subject ? std::string("accepted") : to_string(subject.error());
   };
   EXPECT_THAT(message("plane~coplanar-in-sequence"), HasSubstr("changes nothing"));
+  EXPECT_THAT(message("plane~far-corner-decides"), HasSubstr("changes nothing"));
+  EXPECT_THAT(message("plane/contour~coplanar-in-sequence"), HasSubstr("changes nothing"));
   EXPECT_THAT(message("plane/svbsp~planes-from-fragments"), HasSubstr("changes nothing"));
   EXPECT_THAT(message("plane~union-without-continued-planes"), HasSubstr("changes nothing"));
   EXPECT_THAT(message("double+thin~thickness-too-small"), HasSubstr("no thickness anyway"));
