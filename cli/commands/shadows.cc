@@ -208,6 +208,9 @@ int run_shadows(const ShadowsOptions& options) {
   if (!kernel) return report_error(kernel.error());
   auto algorithm = parse_algorithm_choice(
       options.algorithm, {{"--combined", options.combined, &Method::combines_lights},
+                          {"--fragments", options.fragments, &Method::makes_fragments},
+                          {"--exact-loops", options.exact_loops, &Method::makes_fragments},
+                          {"--illuminate", options.illuminate.illuminate, &Method::makes_fragments},
                           {"--no-merge", options.no_merge, &Method::leaves_out_steps},
                           {"--no-prefix", options.no_prefix, &Method::leaves_out_steps}});
   if (!algorithm) return report_error(algorithm.error());

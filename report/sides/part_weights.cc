@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "report/sides/part_area.h"
@@ -34,6 +35,28 @@ std::vector<mpq_class> exact_weights(const PreparedScene& scene, std::uint32_t p
   return weights;
 }
 
+namespace {
+
+/// Areas of the polygon's parts in units of the largest, which doubles hold at every scale.
+std::vector<Interval> areas_in_ratio(const PreparedScene& scene, std::uint32_t polygon) {
+  std::vector<mpz_class> squares;
+  for (std::uint32_t part = scene.first_part[polygon]; part < scene.first_part[polygon + 1];
+       ++part) {
+    const std::array<mpz_class, 3> vector = doubled_area_vector(scene, scene.parts[part]);
+    squares.emplace_back(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]);
+  }
+  const mpz_class largest = *std::ranges::max_element(squares);
+  std::vector<Interval> areas;
+  for (const mpz_class& square : squares) {
+    mpq_class ratio(square, largest);
+    ratio.canonicalize();
+    areas.push_back(to_interval(oracle::enclose_square_root(ratio)));
+  }
+  return areas;
+}
+
+}  // namespace
+
 PartWeights::PartWeights(const PreparedScene& scene) {
   for (std::uint32_t polygon = 0; polygon + 1 < scene.first_part.size(); ++polygon) {
     if (scene.first_part[polygon + 1] - scene.first_part[polygon] > 1) add(scene, polygon);
@@ -51,10 +74,15 @@ void PartWeights::add(const PreparedScene& scene, std::uint32_t polygon) {
     }
     return;
   }
+  std::vector<Interval> areas;
+  oracle::Enclosure total{0, 0};
   for (std::uint32_t part = scene.first_part[polygon]; part < scene.first_part[polygon + 1];
        ++part) {
-    parts_.push_back(part_area(scene, scene.parts[part]));
+    areas.push_back(part_area(scene, scene.parts[part]));
+    total = total + to_enclosure(areas.back());
   }
+  if (!(total.lower > 0) || !std::isfinite(total.upper)) areas = areas_in_ratio(scene, polygon);
+  parts_.insert(parts_.end(), areas.begin(), areas.end());
 }
 
 Interval PartWeights::sum(std::uint32_t polygon, std::span<const Interval> shares) const {
@@ -66,7 +94,6 @@ Interval PartWeights::sum(std::uint32_t polygon, std::span<const Interval> share
     if (!own.coplanar) total = total + weight;
   }
   if (own.coplanar) return to_interval(sum);
-  if (total.lower <= 0) return {};
   const Interval share = to_interval(sum / total);
   return {share.lower, std::min(share.upper, 1.0)};
 }

@@ -52,7 +52,8 @@ class PartWeights {
     std::uint32_t first = 0;  // into parts_
   };
   std::vector<Weights> polygons_;  // with several parts, ascending
-  std::vector<Interval> parts_;    // shares of the polygon's area, or areas if it is not coplanar
+  std::vector<Interval>
+      parts_;  // shares of the polygon's area, or areas in any unit if it is not coplanar
 };
 
 }  // namespace gnomon::report
