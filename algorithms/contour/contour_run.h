@@ -123,8 +123,18 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
     T whole(0);
     double error = 0;
     for (std::uint32_t k = 1; k + 1 < p.count; ++k) {
+      if constexpr (Numbers::kCertified) {
+        if (!rays_.positions.empty()) {
+          double size;
+          const Vector<double> difference =
+              rays_.difference(polygons_.vertex(p, 0), polygons_.vertex(p, k), size);
+          whole += dot_product(polygons_.line(p, k), difference);
+          error += polygons_.error_of_line(p, k) * size;
+          continue;
+        }
+        error += polygons_.error_of_line(p, k) * polygons_.reach[i];
+      }
       whole += dot_product(polygons_.line(p, k), corner);
-      if constexpr (Numbers::kCertified) error += polygons_.error_of_line(p, k);
     }
     measure_.relative_error[i] = 0;
     if (!(whole > 0)) {
@@ -135,8 +145,7 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
     measure_.scale[i] = T(1 / whole);
     if constexpr (Numbers::kCertified) {
       // Summing n values rounds by less than n u of their sum, the quotient by u.
-      measure_.relative_error[i] =
-          1.01 * error * polygons_.reach[i] * measure_.scale[i] + (p.count + 2) * Ball::kUnit;
+      measure_.relative_error[i] = 1.01 * error * measure_.scale[i] + (p.count + 2) * Ball::kUnit;
       if (!(measure_.relative_error[i] < 0x1p-20)) sums_[i].flags |= kContourOpen;
     }
   }
@@ -186,8 +195,8 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
       }
       worker = std::make_unique<Worker>(Worker{sides.fork(), std::vector<Sum>(count)});
     }
-    ContourWalk<Numbers, Sides> walk(rays_, polygons_, measure_, charts_.depths(), worker->sides,
-                                     lanes_, worker->sums);
+    ContourWalk<Numbers, Sides> walk(rays_, polygons_, measure_, charts_.depths(), rules_,
+                                     worker->sides, lanes_, worker->sums);
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::atomic<bool>* interrupted = options_.control.interrupted;
       if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) {

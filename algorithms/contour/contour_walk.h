@@ -31,6 +31,7 @@
 #include "algorithms/contour/contour_sums.h"
 #include "algorithms/contour/edge_lists.h"
 #include "algorithms/contour/light_charts.h"
+#include "algorithms/partition/rules.h"
 
 namespace gnomon {
 
@@ -58,11 +59,13 @@ class ContourWalk {
 
   ContourWalk(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons,
               const ContourMeasure<Numbers>& measure, std::span<const DepthRange> depths,
-              Sides& sides, const Lanes& lanes, std::span<ContourSum<Numbers>> sums)
+              const Rules& rules, Sides& sides, const Lanes& lanes,
+              std::span<ContourSum<Numbers>> sums)
       : light_(&light),
         polygons_(&polygons),
         measure_(&measure),
         depths_(depths),
+        rules_(rules),
         survey_(light, polygons, sides, lanes),
         sums_(sums) {}
 
@@ -80,13 +83,16 @@ class ContourWalk {
   void find_silent_edges();
   void find_beside(std::uint32_t k);
   void meet(std::uint32_t q);
-  bool meet_block(std::uint32_t q) requires(Survey::kInBlocks);
+  void find_order(std::uint32_t q);
+  void meet_block(std::uint32_t q) requires(Survey::kInBlocks);
   void meet_outside(std::uint32_t q);
   void meet_on_edge(std::uint32_t k, std::uint32_t q, const LineThrough& through);
   void meet_in_plane(EdgeLists<Numbers>& lists, std::uint32_t q, LineCover cover,
                      const Behind<Numbers>& entry);
-  void meet_level(EdgeLists<Numbers>& lists, std::uint32_t q, LineCover cover,
+  void meet_level(EdgeLists<Numbers>& lists, std::uint32_t k, std::uint32_t q, LineCover cover,
                   const Behind<Numbers>& entry);
+  int nearer_corner(std::uint32_t q, std::uint32_t j);
+  void hide(std::uint32_t k, const Stretch<Numbers>& stretch);
   void put(EdgeLists<Numbers>& lists, LineCover cover, bool other_above, bool casts,
            const Behind<Numbers>& entry);
   // Creases.
@@ -122,10 +128,7 @@ class ContourWalk {
                  std::vector<Segment<Numbers>>& result);
 
   // Sums.
-  T value_of(std::uint32_t k, std::uint32_t q) const;
-  double line_value_error(std::uint32_t k, std::uint32_t q) const {
-    return polygons_->error_of_line(polygons_->polygons[p_], k) * polygons_->reach[q];
-  }
+  T value_of(std::uint32_t k, std::uint32_t q, double& error) const;
   void add_own(std::uint32_t k, const Segment<Numbers>& segment);
   double share_error(std::uint32_t q, double rate, double line_value_error, const PlaceOnEdge& low,
                      const PlaceOnEdge& high, double depth_low, double depth_high,
@@ -144,6 +147,7 @@ class ContourWalk {
   const FacingPolygons<Numbers>* polygons_;
   const ContourMeasure<Numbers>* measure_;
   std::span<const DepthRange> depths_;
+  const Rules& rules_;
   Survey survey_;
   std::span<ContourSum<Numbers>> sums_;
   std::uint32_t p_ = 0;                    // the polygon
@@ -152,6 +156,8 @@ class ContourWalk {
   // caster's, or another caster goes on from it.
   std::vector<std::uint8_t> silent_;
   bool all_edges_silent_ = false;
+  unsigned hidden_edges_ = 0;  // bit 4 k: edge k < 4 is hidden from end to end
+  CornerSet nearer_;           // corners of p_ against the polygon that is met
   int order_ = 0;  // of the polygon that is met: 1: all of it is behind p_, -1: before it
   std::vector<Segment<Numbers>> seen_, free_;
   std::vector<Stretch<Numbers>> covers_;
@@ -181,6 +187,7 @@ void ContourWalk<Numbers, Sides>::walk(std::uint32_t p, std::span<const std::uin
   if (lists_.size() < n) lists_.resize(n);
   for (std::uint32_t k = 0; k < n; ++k) lists_[k].clear();
   find_silent_edges();
+  hidden_edges_ = 0;
   for (const std::uint32_t q : neighbours) meet(q);
   for (std::uint32_t k = 0; k < n; ++k) walk_edge(k);
 }
@@ -205,9 +212,11 @@ void ContourWalk<Numbers, Sides>::meet(std::uint32_t q) {
   if (!casts(q) && (above || !own.casts)) return;
   if (below && all_edges_silent_) return;
   order_ = below ? 1 : above ? -1 : 0;
+  nearer_ = {};
+  const bool in_block = own.count <= 4 && polygons_->polygons[q].count <= 4;
   if constexpr (Survey::kInBlocks) {
-    if (own.count <= 4 && polygons_->polygons[q].count <= 4) {
-      if (meet_block(q) && order_ == 0 && casts(q)) crease(q);
+    if (in_block) {
+      meet_block(q);
       return;
     }
   }
@@ -225,9 +234,18 @@ void ContourWalk<Numbers, Sides>::meet(std::uint32_t q) {
   if (order_ == 0 && casts(q)) crease(q);
 }
 
-// As meet(), of two polygons of at most four corners. False: they do not overlap.
+// Whether the polygon that is met is behind all of p_, or before it, by the depths of p_'s corners.
 template <class Numbers, class Sides>
-bool ContourWalk<Numbers, Sides>::meet_block(std::uint32_t q) requires(Survey::kInBlocks) {
+void ContourWalk<Numbers, Sides>::find_order(std::uint32_t q) {
+  const std::uint32_t n = polygons_->polygons[p_].count;
+  nearer_ = survey_.find_nearer(q, p_);
+  const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - n);
+  order_ = nearer_.left == all ? 1 : nearer_.right == all ? -1 : 0;
+}
+
+// As meet(), of two polygons of at most four corners.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::meet_block(std::uint32_t q) requires(Survey::kInBlocks) {
   const BlockSigns signs = survey_.block_signs(p_, q);
   const std::uint32_t n = polygons_->polygons[p_].count;
   // Bit 4 k: whether any corner is on that side of edge k.
@@ -235,22 +253,28 @@ bool ContourWalk<Numbers, Sides>::meet_block(std::uint32_t q) requires(Survey::k
   const unsigned lines = 0x1111u >> 4 * (4 - n);
   const unsigned some_left = any(signs.positive);
   const bool overlaps = some_left == lines;
-  if (!overlaps && (!casts(q) || all_edges_silent_)) return false;
+  if (!overlaps && (!casts(q) || all_edges_silent_)) return;
   // Where all corners are on one side, the polygon is beside the edge if two are on its line.
   const unsigned on_line = valid_signs(n, polygons_->polygons[q].count) &
                            ~static_cast<unsigned>(signs.positive | signs.negative);
   unsigned met = overlaps ? (some_left & any(signs.negative)) | any(on_line) : any(on_line);
+  met &= ~hidden_edges_;
+  if (met == 0 && (!overlaps || order_ != 0)) return;
+  if (order_ == 0) {
+    find_order(q);
+    if (order_ > 0 && all_edges_silent_) return;
+  }
   for (; met != 0; met &= met - 1) {
     const auto bit = static_cast<std::uint32_t>(std::countr_zero(met));
     const std::uint32_t k = bit / 4;
-    if (order_ > 0 && silent_[k]) continue;
+    if (silent_[k] && (order_ > 0 || !overlaps)) continue;
     const LineThrough through =
         survey_.through_block(q, signs.positive >> bit & 15u, signs.negative >> bit & 15u);
     if (through.cover == LineCover::kNone) continue;
     if (!overlaps && through.cover != LineCover::kOuter) continue;
     meet_on_edge(k, q, through);
   }
-  return overlaps;
+  if (overlaps && order_ == 0 && casts(q)) crease(q);
 }
 
 // A polygon wholly outside of an edge is beside the edge only if it has one on its line.
@@ -264,16 +288,42 @@ void ContourWalk<Numbers, Sides>::meet_outside(std::uint32_t q) {
 }
 
 template <class Numbers, class Sides>
+int ContourWalk<Numbers, Sides>::nearer_corner(std::uint32_t q, std::uint32_t j) {
+  if (j < CornerSet::kMost) {
+    if (nearer_.left >> j & 1) return 1;
+    if (nearer_.right >> j & 1) return -1;
+  }
+  return survey_.nearer(q, p_, j, survey_.depth(q, p_, j));
+}
+
+// Of an edge that is hidden from end to end nothing more is asked for.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::hide(std::uint32_t k, const Stretch<Numbers>& stretch) {
+  EdgeLists<Numbers>& lists = lists_[k];
+  lists.hidden.push_back(stretch);
+  if (stretch.low.name == PlaceName::from()) {
+    if (lists.first.t < stretch.high.t) lists.first = stretch.high;
+  } else if (!(stretch.high.name == PlaceName::to())) {
+    return;
+  }
+  if (stretch.high.name == PlaceName::to() && stretch.low.t < lists.last.t) {
+    lists.last = stretch.low;
+  }
+  if (certainly_no_gap(lists.first, lists.last)) hidden_edges_ |= k < 4 ? 1u << 4 * k : 0;
+}
+
+template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
                                                const LineThrough& through) {
+  if (through.cover != LineCover::kBoth && !rules_.edges_on_a_line_count) return;
   const std::uint32_t next = k + 1 == polygons_->polygons[p_].count ? 0 : k + 1;
   Stretch<Numbers> stretch;
   int from = order_, to = order_;
   if (order_ == 0) {
     // Who is nearer may tell that nothing more is asked for, and costs less than the interval.
     if (!silent_[k] && !survey_.interval(p_, k, q, through, stretch)) return;
-    from = survey_.nearer(q, p_, k, survey_.depth(q, p_, k));
-    to = survey_.nearer(q, p_, next, survey_.depth(q, p_, next));
+    from = nearer_corner(q, k);
+    to = nearer_corner(q, next);
     if (silent_[k]) {
       if (from >= 0 && to >= 0 && from + to > 0) return;
       if (!survey_.interval(p_, k, q, through, stretch)) return;
@@ -285,7 +335,12 @@ void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
   EdgeLists<Numbers>& lists = lists_[k];
   if (from <= 0 && to <= 0 && from + to < 0) {
     if (!casts(q)) return;
-    (through.cover == LineCover::kOuter ? lists.taken : lists.hidden).push_back(stretch);
+    if (!rules_.casters_are_the_same_in_each_step && polygons_->polygons[q].reversed) return;
+    if (through.cover == LineCover::kOuter) {
+      lists.taken.push_back(stretch);
+    } else {
+      hide(k, stretch);
+    }
     return;
   }
   Behind<Numbers> entry{stretch.low,
@@ -298,7 +353,7 @@ void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
   if (plane(q) == plane(p_)) {
     meet_in_plane(lists, q, through.cover, entry);
   } else if (from == 0 && to == 0) {
-    meet_level(lists, q, through.cover, entry);
+    meet_level(lists, k, q, through.cover, entry);
   } else if (from * to >= 0) {
     put(lists, through.cover, false, casts(q), entry);
   } else {
@@ -346,11 +401,13 @@ void ContourWalk<Numbers, Sides>::meet_in_plane(EdgeLists<Numbers>& lists, std::
 
 // The edge lies in the plane of q: their slopes tell who is nearer on the inner side.
 template <class Numbers, class Sides>
-void ContourWalk<Numbers, Sides>::meet_level(EdgeLists<Numbers>& lists, std::uint32_t q,
-                                             LineCover cover, const Behind<Numbers>& entry) {
+void ContourWalk<Numbers, Sides>::meet_level(EdgeLists<Numbers>& lists, std::uint32_t k,
+                                             std::uint32_t q, LineCover cover,
+                                             const Behind<Numbers>& entry) {
   if (cover == LineCover::kOuter) {
     if (casts(q) && casts(p_)) lists.beside.push_back(entry);
-  } else if (survey_.nearer_beside(q, p_) < 0) {
+  } else if ((rules_.equal_depth_by_its_planes ? survey_.nearer_beside(q, p_)
+                                               : survey_.nearer_by_far_corner(q, p_, k)) < 0) {
     if (casts(q)) lists.hidden.push_back({entry.low, entry.high});
   } else if (cover == LineCover::kBoth && casts(p_)) {
     lists.level.push_back(entry);
@@ -366,6 +423,7 @@ void ContourWalk<Numbers, Sides>::find_beside(std::uint32_t k) {
     if (!casts(q)) continue;
     const LineThrough through = survey_.through_by_one(p_, k, q);
     order_ = 0;
+    nearer_ = {};
     if (through.cover == LineCover::kOuter) meet_on_edge(k, q, through);
   }
   silent_[k] = silent;

@@ -64,9 +64,15 @@ LightPlanes::DepthPlane LightPlanes::depth_plane(PlaneId id) const {
     const auto [x, y, z] = exact_light.axes;
     h = to_double_scaled(height, 2 * b + exact_light.light_bits);
     const double sign = sgn(exact_light.light.grid[z]) < 0 ? -1 : 1;
+    const Int offset = dot<Int>(normal, corner);
+    if (sign_of(normal[x]) == Sign::kZero && sign_of(normal[y]) == Sign::kZero &&
+        sign_of(offset) == Sign::kZero) {
+      depth.magnitude = 0;  // the ground at height 0, say: exactly 0 everywhere
+      return depth;
+    }
     depth.n = {-sign * to_double_scaled(normal[x], 2 * b) / h,
                -sign * to_double_scaled(normal[y], 2 * b) / h,
-               sign * to_double_scaled(dot<Int>(normal, corner), 3 * b) / h};
+               sign * to_double_scaled(offset, 3 * b) / h};
   } else {
     h = to_double_scaled(height, 2 * b + exact_light.q_bits);
     for (int k = 0; k < 3; ++k) depth.n[k] = to_double_scaled(normal[k], 2 * b) / h;

@@ -98,6 +98,7 @@ const std::map<std::string, std::vector<Room>>& rooms() {
        {{"text", {}},
         {"sides", {}},
         {"json", {"sides", "text"}},
+        {"shares", {"json", "sides", "text"}},
         {"certificate", {"json", "text"}},
         {"facts", {"json", "sides", "text"}},
         {"meshes", {"json", "text"}},
