@@ -320,7 +320,12 @@ RunOutcome ContourRun<Space, Numbers>::find_open_ones(Space space,
     const LightResult found = exact.finish();
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (receives[i] == 0) continue;
-      result_.parts[parts[i]] = found.parts[parts[i]];
+      PartResult& part = result_.parts[parts[i]];
+      part = found.parts[parts[i]];
+      if (part.lit.upper <= 0) {  // of pieces that several casters hide
+        part.lit = {0, 0};
+        part.shadow = {1, 1};
+      }
     }
   }
   if (progress) progress(1);
