@@ -50,7 +50,7 @@ struct BothRays {
         scene_space(scene.geometry, {}),
         space(scene_space, point, {}),
         integers(scene.geometry, point) {
-    make_light_rays(space, scene.geometry, point, rays);
+    make_light_rays(space, scene.geometry, point, 1, rays);
     const bool from_doubles = !rays.positions.empty();
     const int b = static_cast<int>(integers.grid_bits()), e = static_cast<int>(integers.light_bits);
     const int q = static_cast<int>(integers.q_bits);
