@@ -55,6 +55,7 @@ PreparedScene prepared_and_printed(const Sized& choice) {
 }
 
 std::string percent(std::uint64_t part, std::uint64_t whole) {
+  if (whole == 0) return "-";
   return fmt::format("{:.2f}", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 

@@ -19,6 +19,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "algorithms/contour/in_parallel.h"
 #include "algorithms/contour/numbers.h"
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/kernel/sign.h"
@@ -218,10 +219,17 @@ void make_light_rays(const Geometry& geometry, const LightPoint& light, double t
 
 namespace contour_detail {
 
+/// Vertices or edges of one thread.
+inline constexpr std::uint32_t kRayGrain = 4096;
+template <class Array>
+std::uint32_t size_of(const Array& array) {
+  return static_cast<std::uint32_t>(array.size());
+}
+
 /// Rays and lines from integers of the type Int, scaled by 2^-scale; of a directional light the
 /// third component is d_z 2^b times that, as in the light space of kernel `plane`.
 template <class Int>
-void fill_certified(const LightIntegers& light,
+void fill_certified(const LightIntegers& light, unsigned jobs,
                     LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   const Geometry& geometry = *light.geometry;
   const bool directional = light.light.directional;
@@ -238,45 +246,57 @@ void fill_certified(const LightIntegers& light,
         to_double_scaled(light.position<Int>()[light.axes.z],
                          static_cast<long>(light.q_bits) - static_cast<long>(light.grid_bits()));
   }
-  for (VertexId v = 0; v < result.rays.size(); ++v) {
-    const Vector3<Int> q = light.q<Int>(v);
-    result.rays[v] = {scaled(q[0]), scaled(q[1]), directional ? third : scaled(q[2])};
-  }
+  in_parallel(jobs, size_of(result.rays), kRayGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (VertexId v = begin; v < end; ++v) {
+      const Vector3<Int> q = light.q<Int>(v);
+      result.rays[v] = {scaled(q[0]), scaled(q[1]), directional ? third : scaled(q[2])};
+    }
+  });
   // Rays of at most 52 bits are exactly their doubles, and so are the differences of two.
   const bool exact_rays = light.narrow && light.q_bits <= 52;
-  for (EdgeId e = 0; e < geometry.edges.size(); ++e) {
-    const auto [from, to] = geometry.edges[e];
-    const Vector<double>& a = result.rays[from];
-    Vector<double> d{0, 0, 0};
-    if (exact_rays) {
-      d = difference_of(result.rays[to], a);
-    } else {
-      const Vector3<Int> difference = gnomon::difference(light.q<Int>(to), light.q<Int>(from));
-      for (int k = 0; k < (directional ? 2 : 3); ++k) d[k] = scaled(difference[k]);
-    }
-    result.lines[e] = cross_product(a, d);
-    result.line_error[e] = ContourBounds::kLine * largest(a) * largest(d);
-  }
+  in_parallel(jobs, size_of(geometry.edges), kRayGrain,
+              [&](std::uint32_t begin, std::uint32_t end) {
+                for (EdgeId e = begin; e < end; ++e) {
+                  const auto [from, to] = geometry.edges[e];
+                  const Vector<double>& a = result.rays[from];
+                  Vector<double> d{0, 0, 0};
+                  if (exact_rays) {
+                    d = difference_of(result.rays[to], a);
+                  } else {
+                    const Vector3<Int> difference =
+                        gnomon::difference(light.q<Int>(to), light.q<Int>(from));
+                    for (int k = 0; k < (directional ? 2 : 3); ++k) d[k] = scaled(difference[k]);
+                  }
+                  result.lines[e] = cross_product(a, d);
+                  result.line_error[e] = ContourBounds::kLine * largest(a) * largest(d);
+                }
+              });
 }
 
 /// The same for a sun, from positions that are exactly doubles.
-inline void fill_certified_sun(const LightIntegers& light,
+inline void fill_certified_sun(const LightIntegers& light, unsigned jobs,
                                LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   const Geometry& geometry = *light.geometry;
-  const auto [x, y, z] = light.axes;
   const Vector<double>& d = result.to_light;
   result.reach = ContourBounds::kSunReach;
-  for (VertexId v = 0; v < result.rays.size(); ++v) {
-    const Vector<double>& p = result.positions[v];
-    result.rays[v] = {p[x] * d[z] - p[z] * d[x], p[y] * d[z] - p[z] * d[y], d[z]};
-  }
-  for (EdgeId e = 0; e < geometry.edges.size(); ++e) {
-    const auto [from, to] = geometry.edges[e];
-    double size;
-    const Vector<double> step = result.difference(to, from, size);
-    result.lines[e] = cross_product(result.rays[from], step);
-    result.line_error[e] = ContourBounds::kSunLine * size;
-  }
+  const auto [x, y, z] = std::array<int, 3>{light.axes.x, light.axes.y, light.axes.z};
+  in_parallel(jobs, size_of(result.rays), kRayGrain,
+              [&, x = x, y = y, z = z](std::uint32_t begin, std::uint32_t end) {
+                for (VertexId v = begin; v < end; ++v) {
+                  const Vector<double>& p = result.positions[v];
+                  result.rays[v] = {p[x] * d[z] - p[z] * d[x], p[y] * d[z] - p[z] * d[y], d[z]};
+                }
+              });
+  in_parallel(jobs, size_of(geometry.edges), kRayGrain,
+              [&](std::uint32_t begin, std::uint32_t end) {
+                for (EdgeId e = begin; e < end; ++e) {
+                  const auto [from, to] = geometry.edges[e];
+                  double size;
+                  const Vector<double> step = result.difference(to, from, size);
+                  result.lines[e] = cross_product(result.rays[from], step);
+                  result.line_error[e] = ContourBounds::kSunLine * size;
+                }
+              });
 }
 
 /// Positions as doubles, for a sun, where each is one. Kept from sun to sun.
@@ -308,7 +328,7 @@ inline void fill_positions(const LightIntegers& light,
 /// `plane`.
 template <class Space>
 void make_light_rays(const Space& space, const Geometry& geometry, const LightPoint& light,
-                     LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
+                     unsigned jobs, LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   const LightIntegers integers(geometry, light);
   result.directional = light.directional;
   result.rays.resize(geometry.positions.size());
@@ -316,11 +336,11 @@ void make_light_rays(const Space& space, const Geometry& geometry, const LightPo
   result.line_error.resize(geometry.edges.size());
   contour_detail::fill_positions(integers, result);
   if (!result.positions.empty()) {
-    contour_detail::fill_certified_sun(integers, result);
+    contour_detail::fill_certified_sun(integers, jobs, result);
   } else {
     result.reach = 0;
     with_width(width_of(integers.narrow, integers.q_bits + 2),
-               [&]<class Int>() { contour_detail::fill_certified<Int>(integers, result); });
+               [&]<class Int>() { contour_detail::fill_certified<Int>(integers, jobs, result); });
   }
   result.depths.resize(geometry.planes.size());
   result.depth_error.resize(geometry.planes.size());

@@ -16,11 +16,6 @@
 namespace gnomon::bench {
 namespace {
 
-/// CPU seconds of Clipper 2 (Clipper2Lib) on each of the two scenes with the same search of
-/// casters, built for the machine, one thread; measured outside this program, on another day.
-/// Debian 12 has no package of it.
-constexpr double kClipper2Seconds = 0.038;
-
 PreparedScene prepared_with_lamps(const SceneRecipe& recipe, std::size_t lamps) {
   Scene scene = generated(recipe);
   const Light first = scene.lights.at(0);
@@ -51,9 +46,9 @@ void measure_one(TargetRun& run, const SizedScene& sized) {
   std::vector<Times> times = interleaved(work, run.rounds());
   std::vector<double>& own = times[0].cpu;
   for (double& seconds : own) seconds /= kLamps;
-  const std::string name = "one lamp, steady, against Clipper ";
+  const std::string name = "one lamp, steady, against Clipper 6";
   if (peer == nullptr) {
-    run.verdicts.add(name + "6", sized.title, at_least(8), {kNotMeasured},
+    run.verdicts.add(name, sized.title, at_least(8), {kNotMeasured},
                      "not built: ./dev bench --peers targets");
   } else {
     const std::vector<double> areas = part_areas(scene);
@@ -63,15 +58,9 @@ void measure_one(TargetRun& run, const SizedScene& sized) {
     run.answers.add({fmt::format("lit area within {}", peer->sum_tolerance), sized.title,
                      grouped(areas.size()), fmt::format("Clipper {:.9g}", rival.lit_area),
                      fmt::format("{:.9g}", exact), same ? "yes" : "NO"});
-    run.verdicts.add(name + "6", sized.title, at_least(8), {median_ratio(times[1].cpu, own)},
+    run.verdicts.add(name, sized.title, at_least(8), {median_ratio(times[1].cpu, own)},
                      before_and_now(median(times[1].cpu), median(own)));
   }
-  // The figure is of the full size alone.
-  run.verdicts.add(name + "2", sized.title, at_least(4),
-                   {run.small() ? kNotMeasured : kClipper2Seconds / median(own)},
-                   run.small() ? "full size alone"
-                               : before_and_now(kClipper2Seconds, median(own)) +
-                                     ", the first measured elsewhere");
 }
 
 /// Plane against doubles in one method; `points`: of fragments, put out too.

@@ -19,7 +19,11 @@ struct LampWork {
   double steady;      // target
   std::optional<double> fresh;
   bool compared;  // bounds of all shares, too
+  /// CPU time of Clipper 2 with the same search of casters, in that of version 0.1.0, if known.
+  std::optional<double> clipper2;
 };
+// Seconds, of one session outside this program: Debian has no package of Clipper 2.
+constexpr double kClipper2OnQuads = 0.038 / 0.040, kClipper2OnTriangles = 0.038 / 0.037;
 
 /// CPU seconds of the shadows of one lamp, by round.
 struct LampTimes {
@@ -55,6 +59,14 @@ void measure(TargetRun& run, const LampWork& work) {
   };
   add("one lamp, steady", work.steady, before.steady, now.steady);
   if (work.fresh) add("one lamp, fresh process", *work.fresh, before.fresh, now.fresh);
+  if (work.clipper2) {
+    const double ratio =
+        before.steady.empty() ? kNotMeasured : median_ratio(before.steady, now.steady);
+    run.verdicts.add(
+        "one lamp, steady, against Clipper 2", work.scene.title, at_least(4),
+        {*work.clipper2 * ratio},
+        fmt::format("Clipper 2 as {:.2f} times version 0.1.0, measured elsewhere", *work.clipper2));
+  }
   if (work.compared) compare_answers(run, work.scene, {}, Compared::kBounds);
 }
 
@@ -68,14 +80,14 @@ void compare_small(TargetRun& run, const SizedScene& scene) {
 void measure_lamps(TargetRun& run) {
   const std::size_t lamps = run.small() ? 4 : 10;
   std::vector<LampWork> works = {
-      {quads(run.size(1000, 10'000)), lamps, 5, 2.8, true},
-      {triangles(run.size(5, 7)), lamps, 5, 2.8, true},
-      {city(run.size(200, 2000)), lamps, 2.5, std::nullopt, true},
+      {quads(run.size(1000, 10'000)), lamps, 5, 2.8, true, kClipper2OnQuads},
+      {triangles(run.size(5, 7)), lamps, 5, 2.8, true, kClipper2OnTriangles},
+      {city(run.size(200, 2000)), lamps, 2.5, {}, true, {}},
   };
-  if (!run.small()) works.push_back({city(20'000), 4, 2.3, std::nullopt, true});
+  if (!run.small()) works.push_back({city(20'000), 4, 2.3, {}, true, {}});
   if (run.extent == Extent::kLong) {
-    works.push_back({city(200'000), 3, 2.4, std::nullopt, false});
-    works.push_back({quads(1'000'000), 3, 3, std::nullopt, false});
+    works.push_back({city(200'000), 3, 2.4, {}, false, {}});
+    works.push_back({quads(1'000'000), 3, 3, {}, false, {}});
   }
   for (const LampWork& work : works) measure(run, work);
   for (const SizedScene& scene : {quads(300), triangles(4), city(60)}) compare_small(run, scene);

@@ -26,11 +26,14 @@ void measure(TargetRun& run, const SizedScene& scene, double target) {
     std::filesystem::remove(table);
   }
   const auto add = [&](const std::string& what, const std::vector<double>& now) {
-    const bool measured = !before.empty() && !now.empty();
+    const double old = before.empty() ? kNotMeasured : median(before);
+    if (now.empty()) {
+      run.verdicts.add(what, scene.title, at_least(target), {kNotMeasured}, kNoTable);
+      return;
+    }
     run.verdicts.add(what, scene.title, at_least(target),
-                     {measured ? median_ratio(before, now) : kNotMeasured},
-                     before_and_now(before.empty() ? kNotMeasured : median(before),
-                                    now.empty() ? kNotMeasured : median(now)));
+                     {before.empty() ? kNotMeasured : median_ratio(before, now)},
+                     before_and_now(old, median(now)));
   };
   add("whole process, file to a table of shares", shares);
   add("whole process, file to a JSON result", json);

@@ -61,7 +61,7 @@ void measure_year(TargetRun& run) {
   constexpr double kPatience = 600;  // seconds
   std::string why;
   if (!run.now.knows("--shares")) {
-    why = "the command writes no table of shares";
+    why = kNoTable;
   } else if (estimate > kPatience) {
     why = fmt::format("would take {:.0f} s", estimate);
   }

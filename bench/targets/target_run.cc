@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -35,7 +36,7 @@ void write_lights(const std::string& path, const std::vector<std::string>& light
 }
 
 std::string milliseconds(double seconds) {
-  return std::isnan(seconds) ? "-" : short_number(1e3 * seconds);
+  return std::isnan(seconds) ? "-" : short_number(1e3 * seconds) + " ms";
 }
 
 /// The result of `shadows`, written to a file and read from it.
@@ -117,7 +118,7 @@ SizedScene city(std::int64_t houses) {
 }
 
 std::string before_and_now(double before, double now) {
-  return fmt::format("{} ms -> {} ms", milliseconds(before), milliseconds(now));
+  return fmt::format("{} -> {}", milliseconds(before), milliseconds(now));
 }
 
 void compare_answers(TargetRun& run, const SizedScene& scene, const Words& lights,

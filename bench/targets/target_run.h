@@ -24,6 +24,9 @@ namespace gnomon::bench {
 
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
+/// Why rows of `--shares` are not measured.
+inline constexpr const char* kNoTable = "the command writes no table of shares";
+
 /// A directory of its own for scenes, lights and results, removed at the end.
 class WorkFiles {
  public:
