@@ -337,7 +337,8 @@ bool measure_figure8(Extent extent, Verdicts&) {
 }  // namespace
 
 bool run_area(Extent extent) {
-  Verdicts verdicts(names(), receiver_index());
+  Verdicts verdicts(fmt::format("Targets (verdict: algorithm {})", names()[receiver_index()]),
+                    names(), receiver_index());
   bool good = true;
   for (const auto measure : {measure_ratios, measure_growth, measure_figure8}) {
     good = measure(extent, verdicts) && good;

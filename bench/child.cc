@@ -2,9 +2,6 @@
 #include "child.h"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdio>
@@ -16,8 +13,7 @@
 
 #include "answers.h"
 #include "machine.h"
-
-extern char** environ;
+#include "process.h"
 
 namespace gnomon::bench {
 namespace {
@@ -38,40 +34,11 @@ std::uint64_t status_bytes(const std::string& key) {
   std::exit(2);
 }
 
-/// What the child wrote; nothing if it could not be started or failed.
-std::optional<std::string> output_of(std::vector<std::string> words) {
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  int ends[2];
-  if (pipe(ends) != 0) return std::nullopt;
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
-  posix_spawn_file_actions_addclose(&actions, ends[0]);
-  posix_spawn_file_actions_addclose(&actions, ends[1]);
-  pid_t child = 0;
-  const int started =
-      posix_spawn(&child, "/proc/self/exe", &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[1]);
-  std::string text;
-  char buffer[4096];
-  for (ssize_t n = 0; started == 0 && (n = read(ends[0], buffer, sizeof buffer)) > 0;) {
-    text.append(buffer, static_cast<std::size_t>(n));
-  }
-  close(ends[0]);
-  int status = 0;
-  if (started != 0 || waitpid(child, &status, 0) != child || status != 0) return std::nullopt;
-  return text;
-}
-
 }  // namespace
 
 ChildReport run_in_child(const SceneRecipe& recipe, MethodId algorithm, unsigned jobs,
                          MethodId area_algorithm) {
-  std::vector<std::string> words = {"gnomon_bench",
-                                    "child",
+  std::vector<std::string> words = {"child",
                                     recipe.generator,
                                     std::to_string(static_cast<int>(recipe.coordinates)),
                                     std::to_string(static_cast<int>(algorithm)),
@@ -81,15 +48,15 @@ ChildReport run_in_child(const SceneRecipe& recipe, MethodId algorithm, unsigned
     words.push_back(name);
     words.push_back(std::to_string(value));
   }
-  const std::optional<std::string> text = output_of(words);
-  if (!text) stop("failed on " + recipe.generator);
+  const std::optional<ProcessRun> run = run_process("/proc/self/exe", words, Keep::kOutput);
+  if (!run || run->status != 0) stop("failed on " + recipe.generator);
   ChildReport report;
-  std::istringstream in(*text);
+  std::istringstream in(run->text);
   in >> report.polygons >> report.facing >> report.fragments >> report.nodes >>
       report.prepare_wall >> report.prepare_cpu >> report.shadow_wall >> report.shadow_cpu >>
       report.scene_bsp_cpu >> report.lit_lower >> report.lit_upper >> report.peak_bytes >>
       report.shadow_bytes;
-  if (!in) stop("cannot read its report: " + *text);
+  if (!in) stop("cannot read its report: " + run->text);
   return report;
 }
 

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// gnomon_bench [--short | --long] [PART...] [--benchmark_...]
+// gnomon_bench [--short | --long] [--against COMMAND] [--json] [PART...] [--benchmark_...]
 //
-// Parts: targets kernels area papers scene-bsp pitfalls thickness systems; all but the last three
-// by default.
+// Parts: targets point kernels area papers scene-bsp pitfalls thickness systems; all but the last
+// three by default.
 // Exit status: 0; 1 if exact kernels, algorithms or peers gave different answers, or fractions that
 // do not add up to 1; 2 bad usage. (`child` and `measure` with their arguments are for the program
 // itself: child.h, comparison/run_measurement.h.)
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <string_view>
+#include <vector>
 
+#include "arguments.h"
 #include "child.h"
 #include "comparison/run_measurement.h"
 #include "machine.h"
@@ -21,11 +22,18 @@
 
 namespace {
 
+using gnomon::bench::Arguments;
+
 constexpr const char* kUsage =
-    "usage: gnomon_bench [--short | --long] [PART...] [--benchmark_...]\n"
+    "usage: gnomon_bench [--short | --long] [--against COMMAND] [--json] [PART...]\n"
+    "                    [--benchmark_...]\n"
     "\n"
-    "  targets    what the core was to reach beside what it does: doubles, other exact numbers,\n"
-    "             peers (where built), growth, a million polygons, threads\n"
+    "  targets    how much faster point lights and suns are to be than another build's command "
+    "and\n"
+    "             than Clipper (where built), beside what was measured\n"
+    "  point      point lights: doubles, other exact numbers, peers (where built), growth, a "
+    "million\n"
+    "             polygons, threads\n"
     "  kernels    every kernel on generic, degenerate and nearly degenerate scenes\n"
     "  area       area lights: both algorithms, growth, Figure 8 of Chin & Feiner 1992\n"
     "  papers     the tables of Chin & Feiner 1989 and Slater 1992\n"
@@ -35,24 +43,39 @@ constexpr const char* kUsage =
     "  systems    every system on every kernel, on all scenes, by size: the table of `gnomon\n"
     "             compare`\n"
     "\n"
-    "Without PART: all but pitfalls, thickness and systems. --short takes seconds; --long adds a "
-    "million\n"
-    "polygons to the scene BSP, full sizes for the slow exact kernels, and repetitions. Options\n"
-    "that begin with --benchmark_ go to Google Benchmark.\n";
+    "Without PART: all but pitfalls, thickness and systems. --short takes seconds; --long adds a\n"
+    "million polygons to the targets and the scene BSP, full sizes for the slow exact kernels, "
+    "and\n"
+    "repetitions. --against names the gnomon command that the targets are ratios to; --json "
+    "writes\n"
+    "the targets alone, as JSON. Options that begin with --benchmark_ go to Google Benchmark.\n";
 
 struct NamedPart {
   std::string_view name;
-  bool (*run)(gnomon::bench::Extent);
+  bool (*run)(const Arguments& arguments);
   bool usual;  // runs where no part is named
 };
-constexpr std::array<NamedPart, 8> kParts{{{"targets", gnomon::bench::run_targets, true},
-                                           {"kernels", gnomon::bench::run_kernels, true},
-                                           {"area", gnomon::bench::run_area, true},
-                                           {"papers", gnomon::bench::run_papers, true},
-                                           {"scene-bsp", gnomon::bench::run_scene_bsp, true},
-                                           {"pitfalls", gnomon::bench::run_pitfalls, false},
-                                           {"thickness", gnomon::bench::run_thickness, false},
-                                           {"systems", gnomon::bench::run_systems, false}}};
+
+template <bool (*Part)(gnomon::bench::Extent)>
+bool by_extent(const Arguments& arguments) {
+  return Part(arguments.extent);
+}
+
+bool targets(const Arguments& arguments) {
+  return gnomon::bench::run_targets(arguments.extent, arguments.against, arguments.json);
+}
+
+// The targets come first: the peak memory of a program is never below that of who started it.
+constexpr std::array<NamedPart, 9> kParts{
+    {{"targets", targets, true},
+     {"point", by_extent<gnomon::bench::run_point>, true},
+     {"kernels", by_extent<gnomon::bench::run_kernels>, true},
+     {"area", by_extent<gnomon::bench::run_area>, true},
+     {"papers", by_extent<gnomon::bench::run_papers>, true},
+     {"scene-bsp", by_extent<gnomon::bench::run_scene_bsp>, true},
+     {"pitfalls", by_extent<gnomon::bench::run_pitfalls>, false},
+     {"thickness", by_extent<gnomon::bench::run_thickness>, false},
+     {"systems", by_extent<gnomon::bench::run_systems>, false}}};
 
 }  // namespace
 
@@ -63,31 +86,23 @@ int main(int argc, char** argv) {
     return gnomon::comparison::measurement_main(argv[2]);
   }
   benchmark::Initialize(&argc, argv);
-  Extent extent = Extent::kUsual;
-  std::array<bool, kParts.size()> chosen{};
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
-    const auto part = std::find_if(kParts.begin(), kParts.end(),
-                                   [word](const NamedPart& p) { return p.name == word; });
-    if (word == "--short") {
-      extent = Extent::kShort;
-    } else if (word == "--long") {
-      extent = Extent::kLong;
-    } else if (word == "--help" || word == "-h") {
-      fmt::print("{}", kUsage);
-      return 0;
-    } else if (part != kParts.end()) {
-      chosen[static_cast<std::size_t>(part - kParts.begin())] = true;
-    } else {
-      fmt::print(stderr, "gnomon_bench: unknown '{}'\n{}", word, kUsage);
-      return 2;
-    }
+  std::vector<std::string_view> names;
+  for (const NamedPart& part : kParts) names.push_back(part.name);
+  const std::vector<std::string_view> words(argv + 1, argv + argc);
+  const auto [arguments, complaint] = read_arguments(words, names);
+  if (!complaint.empty()) {
+    fmt::print(stderr, "gnomon_bench: {}\n{}", complaint, kUsage);
+    return 2;
   }
-  const bool none = std::find(chosen.begin(), chosen.end(), true) == chosen.end();
-  fmt::print("{}", machine_text());
+  if (arguments.help) {
+    fmt::print("{}", kUsage);
+    return 0;
+  }
+  if (!arguments.json) fmt::print("{}", machine_text());
   bool good = true;
-  for (std::size_t i = 0; i < kParts.size(); ++i) {
-    if (chosen[i] || (none && kParts[i].usual)) good = kParts[i].run(extent) && good;
+  for (const NamedPart& part : kParts) {
+    const bool wanted = arguments.parts.empty() ? part.usual : arguments.names(part.name);
+    if (wanted) good = part.run(arguments) && good;
   }
   if (!good) fmt::print(stderr, "gnomon_bench: answers that must agree differ; see above\n");
   return good ? 0 : 1;

@@ -169,8 +169,11 @@ bool report(const SceneChoice& choice, const Measured& measured, const TimeColle
       ShadowOptions options = options_of(runner);
       options.output.stage_counts = true;
       const StageCounts stages = shadows_or_stop(scene, options).stages;
-      exact_share = fmt::format("{:.2f}", 100.0 * static_cast<double>(stages.exact()) /
-                                              static_cast<double>(stages.total()));
+      // A method may have decided nothing.
+      if (stages.total() > 0) {
+        exact_share = fmt::format("{:.2f}", 100.0 * static_cast<double>(stages.exact()) /
+                                                static_cast<double>(stages.total()));
+      }
     }
     if (const auto own = answers.find(runner.name); own != answers.end()) {
       answer = own->second.checksum;

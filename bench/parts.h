@@ -4,16 +4,12 @@
 #define GNOMON_BENCH_PARTS_H
 
 #include <cstdint>
+#include <string>
 
+#include "arguments.h"
 #include "gnomon/scene/prepare.h"
 
 namespace gnomon::bench {
-
-enum class Extent {
-  kShort,  // seconds: smaller scenes, for continuous integration
-  kUsual,
-  kLong,  // scene BSP at a million polygons, slow exact kernels at full size, more repetitions
-};
 
 /// Every kernel on every scene: time, ratio to double, fragments, exact stage, answer. False if the
 /// exact kernels' answers differ.
@@ -24,9 +20,14 @@ bool run_thickness(Extent extent);
 bool run_papers(Extent extent);
 /// Splits, depth, memory and time of the scene BSP.
 bool run_scene_bsp(Extent extent);
-/// The table of targets, and what it is made of. False if answers differ, of exact kernels, of the
-/// algorithms, or of a peer beyond its tolerance; a missed target is none of these.
-bool run_targets(Extent extent);
+/// Point lights: doubles, other exact numbers, peers, growth, a million polygons, threads, and what
+/// the core was to reach there. False if answers differ, of exact kernels, of the methods, or of a
+/// peer beyond its tolerance; a missed target is none of these.
+bool run_point(Extent extent);
+/// The targets of speed: ratios of this build to another one, measured in turn, and to peers.
+/// `against`: that build's gnomon command; empty: its ratios are not measured. `json`: the rows as
+/// JSON instead of tables. False if answers differ; a missed target is none of these.
+bool run_targets(Extent extent, const std::string& against, bool json);
 /// Area lights: ratios, growth, and Figure 8 of Chin & Feiner 1992. False if answers differ.
 bool run_area(Extent extent);
 /// Scenes that are known to hurt, n = 250 to 4,000: pieces, time, growth.

@@ -22,6 +22,11 @@ bool ContourWalk<Numbers, Sides>::find_crease(std::uint32_t q, Crease<Numbers>& 
     behind |= sign < 0;
   }
   if (!nearer || !behind) return false;
+  if (const FacingPolygon& other = polygons_->polygons[q]; other.count <= CornerSet::kMost) {
+    const CornerSet sides = survey_.find_nearer(p_, q);
+    const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - other.count);
+    if (sides.left == all || sides.right == all) return false;
+  }
   const LineThrough chord = survey_.through_plane(p_, q);
   if (chord.cover != LineCover::kBoth) return false;
   if (survey_.through_plane(q, p_).cover != LineCover::kBoth) return false;
@@ -49,9 +54,9 @@ bool ContourWalk<Numbers, Sides>::find_crease(std::uint32_t q, Crease<Numbers>& 
                         T(crease.to[2] - crease.from[2])};
   crease.line = cross_product(crease.from, along);
   if constexpr (Numbers::kCertified) {
-    // Rays of corners are off by 2u, and a + t (b - a) rounds by 4u of at most `reach`.
+    // Rays of corners are off by at most 8u, or 2u `reach`; a + t (b - a) rounds by 4u `reach`.
     const double reach = polygons_->reach[p_], length = largest(along);
-    crease.end_error = end_error + 8 * Ball::kUnit * reach;
+    crease.end_error = end_error + 16 * Ball::kUnit * reach;
     // Factors off by e and 2e: (2 reach + length) e in each product, two products; roundings.
     crease.line_error =
         2.1 * (2 * reach + length) * crease.end_error + 8 * Ball::kUnit * reach * length;

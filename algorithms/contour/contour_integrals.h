@@ -14,11 +14,25 @@
 
 namespace gnomon {
 
-/// n . c for edge k of p and corner 0 of q.
+/// n . c for edge k of p and corner 0 of q, and its error; from exact positions, n . (c - a).
 template <class Numbers, class Sides>
-auto ContourWalk<Numbers, Sides>::value_of(std::uint32_t k, std::uint32_t q) const -> T {
-  return dot_product(polygons_->line(polygons_->polygons[p_], k),
-                     polygons_->corner(polygons_->polygons[q], 0));
+auto ContourWalk<Numbers, Sides>::value_of(std::uint32_t k, std::uint32_t q, double& error) const
+    -> T {
+  const FacingPolygon& own = polygons_->polygons[p_];
+  const FacingPolygon& other = polygons_->polygons[q];
+  const Vector<T> line = polygons_->line(own, k);
+  if constexpr (Numbers::kCertified) {
+    error = polygons_->error_of_line(own, k);
+    if (!light_->positions.empty()) {
+      double size;
+      const Vector<double> difference =
+          light_->difference(polygons_->vertex(other, 0), polygons_->vertex(own, k), size);
+      error *= size;
+      return dot_product(line, difference);
+    }
+    error *= polygons_->reach[q];
+  }
+  return dot_product(line, polygons_->corner(other, 0));
 }
 
 template <class Numbers, class Sides>
@@ -27,11 +41,12 @@ void ContourWalk<Numbers, Sides>::add_own(std::uint32_t k, const Segment<Numbers
   sum.flags |= segment.sure ? kHoldsLit : kPerhapsLit;
   const std::uint32_t n = polygons_->polygons[p_].count;
   if (k == 0 || k + 1 == n) return;  // corner 0 is on it
-  const T rate = T(value_of(k, p_) * measure_->scale[p_]);
+  double value_error = 0;
+  const T rate = T(value_of(k, p_, value_error) * measure_->scale[p_]);
   const T share = T(T(segment.high.t - segment.low.t) * rate);
   double error = 0;
   if constexpr (Numbers::kCertified) {
-    error = share_error(p_, rate, line_value_error(k, p_), segment.low, segment.high, 1, 1, 0);
+    error = share_error(p_, rate, value_error, segment.low, segment.high, 1, 1, 0);
   }
   sum.add(share, error);
 }
@@ -65,18 +80,19 @@ void ContourWalk<Numbers, Sides>::take_from(std::uint32_t k, const Behind<Number
   const std::uint32_t q = receiver.polygon;
   ContourSum<Numbers>& sum = sums_[q];
   sum.flags |= kHoldsLit | kHoldsShadow;
-  const T rate = T(value_of(k, q) * measure_->scale[q]);
+  double value_error = 0;
+  const T rate = T(value_of(k, q, value_error) * measure_->scale[q]);
   T share = T(T(low.t - high.t) * rate);
   double error = 0;
   if (!light_->directional) {
     const T depth_low = depth_at(receiver, low), depth_high = depth_at(receiver, high);
     share = T(share / T(depth_low * depth_high));
     if constexpr (Numbers::kCertified) {
-      error = share_error(q, rate, line_value_error(k, q), low, high, depth_low, depth_high,
+      error = share_error(q, rate, value_error, low, high, depth_low, depth_high,
                           2 * receiver.depth_error);
     }
   } else if constexpr (Numbers::kCertified) {
-    error = share_error(q, rate, line_value_error(k, q), low, high, 1, 1, 0);
+    error = share_error(q, rate, value_error, low, high, 1, 1, 0);
   }
   sum.add(share, error);
 }
@@ -89,14 +105,15 @@ void ContourWalk<Numbers, Sides>::take_perhaps(std::uint32_t k, const Behind<Num
     const std::uint32_t q = receiver.polygon;
     ContourSum<Numbers>& sum = sums_[q];
     sum.flags |= kPerhapsLit | kPerhapsShadow;
-    const double rate = value_of(k, q) * measure_->scale[q];
+    double value_error = 0;
+    const double rate = value_of(k, q, value_error) * measure_->scale[q];
     PlaceOnEdge first = low, last = high;
     first.error += std::fabs(high.t - low.t);
     double error;
     if (light_->directional) {
-      error = share_error(q, rate, line_value_error(k, q), first, last, 1, 1, 0);
+      error = share_error(q, rate, value_error, first, last, 1, 1, 0);
     } else {
-      error = share_error(q, rate, line_value_error(k, q), first, last, depth_at(receiver, low),
+      error = share_error(q, rate, value_error, first, last, depth_at(receiver, low),
                           depth_at(receiver, high), 2 * receiver.depth_error);
     }
     sum.add(0, error);

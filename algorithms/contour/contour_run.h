@@ -80,6 +80,8 @@ class ContourRun {
   const StageCounts& stage_counts() const { return stages_; }
 
  private:
+  static constexpr std::uint32_t kGrain = 4096;  // polygons of one thread, where little is done
+
   /// What one thread works with.
   struct Worker {
     Sides sides;
@@ -96,6 +98,7 @@ class ContourRun {
   }
   void measure(std::uint32_t begin, std::uint32_t end);
   void set_classes();
+  void set_class(std::uint32_t i);
   RunOutcome find_open_ones(Space space, const std::function<void(double)>& progress);
   bool is_open(const Sum& sum) const;
 
@@ -126,8 +129,18 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
     T whole(0);
     double error = 0;
     for (std::uint32_t k = 1; k + 1 < p.count; ++k) {
+      if constexpr (Numbers::kCertified) {
+        if (!rays_.positions.empty()) {
+          double size;
+          const Vector<double> difference =
+              rays_.difference(polygons_.vertex(p, 0), polygons_.vertex(p, k), size);
+          whole += dot_product(polygons_.line(p, k), difference);
+          error += polygons_.error_of_line(p, k) * size;
+          continue;
+        }
+        error += polygons_.error_of_line(p, k) * polygons_.reach[i];
+      }
       whole += dot_product(polygons_.line(p, k), corner);
-      if constexpr (Numbers::kCertified) error += polygons_.error_of_line(p, k);
     }
     measure_.relative_error[i] = 0;
     if (!(whole > 0)) {
@@ -138,8 +151,7 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
     measure_.scale[i] = T(1 / whole);
     if constexpr (Numbers::kCertified) {
       // Summing n values rounds by less than n u of their sum, the quotient by u.
-      measure_.relative_error[i] =
-          1.01 * error * polygons_.reach[i] * measure_.scale[i] + (p.count + 2) * Ball::kUnit;
+      measure_.relative_error[i] = 1.01 * error * measure_.scale[i] + (p.count + 2) * Ball::kUnit;
       if (!(measure_.relative_error[i] < 0x1p-20)) sums_[i].flags |= kContourOpen;
     }
   }
@@ -156,7 +168,7 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   result_.facing_parts = facing_->parts.size();
   result_.facing_edges = facing_->edges;
   if constexpr (Numbers::kCertified) {
-    make_light_rays(space, scene_.geometry, point, rays_);
+    make_light_rays(space, scene_.geometry, point, jobs_, rays_);
   } else {
     make_light_rays(scene_.geometry, point, thickness(), rays_);
   }
@@ -189,8 +201,8 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
       }
       worker = std::make_unique<Worker>(Worker{sides.fork(), std::vector<Sum>(count)});
     }
-    ContourWalk<Numbers, Sides> walk(rays_, polygons_, measure_, charts_.depths(), worker->sides,
-                                     lanes_, worker->sums);
+    ContourWalk<Numbers, Sides> walk(rays_, polygons_, measure_, charts_.depths(), rules_,
+                                     worker->sides, lanes_, worker->sums);
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::atomic<bool>* interrupted = options_.control.interrupted;
       if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) {
@@ -206,7 +218,9 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   });
   if (stopped) return no_ieee ? RunOutcome::kNoIeee : RunOutcome::kInterrupted;
   for (const std::unique_ptr<Worker>& worker : workers) {
-    for (std::uint32_t i = 0; i < count; ++i) sums_[i] += worker->sums[i];
+    in_parallel(jobs_, count, kGrain, [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t i = begin; i < end; ++i) sums_[i] += worker->sums[i];
+    });
     stages_ += worker->sides.space().stage_counts();
     result_.work[Counter::kIntervals] += worker->intervals;
     result_.work[Counter::kSegments] += worker->segments;
@@ -226,55 +240,68 @@ bool ContourRun<Space, Numbers>::is_open(const Sum& sum) const {
     const bool lit = sum.flags & kHoldsLit, shadow = sum.flags & kHoldsShadow;
     if (!lit && (sum.flags & kPerhapsLit)) return true;
     if (!shadow && (sum.flags & kPerhapsShadow)) return true;
-    return lit && shadow && sum.error > kWidest;
+    if (!lit || !shadow) return false;
+    // No sum of a proof is outside of [0, 1]; one that is would be a fault of ours.
+    const auto value = static_cast<std::int64_t>(sum.units),
+               error = static_cast<std::int64_t>(sum.error);
+    return sum.error > kWidest || value < -error || value > (std::int64_t{1} << Sum::kBits) + error;
   }
 }
 
 template <SectorSpaceModel Space, class Numbers>
 void ContourRun<Space, Numbers>::set_classes() {
-  result_.parts.resize(scene_.parts.size());
-  if (options_.output.exact_fractions) result_.exact_fractions.resize(scene_.parts.size());
-  for (std::uint32_t index = 0; index < scene_.parts.size(); ++index) {
-    PartResult& part = result_.parts[index];
-    part.part = index;
-    part.side = facing_->facing[index].side;
-    part.reason = facing_->facing[index].reason;
-    part.lit = {0, 0};
-    part.shadow = {1, 1};
-    if (options_.output.exact_fractions) result_.exact_fractions[index].shadow = 1;
-  }
-  for (std::uint32_t i = 0; i < polygons_.size(); ++i) {
-    PartResult& part = result_.parts[polygons_.polygons[i].part];
-    const Sum& sum = sums_[i];
-    const bool lit = sum.flags & kHoldsLit, shadow = sum.flags & kHoldsShadow;
-    if (!lit) continue;
-    if (!shadow) {
-      part.lit = {1, 1};
-      part.shadow = {0, 0};
-    } else if constexpr (Numbers::kCertified) {
-      const double middle =
-          std::ldexp(static_cast<double>(static_cast<std::int64_t>(sum.units)), -60);
-      // Two roundings of a number of size 1, besides.
-      const double radius = std::ldexp(static_cast<double>(sum.error), -60) + 4 * Ball::kUnit;
+  const auto parts = static_cast<std::uint32_t>(scene_.parts.size());
+  result_.parts.resize(parts);
+  if (options_.output.exact_fractions) result_.exact_fractions.resize(parts);
+  in_parallel(jobs_, parts, kGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t index = begin; index < end; ++index) {
+      PartResult& part = result_.parts[index];
+      part.part = index;
+      part.side = facing_->facing[index].side;
+      part.reason = facing_->facing[index].reason;
+      part.lit = {0, 0};
+      part.shadow = {1, 1};
+      if (options_.output.exact_fractions) result_.exact_fractions[index].shadow = 1;
+    }
+  });
+  in_parallel(jobs_, polygons_.size(), kGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) set_class(i);
+  });
+}
+
+template <SectorSpaceModel Space, class Numbers>
+void ContourRun<Space, Numbers>::set_class(std::uint32_t i) {
+  const std::uint32_t index = polygons_.polygons[i].part;
+  PartResult& part = result_.parts[index];
+  const Sum& sum = sums_[i];
+  if (!(sum.flags & kHoldsLit)) return;
+  const bool shadow = sum.flags & kHoldsShadow;
+  if (!shadow) {
+    part.lit = {1, 1};
+    part.shadow = {0, 0};
+  } else {
+    if constexpr (Numbers::kCertified) {
+      const double middle = static_cast<double>(static_cast<std::int64_t>(sum.units)) * 0x1p-60;
+      // Roundings of a number of size 1, besides.
+      const double radius = static_cast<double>(sum.error) * 0x1p-60 + 4 * Ball::kUnit;
       part.lit = {std::max(0.0, middle - radius), std::min(1.0, middle + radius)};
-      part.shadow = {std::max(0.0, std::nextafter(1 - part.lit.upper, -1.0)),
-                     std::min(1.0, std::nextafter(1 - part.lit.lower, 2.0))};
     } else if constexpr (Numbers::kExact) {
       const double value = sum.value.get_d();  // truncated: within one unit in the last place
-      part.lit = {std::max(0.0, std::nextafter(value, -1.0)),
-                  std::min(1.0, std::nextafter(value, 2.0))};
-      part.shadow = {std::max(0.0, std::nextafter(1 - part.lit.upper, -1.0)),
-                     std::min(1.0, std::nextafter(1 - part.lit.lower, 2.0))};
+      part.lit = {std::max(0.0, value - 2 * Ball::kUnit), std::min(1.0, value + 2 * Ball::kUnit)};
     } else {
       const auto value = static_cast<double>(sum.value);
       part.lit = {value, value};
-      part.shadow = {1 - value, 1 - value};
     }
+    // 1 - x rounds by half a unit.
+    const double slack = Numbers::kTrust == Trust::kRounded ? 0 : Ball::kUnit;
+    part.shadow = {std::max(0.0, 1 - part.lit.upper - slack),
+                   std::min(1.0, 1 - part.lit.lower + slack)};
+    if (Numbers::kTrust == Trust::kRounded) part.shadow = {1 - part.lit.lower, 1 - part.lit.lower};
+  }
+  if constexpr (Numbers::kExact) {
     if (options_.output.exact_fractions) {
-      ExactFractions& fractions = result_.exact_fractions[polygons_.polygons[i].part];
-      if constexpr (Numbers::kExact) {
-        fractions.lit = shadow ? mpq_class(sum.value) : mpq_class(1);
-      }
+      ExactFractions& fractions = result_.exact_fractions[index];
+      fractions.lit = shadow ? mpq_class(sum.value) : mpq_class(1);
       fractions.shadow = 1 - fractions.lit;
     }
   }
@@ -314,7 +341,12 @@ RunOutcome ContourRun<Space, Numbers>::find_open_ones(Space space,
     const LightResult found = exact.finish();
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (receives[i] == 0) continue;
-      result_.parts[parts[i]] = found.parts[parts[i]];
+      PartResult& part = result_.parts[parts[i]];
+      part = found.parts[parts[i]];
+      if (part.lit.upper <= 0) {  // of pieces that several casters hide
+        part.lit = {0, 0};
+        part.shadow = {1, 1};
+      }
     }
   }
   if (progress) progress(1);

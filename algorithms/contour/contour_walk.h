@@ -31,6 +31,7 @@
 #include "algorithms/contour/contour_sums.h"
 #include "algorithms/contour/edge_lists.h"
 #include "algorithms/contour/light_charts.h"
+#include "algorithms/partition/rules.h"
 
 namespace gnomon {
 
@@ -58,11 +59,13 @@ class ContourWalk {
 
   ContourWalk(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons,
               const ContourMeasure<Numbers>& measure, std::span<const DepthRange> depths,
-              Sides& sides, const Lanes& lanes, std::span<ContourSum<Numbers>> sums)
+              const Rules& rules, Sides& sides, const Lanes& lanes,
+              std::span<ContourSum<Numbers>> sums)
       : light_(&light),
         polygons_(&polygons),
         measure_(&measure),
         depths_(depths),
+        rules_(rules),
         survey_(light, polygons, sides, lanes),
         sums_(sums) {}
 
@@ -86,7 +89,7 @@ class ContourWalk {
   void meet_on_edge(std::uint32_t k, std::uint32_t q, const LineThrough& through);
   void meet_in_plane(EdgeLists<Numbers>& lists, std::uint32_t q, LineCover cover,
                      const Behind<Numbers>& entry);
-  void meet_level(EdgeLists<Numbers>& lists, std::uint32_t q, LineCover cover,
+  void meet_level(EdgeLists<Numbers>& lists, std::uint32_t k, std::uint32_t q, LineCover cover,
                   const Behind<Numbers>& entry);
   int nearer_corner(std::uint32_t q, std::uint32_t j);
   void hide(std::uint32_t k, const Stretch<Numbers>& stretch);
@@ -125,10 +128,7 @@ class ContourWalk {
                  std::vector<Segment<Numbers>>& result);
 
   // Sums.
-  T value_of(std::uint32_t k, std::uint32_t q) const;
-  double line_value_error(std::uint32_t k, std::uint32_t q) const {
-    return polygons_->error_of_line(polygons_->polygons[p_], k) * polygons_->reach[q];
-  }
+  T value_of(std::uint32_t k, std::uint32_t q, double& error) const;
   void add_own(std::uint32_t k, const Segment<Numbers>& segment);
   double share_error(std::uint32_t q, double rate, double line_value_error, const PlaceOnEdge& low,
                      const PlaceOnEdge& high, double depth_low, double depth_high,
@@ -147,6 +147,7 @@ class ContourWalk {
   const FacingPolygons<Numbers>* polygons_;
   const ContourMeasure<Numbers>* measure_;
   std::span<const DepthRange> depths_;
+  const Rules& rules_;
   Survey survey_;
   std::span<ContourSum<Numbers>> sums_;
   std::uint32_t p_ = 0;                    // the polygon
@@ -314,6 +315,7 @@ void ContourWalk<Numbers, Sides>::hide(std::uint32_t k, const Stretch<Numbers>& 
 template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
                                                const LineThrough& through) {
+  if (through.cover != LineCover::kBoth && !rules_.edges_on_a_line_count) return;
   const std::uint32_t next = k + 1 == polygons_->polygons[p_].count ? 0 : k + 1;
   Stretch<Numbers> stretch;
   int from = order_, to = order_;
@@ -333,6 +335,7 @@ void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
   EdgeLists<Numbers>& lists = lists_[k];
   if (from <= 0 && to <= 0 && from + to < 0) {
     if (!casts(q)) return;
+    if (!rules_.casters_are_the_same_in_each_step && polygons_->polygons[q].reversed) return;
     if (through.cover == LineCover::kOuter) {
       lists.taken.push_back(stretch);
     } else {
@@ -350,7 +353,7 @@ void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
   if (plane(q) == plane(p_)) {
     meet_in_plane(lists, q, through.cover, entry);
   } else if (from == 0 && to == 0) {
-    meet_level(lists, q, through.cover, entry);
+    meet_level(lists, k, q, through.cover, entry);
   } else if (from * to >= 0) {
     put(lists, through.cover, false, casts(q), entry);
   } else {
@@ -398,11 +401,13 @@ void ContourWalk<Numbers, Sides>::meet_in_plane(EdgeLists<Numbers>& lists, std::
 
 // The edge lies in the plane of q: their slopes tell who is nearer on the inner side.
 template <class Numbers, class Sides>
-void ContourWalk<Numbers, Sides>::meet_level(EdgeLists<Numbers>& lists, std::uint32_t q,
-                                             LineCover cover, const Behind<Numbers>& entry) {
+void ContourWalk<Numbers, Sides>::meet_level(EdgeLists<Numbers>& lists, std::uint32_t k,
+                                             std::uint32_t q, LineCover cover,
+                                             const Behind<Numbers>& entry) {
   if (cover == LineCover::kOuter) {
     if (casts(q) && casts(p_)) lists.beside.push_back(entry);
-  } else if (survey_.nearer_beside(q, p_) < 0) {
+  } else if ((rules_.equal_depth_by_its_planes ? survey_.nearer_beside(q, p_)
+                                               : survey_.nearer_by_far_corner(q, p_, k)) < 0) {
     if (casts(q)) lists.hidden.push_back({entry.low, entry.high});
   } else if (cover == LineCover::kBoth && casts(p_)) {
     lists.level.push_back(entry);

@@ -176,6 +176,9 @@ class EdgeSurvey {
   /// 1 if polygon p is nearer than the plane of q on the inner side of its edge, which lies in
   /// that plane; 0 if the planes are one.
   int nearer_beside(std::uint32_t q, std::uint32_t p);
+  /// The same, taken from the corner of q that is farthest from edge k of p, whichever its side:
+  /// wrong, and what Rules::equal_depth_by_its_planes turns to.
+  int nearer_by_far_corner(std::uint32_t q, std::uint32_t p, std::uint32_t k);
 
   /// Where the plane of q cuts polygon p, what is nearer than q on the left: kBoth if corners are
   /// on both sides.
@@ -195,11 +198,9 @@ class EdgeSurvey {
   void find_sign(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t j,
                  CornerSet& set);
   LineThrough through_set(std::uint32_t q, const CornerSet& set) const;
-  /// What a place on an edge is where it crosses an edge of another polygon.
-  PlaceName name_of(const FacingPolygon& other, std::uint32_t edge, std::uint32_t corner) const {
-    return corner != LineThrough::kNoCorner ? PlaceName::vertex(polygons_->vertex(other, corner))
-                                            : PlaceName::line(polygons_->edge(other, edge).index());
-  }
+  Place<Numbers> meeting(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t edge,
+                         std::uint32_t corner, const T& at_from, const T& at_to,
+                         double error) const;
   LineThrough ends_of_set(std::uint32_t q, std::uint64_t left, std::uint64_t zero,
                           LineCover cover) const;
   /// From signs_, of which so many are on the left and on the right.
@@ -479,14 +480,44 @@ bool EdgeSurvey<Numbers, Sides>::interval(std::uint32_t p, std::uint32_t k, std:
   }
   stretch.low = starts_inside
                     ? Place<Numbers>::from()
-                    : zero_between<Numbers>(in_from, in_to, in_error,
-                                            name_of(other, through.in, through.in_corner));
-  stretch.high = leaves_to >= 0
-                     ? Place<Numbers>::to()
-                     : zero_between<Numbers>(out_from, out_to, out_error,
-                                             name_of(other, through.out, through.out_corner));
+                    : meeting(p, k, q, through.in, through.in_corner, in_from, in_to, in_error);
+  stretch.high = leaves_to >= 0 ? Place<Numbers>::to()
+                                : meeting(p, k, q, through.out, through.out_corner, out_from,
+                                          out_to, out_error);
   if constexpr (!Numbers::kCertified) return stretch.low.t < stretch.high.t;
   return true;
+}
+
+// Where edge k of p crosses the line of an edge of q, with the values of that line at the ends.
+// From exact positions they are found again, as differences from an end of q's edge, which are much
+// less off for short edges.
+template <class Numbers, class Sides>
+Place<Numbers> EdgeSurvey<Numbers, Sides>::meeting(std::uint32_t p, std::uint32_t k,
+                                                   std::uint32_t q, std::uint32_t edge,
+                                                   std::uint32_t corner, const T& at_from,
+                                                   const T& at_to, double error) const {
+  const FacingPolygon& own = polygons_->polygons[p];
+  const FacingPolygon& other = polygons_->polygons[q];
+  const PlaceName name = corner != LineThrough::kNoCorner
+                             ? PlaceName::vertex(polygons_->vertex(other, corner))
+                             : PlaceName::line(polygons_->edge(other, edge).index());
+  if constexpr (Numbers::kCertified) {
+    if (!light_->positions.empty()) {
+      // The same end, whichever polygon asks.
+      const PlaneRef ref = polygons_->edge(other, edge);
+      const VertexId base =
+          polygons_->vertex(other, ref.flipped() ? (edge + 1 == other.count ? 0 : edge + 1) : edge);
+      const Vector<double> line = polygons_->line(other, edge);
+      double from_size, to_size;
+      const Vector<double> from = light_->difference(polygons_->vertex(own, k), base, from_size);
+      const Vector<double> to =
+          light_->difference(polygons_->vertex(own, k + 1 == own.count ? 0 : k + 1), base, to_size);
+      return zero_between<Numbers>(
+          dot_product(line, from), dot_product(line, to),
+          polygons_->error_of_line(other, edge) * std::max(from_size, to_size), name);
+    }
+  }
+  return zero_between<Numbers>(at_from, at_to, error, name);
 }
 
 template <class Numbers, class Sides>
@@ -575,6 +606,23 @@ int EdgeSurvey<Numbers, Sides>::nearer_beside(std::uint32_t q, std::uint32_t p) 
     if (sign != 0) return sign;
   }
   return 0;
+}
+
+template <class Numbers, class Sides>
+int EdgeSurvey<Numbers, Sides>::nearer_by_far_corner(std::uint32_t q, std::uint32_t p,
+                                                     std::uint32_t k) {
+  std::uint32_t far = 0;
+  T most(-1);
+  for (std::uint32_t j = 0; j < polygons_->polygons[q].count; ++j) {
+    T value = dot_product(polygons_->line(polygons_->polygons[p], k),
+                          polygons_->corner(polygons_->polygons[q], j));
+    if (value < 0) value = T(-value);
+    if (value > most) {
+      most = value;
+      far = j;
+    }
+  }
+  return -nearer(p, q, far, depth(p, q, far));
 }
 
 // --- Creases. ---

@@ -147,7 +147,7 @@ void FacingPolygons<Numbers>::fill(const LightRays<Numbers>& light, std::uint32_
       lines[p.block + k / 4].set(k % 4, line);
       line_error[4 * std::size_t{p.block} + k] = light.line_error[edge.index()];
     }
-    reach[i] = Numbers::kCertified ? most : 1;
+    reach[i] = !Numbers::kCertified ? 1 : light.reach > 0 ? light.reach : most;
   }
 }
 

@@ -173,9 +173,11 @@ bool LightCharts::fill_one_chart(const FacingPolygons<Numbers>& polygons,
       one_.low_v[i] = float_below(low_v - margin);
       one_.high_u[i] = float_above(high_u + margin);
       one_.high_v[i] = float_above(high_v + margin);
-      // The sum of three products, off by less than 40u of the largest possible
-      // (ContourBounds::kDepth).
-      const double z_margin = light.directional ? 0x1p-47 * most * largest(depth) : 0;
+      double z_margin = 0;
+      if (light.directional) {
+        z_margin = Numbers::kCertified ? light.depth_error[p.plane] * polygons.reach[i]
+                                       : 0x1p-47 * most * largest(depth);
+      }
       if (high_z - low_z + z_margin < kInfinity) {
         depths_[i] = {float_below(low_z - z_margin), float_above(high_z + z_margin)};
       }

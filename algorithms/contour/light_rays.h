@@ -19,6 +19,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "algorithms/contour/in_parallel.h"
 #include "algorithms/contour/numbers.h"
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/kernel/sign.h"
@@ -43,6 +44,24 @@ struct ContourBounds {
   /// Of depth . r with components of depth off by 8u M (LightBounds::kDepthPlane), |r_k| <= R, in
   /// units of M R: 3 (8u + 2u) from the operands, roundings 3u + 2u + 3u. 38u.
   static constexpr double kDepth = 40 * kUnit;
+
+  /// A sun's rays from doubles, where positions are exactly doubles: r = (x d_z - z d_x, y d_z - z
+  /// d_y, d_z) with |x_k| <= 1 exact and |d_k| <= 1 converted once, so that |r_k| <= kSunReach. A
+  /// product is off by 2u + u, two of them by 6u, and their difference rounds by 2u: 8u; r_z 2u.
+  static constexpr double kSunReach = 2;
+  /// Of n . r for n = a x d with d the same from differences of at most D, rounded once: a product
+  /// of those is off by 4u D, and d by 8u D + 2u D, |d_k| <= 2 D, d_z = 0. n_x = -a_z d_y is off by
+  /// 10u D
+  /// + 2 * 2u D + 2u D = 16u D, n_y alike; n_z, of size 8 D, by two of 2 * 10u D + 2 * 8u D + 4u D
+  /// and 8u D: 88u D. n_x r_x: 2 * 16u D + 2 * 8u D + 4u D = 52u D, n_y r_y alike; n_z r_z: 88u D +
+  /// 8 * 2u D + 8u D = 112u D; sums of two and three of them round by 8u D + 16u D. 240u D, which
+  /// is this times D and kSunReach.
+  static constexpr double kSunLine = 128 * kUnit;
+  /// Of n . (r - a) with r - a of size 2 S from exact positions, off by 10u S: 2 (16u D 2 S + 2 D
+  /// 10u S + 4u D S) + 8u D S = 120u D S. So it is off by S line errors, and that of a lamp, by the
+  /// count above, by line errors times the size of the difference, too. Of depth . r likewise: 2 (2
+  /// * 8u + 8u + 2u) M + (8u + 2u + u) M + 9u M = 72u M, in units of M and kSunReach: within
+  /// kDepth.
 };
 
 template <class Numbers>
@@ -50,6 +69,24 @@ struct LightRays {
   using T = typename Numbers::T;
 
   bool directional = false;
+  /// Certified, of a sun: positions as doubles, exactly, scaled to [0, 1]; empty where they are
+  /// not.
+  std::vector<Vector<double>> positions;
+  Vector<double> to_light{};  // of a sun, as its rays have it
+  std::array<int, 3> axes{0, 1, 2};
+
+  /// The ray of vertex v less that of vertex w, from their exact positions: off by 10u of the
+  /// largest component of the difference, `size`.
+  Vector<double> difference(VertexId v, VertexId w, double& size) const {
+    const Vector<double>&p = positions[v], &q = positions[w];
+    const Vector<double> step{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+    size = largest(step);
+    const auto [x, y, z] = axes;
+    return {step[x] * to_light[z] - step[z] * to_light[x],
+            step[y] * to_light[z] - step[z] * to_light[y], 0};
+  }
+
+  double reach = 0;  // certified: a bound of |r_k| by which errors count; 0: that of each polygon
   std::vector<Vector<T>> rays;      // by VertexId
   std::vector<Vector<T>> lines;     // by EdgeId, from its a to its b
   std::vector<double> line_error;   // certified: of n . r for |r_k| <= 1; rounded: the thickness
@@ -182,10 +219,17 @@ void make_light_rays(const Geometry& geometry, const LightPoint& light, double t
 
 namespace contour_detail {
 
+/// Vertices or edges of one thread.
+inline constexpr std::uint32_t kRayGrain = 4096;
+template <class Array>
+std::uint32_t size_of(const Array& array) {
+  return static_cast<std::uint32_t>(array.size());
+}
+
 /// Rays and lines from integers of the type Int, scaled by 2^-scale; of a directional light the
 /// third component is d_z 2^b times that, as in the light space of kernel `plane`.
 template <class Int>
-void fill_certified(const LightIntegers& light,
+void fill_certified(const LightIntegers& light, unsigned jobs,
                     LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   const Geometry& geometry = *light.geometry;
   const bool directional = light.light.directional;
@@ -202,18 +246,79 @@ void fill_certified(const LightIntegers& light,
         to_double_scaled(light.position<Int>()[light.axes.z],
                          static_cast<long>(light.q_bits) - static_cast<long>(light.grid_bits()));
   }
-  for (VertexId v = 0; v < result.rays.size(); ++v) {
-    const Vector3<Int> q = light.q<Int>(v);
-    result.rays[v] = {scaled(q[0]), scaled(q[1]), directional ? third : scaled(q[2])};
+  in_parallel(jobs, size_of(result.rays), kRayGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (VertexId v = begin; v < end; ++v) {
+      const Vector3<Int> q = light.q<Int>(v);
+      result.rays[v] = {scaled(q[0]), scaled(q[1]), directional ? third : scaled(q[2])};
+    }
+  });
+  // Rays of at most 52 bits are exactly their doubles, and so are the differences of two.
+  const bool exact_rays = light.narrow && light.q_bits <= 52;
+  in_parallel(jobs, size_of(geometry.edges), kRayGrain,
+              [&](std::uint32_t begin, std::uint32_t end) {
+                for (EdgeId e = begin; e < end; ++e) {
+                  const auto [from, to] = geometry.edges[e];
+                  const Vector<double>& a = result.rays[from];
+                  Vector<double> d{0, 0, 0};
+                  if (exact_rays) {
+                    d = difference_of(result.rays[to], a);
+                  } else {
+                    const Vector3<Int> difference =
+                        gnomon::difference(light.q<Int>(to), light.q<Int>(from));
+                    for (int k = 0; k < (directional ? 2 : 3); ++k) d[k] = scaled(difference[k]);
+                  }
+                  result.lines[e] = cross_product(a, d);
+                  result.line_error[e] = ContourBounds::kLine * largest(a) * largest(d);
+                }
+              });
+}
+
+/// The same for a sun, from positions that are exactly doubles.
+inline void fill_certified_sun(const LightIntegers& light, unsigned jobs,
+                               LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
+  const Geometry& geometry = *light.geometry;
+  const Vector<double>& d = result.to_light;
+  result.reach = ContourBounds::kSunReach;
+  const auto [x, y, z] = std::array<int, 3>{light.axes.x, light.axes.y, light.axes.z};
+  in_parallel(jobs, size_of(result.rays), kRayGrain,
+              [&, x = x, y = y, z = z](std::uint32_t begin, std::uint32_t end) {
+                for (VertexId v = begin; v < end; ++v) {
+                  const Vector<double>& p = result.positions[v];
+                  result.rays[v] = {p[x] * d[z] - p[z] * d[x], p[y] * d[z] - p[z] * d[y], d[z]};
+                }
+              });
+  in_parallel(jobs, size_of(geometry.edges), kRayGrain,
+              [&](std::uint32_t begin, std::uint32_t end) {
+                for (EdgeId e = begin; e < end; ++e) {
+                  const auto [from, to] = geometry.edges[e];
+                  double size;
+                  const Vector<double> step = result.difference(to, from, size);
+                  result.lines[e] = cross_product(result.rays[from], step);
+                  result.line_error[e] = ContourBounds::kSunLine * size;
+                }
+              });
+}
+
+/// Positions as doubles, for a sun, where each is one. Kept from sun to sun.
+inline void fill_positions(const LightIntegers& light,
+                           LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
+  constexpr unsigned kDoubleBits = 53;
+  const Geometry& geometry = *light.geometry;
+  if (!light.light.directional || geometry.grid.bits() > kDoubleBits) {
+    result.positions.clear();
+    return;
   }
-  for (EdgeId e = 0; e < geometry.edges.size(); ++e) {
-    const auto [from, to] = geometry.edges[e];
-    const Vector3<Int> difference = gnomon::difference(light.q<Int>(to), light.q<Int>(from));
-    const Vector<double> d{scaled(difference[0]), scaled(difference[1]),
-                           directional ? 0 : scaled(difference[2])};
-    const Vector<double>& a = result.rays[from];
-    result.lines[e] = cross_product(a, d);
-    result.line_error[e] = ContourBounds::kLine * largest(a) * largest(d);
+  if (result.positions.empty()) {
+    const double scale = std::ldexp(1.0, -static_cast<int>(light.grid_bits()));
+    result.positions.resize(geometry.positions.size());
+    for (VertexId v = 0; v < result.positions.size(); ++v) {
+      const std::int64_t* p = geometry.grid.narrow_point(v);
+      for (int k = 0; k < 3; ++k) result.positions[v][k] = static_cast<double>(p[k]) * scale;
+    }
+  }
+  result.axes = {light.axes.x, light.axes.y, light.axes.z};
+  for (int k = 0; k < 3; ++k) {
+    result.to_light[k] = to_double_scaled(light.light.grid[k], static_cast<long>(light.light_bits));
   }
 }
 
@@ -223,14 +328,20 @@ void fill_certified(const LightIntegers& light,
 /// `plane`.
 template <class Space>
 void make_light_rays(const Space& space, const Geometry& geometry, const LightPoint& light,
-                     LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
+                     unsigned jobs, LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   const LightIntegers integers(geometry, light);
   result.directional = light.directional;
   result.rays.resize(geometry.positions.size());
   result.lines.resize(geometry.edges.size());
   result.line_error.resize(geometry.edges.size());
-  with_width(width_of(integers.narrow, integers.q_bits + 2),
-             [&]<class Int>() { contour_detail::fill_certified<Int>(integers, result); });
+  contour_detail::fill_positions(integers, result);
+  if (!result.positions.empty()) {
+    contour_detail::fill_certified_sun(integers, jobs, result);
+  } else {
+    result.reach = 0;
+    with_width(width_of(integers.narrow, integers.q_bits + 2),
+               [&]<class Int>() { contour_detail::fill_certified<Int>(integers, jobs, result); });
+  }
   result.depths.resize(geometry.planes.size());
   result.depth_error.resize(geometry.planes.size());
   for (PlaneId id = 0; id < geometry.planes.size(); ++id) {

@@ -42,6 +42,12 @@ struct Rules {
   /// The edges of a complete shadow volume stand above its support plane in the tree: what is in
   /// front of the plane then has no volume that goes on behind it ("Lit and in shadow").
   bool edges_above_supports = true;
+  /// An edge on the line of another one has that polygon on one side only (docs/contour.md).
+  bool edges_on_a_line_count = true;
+  /// What hides an edge and what lies behind it are found among the same casters.
+  bool casters_are_the_same_in_each_step = true;
+  /// Of a polygon whose plane holds an edge, the two planes tell which is nearer beside the edge.
+  bool equal_depth_by_its_planes = true;
   /// A vertex on the edge of a neighbouring face is a vertex of that face, too: its illumination
   /// is the same from both sides (shading_mesh.h, "no T-vertices").
   bool neighbour_vertices_are_in_the_face = true;

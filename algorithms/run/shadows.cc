@@ -18,7 +18,11 @@ namespace gnomon {
 MethodId method_of(LightType light, const ShadowOptions& options, bool together) {
   if (light == LightType::kArea) return options.method.area;
   if (options.method.point != MethodId::kAutomatic) return options.method.point;
-  return together ? MethodId::kSvbsp : MethodId::kSectors;
+  if (together) return MethodId::kSvbsp;
+  const ShadowOutput& output = options.output;
+  const bool shares_alone = !output.points && !output.exact_points && !output.exact_fractions;
+  const bool exact = kernel_info(options.kernel.id).exact;
+  return shares_alone && exact ? MethodId::kContour : MethodId::kSectors;
 }
 
 namespace {

@@ -70,7 +70,7 @@ class Pictures {
     const std::uint32_t index = light_index(light);
     panels.push_back({index, "exact answer", truth, nullptr, {}});
     const ClaimedLight* shown = find_light(candidate, light);
-    if (shown != nullptr) {
+    if (shown != nullptr && !shown->shares_alone) {
       panels.push_back({index, run.name + ": " + name_of(report.verdict), shown, truth,
                         worst_places(report, light)});
     }

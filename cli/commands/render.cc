@@ -97,15 +97,18 @@ tl::unexpected<Error> missing_light(const std::string& file, const std::string& 
               "a result of this light; --light chooses another", where);
 }
 
+/// Pictures show fragments.
+constexpr NeedyOption kRender{"render", true, &Method::makes_fragments};
+
 Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const RenderOptions& options) {
-  if (auto several = several_algorithms(options.algorithm); !several.empty()) {
+  if (auto several = several_algorithms(options.algorithm, {kRender}); !several.empty()) {
     if (!options.result.empty() || !options.candidate.empty()) {
       return fail(ErrorCode::kUsage, "--algorithm " + options.algorithm + " shows exact answers",
                   "no RESULT and no --candidate");
     }
     return several;
   }
-  const auto algorithm = parse_algorithm_choice(options.algorithm, {}, "both, all");
+  const auto algorithm = parse_algorithm_choice(options.algorithm, {kRender}, "both, all");
   if (!algorithm) return tl::unexpected(algorithm.error());
   return std::vector{*algorithm};
 }

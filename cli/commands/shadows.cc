@@ -4,8 +4,11 @@
 
 #include <array>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "cli/commands/illuminate.h"
+#include "cli/commands/share_output.h"
 #include "cli/common/algorithm_choice.h"
 #include "cli/common/commands.h"
 #include "cli/common/interrupt.h"
@@ -39,14 +42,175 @@ struct ShadowsOptions {
   double deep_umbra_tolerance = 1e-3;
   bool stats = false;
   IlluminateOptions illuminate;
-  std::string output;
+  std::string output, shares;
+
+  /// Whether anyone asks for the lights after the table of shares.
+  bool keeps_lights() const { return !output.empty() || illuminate.illuminate; }
 };
+
+/// Options that say what the result file holds.
+std::vector<std::pair<const char*, bool>> result_options(const ShadowsOptions& options) {
+  return {{"--fragments", options.fragments},     {"--exact-fractions", options.exact_fractions},
+          {"--exact-loops", options.exact_loops}, {"--combined", options.combined},
+          {"--deep-umbra", options.deep_umbra},   {"--lit-only", options.lit_only},
+          {"--shadow-only", options.shadow_only}, {"--penumbra-only", options.penumbra_only},
+          {"--umbra-only", options.umbra_only}};
+}
+
+Expected<void> check_pieces(const ShadowsOptions& options) {
+  if (!options.pieces) return {};
+  for (const auto& [text, given] :
+       {std::pair("--deep-umbra is of whole lights", options.deep_umbra),
+        std::pair("--illuminate is by whole lights", options.illuminate.illuminate),
+        std::pair("--shares is of whole lights", !options.shares.empty())}) {
+    if (given) return fail(ErrorCode::kUsage, text, "no --pieces");
+  }
+  return {};
+}
+
+/// What does not go together, whatever the scene is.
+Expected<void> check_options(const ShadowsOptions& options, const KernelChoice& kernel) {
+  for (const auto& [option, given] : {std::pair("--exact-fractions", options.exact_fractions),
+                                      std::pair("--exact-loops", options.exact_loops),
+                                      std::pair("--deep-umbra", options.deep_umbra)}) {
+    if (!given || kernel.exact()) continue;
+    return fail(ErrorCode::kUsage, std::string(option) + ": kernel " + kernel.name() + " rounds",
+                "an exact kernel: plane, rational or epeck");
+  }
+  if (auto checked = check_pieces(options); !checked) return checked;
+  if (options.shares.empty() || !options.output.empty()) return {};
+  for (const auto& [option, given] : result_options(options)) {
+    if (!given) continue;
+    return fail(ErrorCode::kUsage,
+                std::string(option) + " is of the result, which --shares alone does not write",
+                "-o FILE too");
+  }
+  return {};
+}
+
+ShadowOptions shadow_options_of(const ShadowsOptions& options, const LoadedScene& loaded,
+                                const KernelChoice& kernel, const AlgorithmChoice& algorithm) {
+  ShadowOptions shadows;
+  shadows.kernel.id = kernel.kernel;
+  shadows.kernel.identity = options.identity || kernel.identity;
+  shadows.kernel.thickness = kernel.thin ? 0 : options.thickness;
+  algorithm.apply(shadows.method);
+  shadows.method.prefix = !options.no_prefix;
+  shadows.tuning.jobs = options.scene.jobs;
+  shadows.lights = loaded.lights;
+  shadows.output.points = options.fragments || (options.combined && !options.exact_loops);
+  shadows.output.exact_points = options.exact_loops || options.deep_umbra;
+  shadows.output.exact_fractions = options.exact_fractions;
+  shadows.output.combined = options.combined;
+  shadows.output.stage_counts = options.stats;
+  shadows.output.merge = !options.no_merge;
+  shadows.control.interrupted = &interrupted();
+  return shadows;
+}
+
+/// The counts of a light alone, for --stats.
+LightResult counts_of(const LightResult& light) {
+  LightResult counts;
+  counts.light = light.light;
+  counts.method = light.method;
+  counts.facing_parts = light.facing_parts;
+  counts.facing_edges = light.facing_edges;
+  counts.tree_nodes = light.tree_nodes;
+  counts.fragment_total = light.fragment_total;
+  counts.work = light.work;
+  return counts;
+}
+
+/// Classifies all lights. The table of shares gets each light as soon as it is done; the lights are
+/// then kept only as far as someone asks for them later.
+Expected<ShadowResult> classify(const ShadowsOptions& options, const LoadedScene& loaded,
+                                ShadowOptions shadows, PhaseTimes& times) {
+  Stopwatch stopwatch;
+  if (options.shares.empty()) {
+    auto result = compute_shadows(loaded.prepared, shadows);
+    times.shadows = stopwatch.lap();
+    return result;
+  }
+  auto table = ShareOutput::open(options.shares, loaded, shadows.kernel.id);
+  if (!table) return tl::unexpected(std::move(table.error()));
+  std::vector<LightResult> kept;
+  shadows.control.light_done = [&](LightResult&& light) {
+    times.shadows += stopwatch.lap();
+    const bool written = table->add(light);
+    times.output += stopwatch.lap();
+    if (options.keeps_lights()) {
+      kept.push_back(std::move(light));
+    } else if (options.stats) {
+      kept.push_back(counts_of(light));
+    }
+    return written;
+  };
+  auto result = compute_shadows(loaded.prepared, shadows);
+  times.shadows += stopwatch.lap();
+  if (!result && !(result.error().code == ErrorCode::kInterrupted)) return result;
+  if (auto done = table->finish(); !done) return tl::unexpected(std::move(done.error()));
+  times.output += stopwatch.lap();
+  if (result) result->lights = std::move(kept);
+  return result;
+}
+
+/// Bounds of the deep umbra of all lights, none for those that are no area lights.
+Expected<std::vector<std::vector<DeepUmbraBounds>>> deep_umbra_of(const ShadowsOptions& options,
+                                                                  const LoadedScene& loaded,
+                                                                  const ShadowResult& result) {
+  std::vector<std::vector<DeepUmbraBounds>> all;
+  if (!options.deep_umbra) return all;
+  for (const LightResult& light : result.lights) {
+    auto& bounds = all.emplace_back();
+    if (!loaded.prepared.lights[light.light].has_area()) continue;
+    DeepUmbraOptions deep;
+    deep.tolerance = options.deep_umbra_tolerance;
+    deep.interrupted = &interrupted();
+    auto found = deep_umbra_bounds(loaded.prepared, light, deep);
+    if (!found) return tl::unexpected(std::move(found.error()));
+    bounds = std::move(*found);
+  }
+  return all;
+}
+
+Expected<void> write_result(const ShadowsOptions& options, const LoadedScene& loaded,
+                            const AlgorithmChoice& algorithm, const ShadowResult& result,
+                            PhaseTimes& times) {
+  Stopwatch stopwatch;
+  report::ResultJsonOptions json;
+  json.geometry_digest = geometry_digest(loaded.scene);
+  json.fragments = options.fragments;
+  json.exact_fractions = options.exact_fractions;
+  json.exact_loops = options.exact_loops;
+  json.combined = options.combined && !algorithm.paints();
+  json.overlay = options.combined && algorithm.paints();
+  json.interrupted = &interrupted();
+  if (options.lit_only) json.only = LightState::kLit;
+  if (options.shadow_only) json.only = LightState::kShadow;
+  if (options.penumbra_only) json.only = LightState::kPenumbra;
+  if (options.umbra_only) json.only = LightState::kUmbra;
+  times.output += stopwatch.lap();
+  auto deep_umbra = deep_umbra_of(options, loaded, result);
+  if (!deep_umbra) return tl::unexpected(std::move(deep_umbra.error()));
+  json.deep_umbra = std::move(*deep_umbra);
+  times.shadows += stopwatch.lap();
+  auto output = Output::open(options.output);
+  if (!output) return tl::unexpected(std::move(output.error()));
+  output->give_up_if(interrupted());
+  report::write_result_json(*output, loaded.scene, loaded.prepared, result, json);
+  auto done = output->finish();
+  times.output += stopwatch.lap();
+  return done;
+}
 
 int run_shadows(const ShadowsOptions& options) {
   auto kernel = parse_kernel_choice(options.kernel);
   if (!kernel) return report_error(kernel.error());
   auto algorithm = parse_algorithm_choice(
       options.algorithm, {{"--combined", options.combined, &Method::combines_lights},
+                          {"--fragments", options.fragments, &Method::makes_fragments},
+                          {"--exact-loops", options.exact_loops, &Method::makes_fragments},
+                          {"--illuminate", options.illuminate.illuminate, &Method::makes_fragments},
                           {"--no-merge", options.no_merge, &Method::leaves_out_steps},
                           {"--no-prefix", options.no_prefix, &Method::leaves_out_steps}});
   if (!algorithm) return report_error(algorithm.error());
@@ -56,40 +220,15 @@ int run_shadows(const ShadowsOptions& options) {
     }
     algorithm->area = MethodId::kPieces;
   }
-  for (const auto& [option, given] : {std::pair("--exact-fractions", options.exact_fractions),
-                                      std::pair("--exact-loops", options.exact_loops),
-                                      std::pair("--deep-umbra", options.deep_umbra)}) {
-    if (!given || kernel->exact()) continue;
-    return report_usage(std::string(option) + ": kernel " + kernel->name() + " rounds",
-                        "an exact kernel: plane, rational or epeck");
-  }
-  if (options.deep_umbra && options.pieces) {
-    return report_usage("--deep-umbra is of whole lights", "no --pieces");
-  }
-  if (options.illuminate.illuminate && options.pieces) {
-    return report_usage("--illuminate is by whole lights", "no --pieces");
+  if (auto checked = check_options(options, *kernel); !checked) {
+    return report_error(checked.error());
   }
   const ThreadLimit threads(options.scene.jobs);
   auto loaded = load_scene(options.scene, true);
   if (!loaded) return report_error(loaded.error());
-
   ProgressBar progress("shadows");
-  ShadowOptions shadow_options;
-  shadow_options.kernel.id = kernel->kernel;
-  algorithm->apply(shadow_options.method);
-  shadow_options.tuning.jobs = options.scene.jobs;
-  shadow_options.kernel.identity = options.identity || kernel->identity;
-  shadow_options.kernel.thickness = kernel->thin ? 0 : options.thickness;
-  shadow_options.lights = loaded->lights;
-  shadow_options.output.points = options.fragments || (options.combined && !options.exact_loops);
-  shadow_options.output.exact_points = options.exact_loops || options.deep_umbra;
-  shadow_options.output.exact_fractions = options.exact_fractions;
-  shadow_options.output.combined = options.combined;
-  shadow_options.output.stage_counts = options.stats;
-  shadow_options.output.merge = !options.no_merge;
-  shadow_options.method.prefix = !options.no_prefix;
+  ShadowOptions shadow_options = shadow_options_of(options, *loaded, *kernel, *algorithm);
   shadow_options.control.progress = progress.callback();
-  shadow_options.control.interrupted = &interrupted();
   if (auto done =
           ask_for_illumination(options.illuminate, *loaded, options.algorithm, shadow_options);
       !done) {
@@ -99,45 +238,14 @@ int run_shadows(const ShadowsOptions& options) {
     return report_usage("--illuminate writes nothing by itself", "--mesh FILE, or --stats");
   }
   PhaseTimes times;
-  Stopwatch stopwatch;
-  const auto result = compute_shadows(loaded->prepared, shadow_options);
-  times.shadows = stopwatch.lap();
+  const auto result = classify(options, *loaded, std::move(shadow_options), times);
   progress.clear();
   if (!result) return report_error(result.error());
-
-  report::ResultJsonOptions json_options;
-  json_options.geometry_digest = geometry_digest(loaded->scene);
-  json_options.fragments = options.fragments;
-  json_options.exact_fractions = options.exact_fractions;
-  json_options.exact_loops = options.exact_loops;
-  json_options.combined = options.combined && !algorithm->paints();
-  json_options.overlay = options.combined && algorithm->paints();
-  json_options.interrupted = &interrupted();
-  if (options.lit_only) json_options.only = LightState::kLit;
-  if (options.shadow_only) json_options.only = LightState::kShadow;
-  if (options.penumbra_only) json_options.only = LightState::kPenumbra;
-  if (options.umbra_only) json_options.only = LightState::kUmbra;
-  if (options.deep_umbra) {
-    for (const LightResult& light : result->lights) {
-      auto& bounds = json_options.deep_umbra.emplace_back();
-      if (!loaded->prepared.lights[light.light].has_area()) continue;
-      DeepUmbraOptions deep_options;
-      deep_options.tolerance = options.deep_umbra_tolerance;
-      deep_options.interrupted = &interrupted();
-      auto found = deep_umbra_bounds(loaded->prepared, light, deep_options);
-      if (!found) return report_error(found.error());
-      bounds = std::move(*found);
+  if (options.shares.empty() || !options.output.empty()) {
+    if (auto done = write_result(options, *loaded, *algorithm, *result, times); !done) {
+      return report_error(done.error());
     }
-    const Seconds deep = stopwatch.lap();
-    times.shadows.cpu += deep.cpu;
-    times.shadows.elapsed += deep.elapsed;
   }
-  auto output = Output::open(options.output);
-  if (!output) return report_error(output.error());
-  output->give_up_if(interrupted());
-  report::write_result_json(*output, loaded->scene, loaded->prepared, *result, json_options);
-  if (auto done = output->finish(); !done) return report_error(done.error());
-  times.output = stopwatch.lap();
   if (options.stats) {
     const std::string text = statistics_text(*loaded, *result, times);
     std::fwrite(text.data(), 1, text.size(), stderr);
@@ -214,6 +322,11 @@ void add_shadows_command(CLI::App& app, Action& action) {
   command.add_flag("--stats", options->stats,
                    "Print counts, times, memory and, for plane, who decided, to standard error");
   command.add_option("-o,--output", options->output, "Result file; standard output if absent")
+      ->type_name("FILE");
+  command
+      .add_option("--shares", options->shares,
+                  "Write the lit share of every polygon under every light as a table, light by "
+                  "light: .csv,\nor .npy for NumPy. Without -o no result is written then")
       ->type_name("FILE");
   command.callback([options, &action] {
     options->illuminate.stats = options->stats;

@@ -115,12 +115,12 @@ std::string extra_text(const std::string& task, const std::string& sentence) {
 }
 
 /// One line on a terminal, rewritten in place.
-class ProgressLine {
+class SizeLine {
  public:
-  ProgressLine() = default;
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-  ~ProgressLine() { show({}, true); }
+  SizeLine() = default;
+  SizeLine(const SizeLine&) = delete;
+  SizeLine& operator=(const SizeLine&) = delete;
+  ~SizeLine() { show({}, true); }
 
   void show(std::string text, bool now = false) {
     constexpr std::chrono::milliseconds kInterval{100};
@@ -175,7 +175,7 @@ class ShrinkRun {
     fuzz::ShrinkOptions shrinking;
     shrinking.interrupted = &interrupted();
     if (!options_.time.empty()) shrinking.seconds = duration_seconds(options_.time);
-    ProgressLine line;
+    SizeLine line;
     std::optional<Error> unwritten;
     shrinking.progress = [&](const fuzz::ShrinkProgress& progress) {
       line.show(fmt::format("{}; {} tries, {}", fuzz::size_in_words(progress.size), progress.tries,

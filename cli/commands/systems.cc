@@ -51,6 +51,7 @@ class Listing {
                         std::string(name_of(method.domain)) +
                         "; needs: " + joined(names_of(method.needs), "nothing") +
                         "; can: " + joined(abilities(method), "nothing more");
+    if (!method.makes_fragments) facts += "; tells classes and shares alone";
     if (kernels_of(method) != "all") facts += "; kernels: " + kernels_of(method);
     if (!method.chosen_by_name) facts += "; chosen by an option, as --pieces";
     line(facts, 6);
@@ -118,6 +119,7 @@ void write_method(report::JsonWriter& json, const Method& method) {
   json.member("domain", name_of(method.domain));
   write_texts(json, "needs", names_of(method.needs));
   write_texts(json, "can", abilities(method));
+  json.member("fragments", method.makes_fragments);
   json.member("kernels", kernels_of(method));
   json.member("chosen_by_name", method.chosen_by_name);
   json.key("options");

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cli/common/commands.h"
+#include "cli/common/heap.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/jobs.h"
 #include "cli/common/messages.h"
@@ -70,6 +71,7 @@ std::optional<NumberMeaning> numbers_asked(const std::string& numbers) {
 }
 
 Expected<Scene> read_scene_with_lights(const SceneOptions& options) {
+  prefer_a_heap_in_large_pages();
   ReadOptions read_options;
   read_options.numbers = numbers_asked(options.numbers);
   auto read = read_scene(options.scene, read_options);

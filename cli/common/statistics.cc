@@ -67,9 +67,12 @@ std::string statistics_text(const LoadedScene& loaded, const ShadowResult& resul
         has_bsp || std::ranges::count(method_info(light.method).counters, Counter::kNodes) > 0;
     text += "light " + report::light_name(loaded.scene, loaded.prepared, light) + ": " +
             grouped(light.facing_parts) + " parts and " + grouped(light.facing_edges) +
-            " edges face it, " + grouped(light.tree_nodes) +
-            (counts_nodes ? " tree nodes, " : " cells, ") + grouped(light.fragment_total) +
-            " fragments\n";
+            " edges face it";
+    if (method_info(light.method).makes_fragments) {
+      text += ", " + grouped(light.tree_nodes) + (counts_nodes ? " tree nodes, " : " cells, ") +
+              grouped(light.fragment_total) + " fragments";
+    }
+    text += '\n';
     const std::string work = report::work_text(method_info(light.method).counters, light.work);
     if (!work.empty()) {
       text += report::wrapped("work: " + work, report::TextTable::kWidth, 2, 4);

@@ -12,6 +12,12 @@ namespace gnomon::cli {
 /// CPU seconds of all threads, and seconds on the clock.
 struct Seconds {
   double cpu = 0, elapsed = 0;
+
+  Seconds& operator+=(const Seconds& other) {
+    cpu += other.cpu;
+    elapsed += other.elapsed;
+    return *this;
+  }
 };
 
 class Stopwatch {

@@ -210,6 +210,48 @@ FindingPicture::FindingPicture(const Scene& scene, std::uint32_t light,
   pieces_ = back_to_front(*prepared_, options_.camera.eye);
 }
 
+namespace {
+
+/// What of a side is lit by its fragments; in doubles, for a picture.
+double lit_share(const ClaimedPolygon& polygon) {
+  double lit = 0, all = 0;
+  for (const ClaimedFragment& fragment : polygon.fragments) {
+    Point sum{};
+    const auto at = [&](std::size_t i) {
+      Point point;
+      for (std::size_t k = 0; k < kAxes; ++k) point[k] = fragment.loop[i][k].get_d();
+      return point;
+    };
+    for (std::size_t i = 1; i + 1 < fragment.loop.size(); ++i) {
+      const Point own = cross(minus(at(i), at(0)), minus(at(i + 1), at(0)));
+      for (std::size_t k = 0; k < kAxes; ++k) sum[k] += own[k];
+    }
+    all += length(sum);
+    if (fragment.state == LightState::kLit) lit += length(sum);
+  }
+  return all > 0 ? lit / all : 0;
+}
+
+/// Of an answer that does not tell where light arrives: the true fragments of the sides of which it
+/// tells the true share. Of the others there is nothing to show.
+ClaimedLight with_true_fragments(const ClaimedLight& shown, const ClaimedLight& truth) {
+  constexpr double kSame = 1e-6;
+  ClaimedLight result = truth;
+  for (ClaimedPolygon& polygon : result.polygons) {
+    const auto own = std::ranges::find_if(shown.polygons, [&](const ClaimedPolygon& other) {
+      return other.id == polygon.id && other.side == polygon.side;
+    });
+    const double share = lit_share(polygon);
+    if (own == shown.polygons.end() || !(own->share.lower - kSame <= share) ||
+        !(share <= own->share.upper + kSame)) {
+      polygon.fragments.clear();
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
 ClaimedLight FindingPicture::stretched(const ClaimedLight& light) const {
   ClaimedLight result = light;
   for (ClaimedPolygon& polygon : result.polygons) {
@@ -227,7 +269,8 @@ ClaimedLight FindingPicture::stretched(const ClaimedLight& light) const {
 std::string FindingPicture::paint(const std::string& caption, const ClaimedLight& shown,
                                   const ClaimedLight* truth) const {
   if (!prepared_) return {};
-  const ClaimedLight own = stretched(shown);
+  const bool told_where = !shown.shares_alone || truth == nullptr;
+  const ClaimedLight own = stretched(told_where ? shown : with_true_fragments(shown, *truth));
   std::optional<ClaimedLight> right;
   if (truth != nullptr) right = stretched(*truth);
   report::Panel panel;

@@ -51,10 +51,12 @@ constexpr std::array kZoo = {
     ZooEntry{"area-on-swapped", Mistake::kOnSwapped, "plane", kAreaScenes, "misclassified"},
 };
 
-/// Are all fragments the same, corner by corner?
+/// Are all fragments the same, corner by corner, and all shares?
 bool same(const ShadowResult& a, const ShadowResult& b) {
   return std::ranges::equal(a.lights, b.lights, [](const LightResult& one, const LightResult& two) {
     return one.exact_points == two.exact_points &&
+           std::ranges::equal(one.exact_fractions, two.exact_fractions, {}, &ExactFractions::lit,
+                              &ExactFractions::lit) &&
            std::ranges::equal(one.parts, two.parts,
                               [](const PartResult& p, const PartResult& q) {
                                 return p.part == q.part && p.side == q.side &&

@@ -65,6 +65,15 @@ inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
   const double rest = ((a.high - product.high) - product.low + a.low - first * b.low) / b.high;
   return quick_two_sum(first, rest);
 }
+/// Requires: a > 0. Relative error at most 2^-102: with h = sqrt(a.high) off by u, the root is
+/// h + (a - h^2) / 2h within 9u^2 / 8 of h, and that quotient, at most 3u / 2 of h, is off by three
+/// roundings.
+inline DoubleDouble square_root(const DoubleDouble& a) {
+  const double root = std::sqrt(a.high);
+  const DoubleDouble square = two_product(root, root);
+  const double rest = ((a.high - square.high) - square.low + a.low) / (2 * root);
+  return quick_two_sum(root, rest);
+}
 
 /// The integer as a pair: relative error at most 2^-104.
 inline DoubleDouble double_double(std::int64_t value) {

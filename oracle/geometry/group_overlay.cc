@@ -88,13 +88,17 @@ AreaShare GroupOverlay::share(const std::vector<bool>& faces, std::size_t exact_
     return result;
   }
   const Overlay::FixedArea own = overlay_.area(faces);
-  mpz_class low = own.value - own.error;
-  if (low < 0) low = 0;
-  mpq_class lower(low, whole_fixed_.value + whole_fixed_.error);
-  mpq_class upper(own.value + own.error, whole_fixed_.value - whole_fixed_.error);
-  lower.canonicalize();
-  upper.canonicalize();
-  result.fraction = {enclose(lower).lower, enclose(upper).upper};
+  if (whole_fixed_.value > whole_fixed_.error) {
+    mpz_class low = own.value - own.error;
+    if (low < 0) low = 0;
+    mpq_class lower(low, whole_fixed_.value + whole_fixed_.error);
+    mpq_class upper(own.value + own.error, whole_fixed_.value - whole_fixed_.error);
+    lower.canonicalize();
+    upper.canonicalize();
+    result.fraction = {enclose(lower).lower, enclose(upper).upper};
+  } else {
+    result.fraction = {0, 1};  // of so many magnitudes that fixed point tells nothing
+  }
   result.area = not_negative(result.fraction * whole_area_);
   if (exact_limit > 0 && overlay_.boundary_size(faces) <= exact_limit) {
     mpq_class exact = overlay_.exact_area(faces) / overlay_.exact_area(receiver_faces_);

@@ -15,6 +15,7 @@
 #include "oracle/geometry/region_width.h"
 #include "oracle/judge/cells.h"
 #include "oracle/judge/clearance.h"
+#include "oracle/judge/share_check.h"
 
 namespace gnomon::oracle {
 
@@ -517,6 +518,7 @@ std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
 PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
                                 const AnswerEntry& entry, const ClaimedPolygon* candidate,
                                 const ClaimedTerms& terms, const ComparisonOptions& options) {
+  if (terms.shares_alone && candidate) return compare_shares(answer, light, entry, *candidate);
   PolygonComparison result;
   result.polygon = answer.scene().polygons[entry.polygon].id;
   result.side = entry.side;

@@ -130,6 +130,11 @@ class PointChecker {
 
   /// `count` points in fragments of the candidate, and as many in parts of each group.
   PointCheck run(const ClaimedPolygon* candidate, std::uint32_t count, std::uint64_t seed) {
+    if (terms_.shares_alone && candidate) {
+      // Points tell nothing of a share, but of a side that is said to have one class.
+      if (!candidate->share.whole) return {};
+      whole_ = candidate->share.whole;
+    }
     std::uint64_t state = seed ^ (std::uint64_t{entry_.polygon} << 32) ^ light_;
     for (const ReceiverGroup& group : entry_.groups) {
       if (group.optional) continue;
@@ -189,6 +194,11 @@ class PointChecker {
   /// In an overlay the classes of the highest level.
   ClaimedStates claimed_at(const ChartFragments& fragments, const ChartPoint& point) const {
     ClaimedStates states;
+    if (whole_) {
+      states.loops = 1;
+      states.add(*whole_);
+      return states;
+    }
     std::uint64_t level = 0;
     for (std::size_t f = 0; f < fragments.loops.size(); ++f) {
       const std::optional<bool> within = holds(fragments, f, point);
@@ -263,6 +273,7 @@ class PointChecker {
   const ClaimedTerms& terms_;
   const VisibilityTest* visibility_;
   bool area_;
+  std::optional<LightState> whole_;  // claimed of all of the side, without fragments
   PointCheck result_;
 };
 

@@ -14,8 +14,10 @@
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/result/claimed_pieces.h"
 #include "gnomon/result/shared_claims.h"
+#include "oracle/geometry/group_overlay.h"
 #include "oracle/geometry/space_loop.h"
 #include "oracle/judge/light_volumes.h"
+#include "oracle/judge/share_check.h"
 #include "oracle/judge/witness_pieces.h"
 
 namespace gnomon::oracle {
@@ -62,6 +64,8 @@ class WitnessChecker {
                                                             std::set<PlaneId>& optional) const;
   std::vector<Side> listed_sides(std::uint32_t polygon) const;
   void check_polygon(const ClaimedPolygon& polygon);
+  /// Of a polygon without fragments.
+  void check_share(const ClaimedPolygon& polygon, std::uint32_t index);
   using Families = std::map<PlaneId, std::vector<std::uint32_t>>;
   /// The family whose plane a fragment is nearest to.
   struct Nearest {
@@ -545,6 +549,7 @@ void WitnessChecker::check_polygon(const ClaimedPolygon& polygon) {
   if (known == polygon_index_.end()) {
     return violation(polygon.id, "no such polygon in the scene");
   }
+  if (terms_.shares_alone) return check_share(polygon, known->second);
   // Parts of this side, by family of coplanar ones.
   std::set<PlaneId> optional;
   const Families families = families_on(known->second, polygon.side, optional);
@@ -572,6 +577,42 @@ void WitnessChecker::check_polygon(const ClaimedPolygon& polygon) {
     if (optional.contains(plane) && pieces[plane].empty()) continue;
     check_family(polygon, parts, pieces[plane]);
   }
+}
+
+void WitnessChecker::check_share(const ClaimedPolygon& polygon, std::uint32_t index) {
+  std::map<PlaneId, std::vector<std::uint32_t>> families;
+  for (std::uint32_t part = prepared_.first_part[index]; part < prepared_.first_part[index + 1];
+       ++part) {
+    families[prepared_.parts[part].plane].push_back(part);
+  }
+  ShareSum lit, shadow;
+  for (const auto& [plane, parts] : families) {
+    std::array<mpq_class, 2> areas;  // lit, dark
+    for (const std::uint32_t part : parts) {
+      const Solid& solid = light_->solid(part);
+      const Piece piece(part, solid.loop, solid.normal);
+      const mpq_class lit_area =
+          light_->areas_of_classes(piece, polygon.side)[static_cast<std::size_t>(LightState::kLit)];
+      // Areas of parts compare along one normal.
+      const mpq_class share = lit_area / piece.area;
+      const mpq_class whole = area_along(light_->solid(parts.front()).normal, solid.loop);
+      areas[0] += share * whole;
+      areas[1] += (1 - share) * whole;
+    }
+    const mpq_class sum = areas[0] + areas[1];
+    const Enclosure whole = group_area(prepared_, parts);
+    const auto add = [&](ShareSum& total, const mpq_class& area) {
+      const mpq_class share = area / sum;
+      total.add({enclose(share), enclose(share) * whole, share, area == 0}, whole);
+    };
+    add(lit, areas[0]);
+    add(shadow, areas[1]);
+  }
+  ++report_.witnesses;
+  const ShareError error = share_error(polygon, lit.result(), shadow.result());
+  if (error.wrong.zero) return;
+  if (!polygon.lit_fraction && error.wrong.fraction.upper <= options_.tolerance) return;
+  violation(polygon.id, error.text);
 }
 
 /// Of an overlay, and where there is a background, what is not listed is background.

@@ -7,9 +7,10 @@
 #ifndef GNOMON_REPORT_JSON_JSON_WRITER_H
 #define GNOMON_REPORT_JSON_JSON_WRITER_H
 
+#include <charconv>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,7 +22,7 @@ enum class JsonLayout : std::uint8_t { kLines, kInline };
 
 class JsonWriter {
  public:
-  explicit JsonWriter(TextSink& sink) : sink_(sink) {}
+  explicit JsonWriter(TextSink& sink);
   JsonWriter(const JsonWriter&) = delete;
   JsonWriter& operator=(const JsonWriter&) = delete;
   /// Writes what is still buffered.
@@ -40,8 +41,9 @@ class JsonWriter {
   template <std::integral Integer>
   requires(!std::same_as<Integer, bool>) void value(Integer number) {
     element();
-    buffer_ += std::to_string(number);
-    flush_if_full();
+    constexpr std::size_t kDigits = 24;
+    char* const text = room(kDigits);
+    used_ += static_cast<std::size_t>(std::to_chars(text, text + kDigits, number).ptr - text);
   }
   void null();
 
@@ -64,11 +66,24 @@ class JsonWriter {
   void end(char bracket);
   void element();
   void append_string(std::string_view text);
+  void append_escaped(std::string_view text);
   void new_line();
-  void flush_if_full();
+  /// Where the next `size` characters can be put; whoever puts them adds to used_.
+  char* room(std::size_t size) {
+    if (buffer_.size() - used_ < size) make_room(size);
+    return buffer_.data() + used_;
+  }
+  void make_room(std::size_t size);
+  void append(std::string_view text);
+  void append(char c) {
+    *room(1) = c;
+    ++used_;
+  }
+  void flush();
 
   TextSink& sink_;
-  std::string buffer_;
+  std::vector<char> buffer_;
+  std::size_t used_ = 0;  // of the buffer
   std::vector<Level> levels_;
   bool after_key_ = false;
 };

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "kernel/signs/nearest_double.h"
 #include "report/json/json_writer.h"
 #include "report/sides/part_area.h"
 #include "report/sides/polygon_sides.h"
@@ -22,7 +21,13 @@ class ResultWriter {
  public:
   ResultWriter(TextSink& sink, const Scene& scene, const PreparedScene& prepared,
                const ShadowResult& result, const ResultJsonOptions& options)
-      : json_(sink), scene_(scene), prepared_(prepared), result_(result), options_(options) {}
+      : json_(sink),
+        scene_(scene),
+        prepared_(prepared),
+        result_(result),
+        options_(options),
+        areas_(prepared),
+        weights_(prepared) {}
 
   void write() {
     json_.begin_object();
@@ -209,7 +214,7 @@ class ResultWriter {
     for (std::uint32_t polygon = 0; polygon + 1 < prepared_.first_part.size(); ++polygon) {
       if (options_.interrupted != nullptr && *options_.interrupted) break;
       for (const ClassifiedSide& side :
-           polygon_sides(prepared_, light, polygon, options_.exact_fractions)) {
+           polygon_sides(prepared_, light, polygon, options_.exact_fractions, weights_)) {
         write_side(light, side);
       }
     }
@@ -222,7 +227,7 @@ class ResultWriter {
     json_.begin_object(lines ? JsonLayout::kLines : JsonLayout::kInline);
     json_.member("id", id);
     json_.member("side", name_of(side.side));
-    const double area = nearest_double(side.area);
+    const double area = areas_.nearest(side.polygon);
     if (!std::isfinite(area)) find("polygon " + id + ": its area is beyond the range of doubles");
     json_.member("area", area);
     for (const LightState state : light_states(side.area_light)) {
@@ -269,9 +274,9 @@ class ResultWriter {
     if (share.lower == share.upper && (share.lower == 0 || share.lower == 1)) {
       json_.member("area", share.lower == 0 ? 0.0 : area);
     } else if (exact) {
-      json_.member("area", nearest_double(*exact * side.area));
+      json_.member("area", areas_.nearest(side.polygon, *exact));
     } else if (std::isfinite(share.middle())) {
-      json_.member("area", nearest_double(mpq_class(share.middle()) * side.area));
+      json_.member("area", areas_.nearest(side.polygon, share.middle()));
     } else {
       json_.key("area");
       json_.null();
@@ -414,6 +419,8 @@ class ResultWriter {
   const PreparedScene& prepared_;
   const ShadowResult& result_;
   const ResultJsonOptions& options_;
+  PolygonAreas areas_;
+  PartWeights weights_;
   std::vector<std::string> findings_;
 };
 

@@ -73,6 +73,20 @@ void add_part(const Scene& scene, const PreparedScene& prepared, const LightResu
   }
 }
 
+/// What one light's result claims of a side without fragments.
+ClaimedShare share_of_side(const ClassifiedSide& side) {
+  ClaimedShare share{side.lit.lower, side.lit.upper, {}};
+  // Sums of several parts are rounded: what all of a side is, its parts say.
+  const auto all = [&](LightState state) {
+    return std::ranges::all_of(side.parts, [&](const PartSide& part) {
+      return gnomon::report::share_of(part, state).lower == 1;
+    });
+  };
+  if (all(LightState::kLit)) share.whole = LightState::kLit;
+  if (all(LightState::kShadow)) share.whole = LightState::kShadow;
+  return share;
+}
+
 ClaimedLight claims_of_light(const Scene& scene, const PreparedScene& prepared,
                              const LightResult& light, bool exact,
                              const std::vector<ClassifiedSide>& sides) {
@@ -85,6 +99,8 @@ ClaimedLight claims_of_light(const Scene& scene, const PreparedScene& prepared,
   claimed.per_caster_umbra = prepared.lights[light.light].has_area();
   claimed.cover = light.cover;
   claimed.background = light.background;
+  claimed.shares_alone =
+      light.method != MethodId::kAutomatic && !method_info(light.method).makes_fragments;
   for (const ClassifiedSide& side : sides) {
     ClaimedPolygon& polygon = claimed.polygons.emplace_back();
     polygon.id = scene.polygons[side.polygon].id;
@@ -93,6 +109,10 @@ ClaimedLight claims_of_light(const Scene& scene, const PreparedScene& prepared,
     polygon.shadow_fraction = side.exact_shadow;
     polygon.penumbra_fraction = side.exact_penumbra;
     polygon.umbra_fraction = side.exact_umbra;
+    if (claimed.shares_alone) {
+      polygon.share = share_of_side(side);
+      continue;
+    }
     std::uint32_t part = prepared.first_part[side.polygon];
     for (const PartSide& own : side.parts) {
       add_part(scene, prepared, light, own, part++, exact, polygon);

@@ -17,7 +17,8 @@ namespace gnomon::report {
 /// Uses exact points where they were kept, else the nearest ones. A fragment with a vertex that is
 /// no finite number cannot be judged and is left out: its area counts as uncovered. What the result
 /// has of several lights at once is claimed besides, where it is not empty. Umbra
-/// of area lights is claimed per caster. `sides`: of the same result; the exact shares in them are
+/// of area lights is claimed per caster. Of a method without fragments shares alone are claimed.
+/// `sides`: of the same result; the exact shares in them are
 /// claimed.
 Claims claims_of(const Scene& scene, const PreparedScene& prepared, const ShadowResult& result,
                  const SidesByLight& sides, std::string name);

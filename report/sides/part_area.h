@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Areas of parts and polygons: exact up to one square root.
+// Areas of parts and polygons: exact up to one square root, and the doubles nearest to them and to
+// fractions of them. Most of these come from pairs of doubles; rationals decide the rest.
 #ifndef GNOMON_REPORT_SIDES_PART_AREA_H
 #define GNOMON_REPORT_SIDES_PART_AREA_H
 
@@ -7,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/scene/prepare.h"
@@ -21,6 +23,27 @@ Interval part_area(const PreparedScene& scene, const Part& part);
 double nearest_area(const PreparedScene& scene, const Part& part);
 /// The area of a polygon's parts, to far more digits than a double has.
 mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon);
+
+/// The areas of all polygons, which all lights of a scene share. Every double is the nearest one,
+/// in scene units squared.
+class PolygonAreas {
+ public:
+  /// Keeps a reference to the scene.
+  explicit PolygonAreas(const PreparedScene& scene);
+
+  double nearest(std::uint32_t polygon) const;
+  /// To a fraction of the area. Requires: it is finite.
+  double nearest(std::uint32_t polygon, double fraction) const;
+  double nearest(std::uint32_t polygon, const mpq_class& fraction) const;
+
+ private:
+  const PreparedScene& scene_;
+  struct Area {
+    double high, low;  // an unevaluated sum (kernel/numbers/double_double.h), or not a number
+    bool exact;        // `high` is the area
+  };
+  std::vector<Area> areas_;
+};
 
 }  // namespace gnomon::report
 

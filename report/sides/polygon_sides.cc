@@ -5,7 +5,6 @@
 #include <iterator>
 #include <utility>
 
-#include "gnomon/oracle/enclosure.h"
 #include "report/sides/part_area.h"
 
 namespace gnomon::report {
@@ -14,11 +13,9 @@ namespace {
 
 using oracle::Enclosure;
 
-Enclosure to_enclosure(const Interval& interval) { return {interval.lower, interval.upper}; }
-Interval to_interval(const Enclosure& enclosure) { return {enclosure.lower, enclosure.upper}; }
-
 /// The entries of one part: one for each side that sees an area light, else one.
 std::span<const PartResult> results_of(const LightResult& light, std::uint32_t part) {
+  if (light.area_fractions.empty()) return {&light.parts[part], 1};
   const auto first = std::ranges::lower_bound(light.parts, part, {}, &PartResult::part);
   const auto last = std::ranges::upper_bound(light.parts, part, {}, &PartResult::part);
   return {first, last};
@@ -87,52 +84,22 @@ std::optional<mpq_class> ClassifiedSide::*exact_member(LightState state) {
   return &ClassifiedSide::exact_lit;
 }
 
-/// Sum of weight * share over sum of weights, where the weights are exact.
-void sum_exactly(const PreparedScene& scene, std::uint32_t first, bool exact,
-                 ClassifiedSide& side) {
-  // Areas in one plane are proportional to any non-zero component of the area vector.
-  const std::array<mpz_class, 3> normal = doubled_area_vector(scene, scene.parts[first]);
-  std::size_t axis = 0;
-  while (normal[axis] == 0) ++axis;
-  std::vector<mpz_class> areas;
-  mpz_class total = 0;
-  for (std::size_t i = 0; i < side.parts.size(); ++i) {
-    areas.push_back(abs(doubled_area_vector(scene, scene.parts[first + i])[axis]));
-    total += areas.back();
-  }
-  std::vector<mpq_class> weights;
-  for (const mpz_class& area : areas) {
-    weights.emplace_back(area, total);
-    weights.back().canonicalize();
-  }
+/// The shares of a polygon of several parts.
+void sum_parts(const PreparedScene& scene, const PartWeights& weights, bool exact,
+               ClassifiedSide& side) {
+  std::vector<Interval> shares(side.parts.size());
+  std::vector<mpq_class> exactly;
+  if (exact && side.coplanar) exactly = exact_weights(scene, side.polygon);
   for (const LightState state : light_states(side.area_light)) {
-    Enclosure sum{0, 0};
-    mpq_class exact_sum = 0;
-    for (std::size_t i = 0; i < side.parts.size(); ++i) {
-      sum = sum + oracle::enclose(weights[i]) * to_enclosure(share_of(side.parts[i], state));
-      if (exact) exact_sum += weights[i] * exact_share(side.parts[i], state);
+    std::ranges::transform(side.parts, shares.begin(),
+                           [&](const PartSide& part) { return share_of(part, state); });
+    side.*share_member(state) = weights.sum(side.polygon, shares);
+    if (exactly.empty()) continue;
+    mpq_class sum = 0;
+    for (std::size_t i = 0; i < exactly.size(); ++i) {
+      sum += exactly[i] * exact_share(side.parts[i], state);
     }
-    side.*share_member(state) = to_interval(sum);
-    if (exact) side.*exact_member(state) = std::move(exact_sum);
-  }
-}
-
-void sum_by_enclosure(const PreparedScene& scene, std::uint32_t first, ClassifiedSide& side) {
-  std::vector<Enclosure> areas;
-  Enclosure total{0, 0};
-  for (std::size_t i = 0; i < side.parts.size(); ++i) {
-    areas.push_back(to_enclosure(part_area(scene, scene.parts[first + i])));
-    total = total + areas.back();
-  }
-  if (total.lower <= 0) return;
-  for (const LightState state : light_states(side.area_light)) {
-    Enclosure sum{0, 0};
-    for (std::size_t i = 0; i < side.parts.size(); ++i) {
-      sum = sum + areas[i] * to_enclosure(share_of(side.parts[i], state));
-    }
-    Interval& share = side.*share_member(state);
-    share = to_interval(sum / total);
-    share.upper = std::min(share.upper, 1.0);
+    side.*exact_member(state) = std::move(sum);
   }
 }
 
@@ -167,8 +134,36 @@ mpq_class exact_share(const PartSide& part, LightState state) {
   return 0;
 }
 
+Shares side_shares(const PreparedScene& scene, const LightResult& light, std::uint32_t polygon,
+                   Side side, const PartWeights& weights) {
+  const std::uint32_t first = scene.first_part[polygon], last = scene.first_part[polygon + 1];
+  const bool area_light = scene.lights[light.light].has_area();
+  if (last - first == 1) return part_side(light, area_light, first, side);
+  std::vector<PartSide> parts;
+  for (std::uint32_t part = first; part < last; ++part) {
+    parts.push_back(part_side(light, area_light, part, side));
+  }
+  if (std::ranges::none_of(parts, &PartSide::sees)) return parts.front();
+  Shares shares;
+  std::vector<Interval> own(parts.size());
+  for (const LightState state : light_states(area_light)) {
+    std::ranges::transform(parts, own.begin(),
+                           [&](const PartSide& part) { return share_of(part, state); });
+    shares.*share_member(state) = weights.sum(polygon, own);
+  }
+  return shares;
+}
+
 std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const LightResult& light,
                                           std::uint32_t polygon, bool exact) {
+  const bool several = scene.first_part[polygon + 1] - scene.first_part[polygon] > 1;
+  return polygon_sides(scene, light, polygon, exact,
+                       several ? PartWeights(scene, polygon) : PartWeights());
+}
+
+std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const LightResult& light,
+                                          std::uint32_t polygon, bool exact,
+                                          const PartWeights& weights) {
   const std::uint32_t first = scene.first_part[polygon], last = scene.first_part[polygon + 1];
   const bool area_light = scene.lights[light.light].has_area();
   std::vector<ClassifiedSide> sides;
@@ -185,17 +180,11 @@ std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const Ligh
   }
   if (sides.empty()) sides.emplace_back();
 
-  bool coplanar = true;
-  for (std::uint32_t part = first; part < last; ++part) {
-    coplanar = coplanar && scene.parts[part].plane == scene.parts[first].plane;
-  }
-  const mpq_class area = precise_area(scene, polygon);
-
+  const bool coplanar = is_coplanar(scene, polygon);
   for (ClassifiedSide& side : sides) {
     side.polygon = polygon;
     side.area_light = area_light;
     side.coplanar = coplanar;
-    side.area = area;
     for (std::uint32_t part = first; part < last; ++part) {
       side.parts.push_back(part_side(light, area_light, part, side.side));
     }
@@ -209,10 +198,8 @@ std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const Ligh
         side.*share_member(state) = share_of(part, state);
         if (exact) side.*exact_member(state) = exact_share(part, state);
       }
-    } else if (coplanar) {
-      sum_exactly(scene, first, exact, side);
     } else {
-      sum_by_enclosure(scene, first, side);
+      sum_parts(scene, weights, exact, side);
     }
   }
   return sides;
@@ -220,9 +207,11 @@ std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const Ligh
 
 std::vector<ClassifiedSide> classified_sides(const PreparedScene& scene, const LightResult& light,
                                              bool exact) {
+  const PartWeights weights(scene);
   std::vector<ClassifiedSide> sides;
   for (std::uint32_t polygon = 0; polygon + 1 < scene.first_part.size(); ++polygon) {
-    std::ranges::move(polygon_sides(scene, light, polygon, exact), std::back_inserter(sides));
+    std::ranges::move(polygon_sides(scene, light, polygon, exact, weights),
+                      std::back_inserter(sides));
   }
   return sides;
 }

@@ -23,6 +23,7 @@
 #include "gnomon/kernel/sign.h"
 #include "gnomon/result/classes.h"
 #include "gnomon/scene/prepare.h"
+#include "report/sides/part_weights.h"
 
 namespace gnomon::report {
 
@@ -39,6 +40,8 @@ struct PartSide : Shares {  // of the part
   const ExactFractions* exact = nullptr;  // where computed and `reason` is not set
   bool area_light = false;
   ShadowReason reason = ShadowReason::kNone;
+
+  bool sees() const { return reason == ShadowReason::kNone; }
 };
 
 struct ClassifiedSide : Shares {  // of the polygon
@@ -48,7 +51,6 @@ struct ClassifiedSide : Shares {  // of the polygon
   std::vector<PartSide> parts;                // none if the polygon was dropped
   ShadowReason reason = ShadowReason::kNone;  // set if all parts share it
   bool coplanar = true;                       // all parts lie in one plane
-  mpq_class area;                             // scene units squared, far closer than a double
   // If coplanar and computed; those of the light's classes.
   std::optional<mpq_class> exact_lit, exact_shadow, exact_penumbra, exact_umbra;
 };
@@ -63,6 +65,14 @@ const std::optional<mpq_class>& exact_share_of(const ClassifiedSide& side, Light
 /// `exact`: the parts carry exact fractions.
 std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const LightResult& light,
                                           std::uint32_t polygon, bool exact);
+/// The same for who asks for many polygons or lights.
+std::vector<ClassifiedSide> polygon_sides(const PreparedScene& scene, const LightResult& light,
+                                          std::uint32_t polygon, bool exact,
+                                          const PartWeights& weights);
+/// The shares of one side alone: those of polygon_sides() where it lists the side, else all of it
+/// is in shadow (umbra). Requires: the polygon was not dropped.
+Shares side_shares(const PreparedScene& scene, const LightResult& light, std::uint32_t polygon,
+                   Side side, const PartWeights& weights);
 
 /// The same of all polygons under one light, in order of polygons. It points into the light's
 /// result.

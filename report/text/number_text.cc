@@ -8,9 +8,20 @@
 namespace gnomon::report {
 
 std::string shortest(double value) {
-  std::array<char, 40> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
+  std::array<char, kLongestShortest> buffer;
+  return {buffer.data(), write_shortest(buffer.data(), value)};
+}
+
+char* write_shortest(char* text, double value) {
+  // The digits of a small integer are its shortest text, and are found sooner as such.
+  constexpr double kSmall = 100'000;
+  if (value >= 0 && value < kSmall) {
+    const auto whole = static_cast<std::int32_t>(value);
+    if (whole == value && !std::signbit(value)) {
+      return std::to_chars(text, text + kLongestShortest, whole).ptr;
+    }
+  }
+  return std::to_chars(text, text + kLongestShortest, value).ptr;
 }
 
 std::string rounded(double value, int digits) {

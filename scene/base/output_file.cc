@@ -101,6 +101,19 @@ Expected<void> OutputFile::write(std::string_view text) {
   return {};
 }
 
+Expected<void> OutputFile::write_over_start(std::string_view text) {
+  for (::off_t at = 0; !text.empty();) {
+    const ssize_t count = ::pwrite(descriptor_, text.data(), text.size(), at);
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      return error("cannot write", errno);
+    }
+    at += count;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return {};
+}
+
 Expected<void> OutputFile::commit() {
   const int descriptor = std::exchange(descriptor_, -1);
   const bool closed = descriptor <= STDERR_FILENO || ::close(descriptor) == 0;

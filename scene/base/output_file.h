@@ -24,6 +24,9 @@ class OutputFile {
 
   /// Errors: kFile (a full disk, a closed pipe).
   Expected<void> write(std::string_view text);
+  /// Writes over the first bytes of what has been written. Errors: kFile, also for standard output,
+  /// pipes and devices.
+  Expected<void> write_over_start(std::string_view text);
   /// The file is now in its place. Nothing may be written afterwards. Errors: kFile.
   Expected<void> commit();
 

@@ -11,6 +11,8 @@
 #include <memory>
 #include <system_error>
 
+#include "scene/base/file_descriptor.h"
+
 namespace gnomon {
 
 namespace {
@@ -25,20 +27,6 @@ tl::unexpected<Error> file_error(const std::string& name, const std::string& wha
 }
 
 std::string system_message(int error) { return std::generic_category().message(error); }
-
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int number) : number_(number) {}
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  ~FileDescriptor() {
-    if (number_ > STDERR_FILENO) ::close(number_);
-  }
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 Expected<void> not_utf8(std::string_view text, const std::string& file, std::size_t offset) {
   return fail(ErrorCode::kSyntax, "this byte is not valid UTF-8", "a file in UTF-8",

@@ -5,7 +5,9 @@
 #include <new>
 
 #include "scene/base/text_file.h"
+#include "scene/base/text_window.h"
 #include "scene/files/formats.h"
+#include "scene/files/plain_json_scene.h"
 #include "scene/files/readers.h"
 
 namespace gnomon {
@@ -57,9 +59,25 @@ Expected<ReadResult> parse_scene(std::string text, const std::string& file,
   }
 }
 
+namespace {
+
+/// A scene in plain JSON, without its text in memory.
+std::optional<ReadResult> read_plain_file(const std::filesystem::path& path,
+                                          const ReadOptions& options) {
+  if (path == "-") return std::nullopt;
+  const auto format = options.format ? options.format : format_by_extension(path);
+  if (format != SceneFormat::kJson) return std::nullopt;
+  auto window = TextWindow::of_file(path);
+  if (!window) return std::nullopt;
+  return read_plain_json(*window, shown_name(path), options);
+}
+
+}  // namespace
+
 Expected<ReadResult> read_scene(const std::filesystem::path& path, const ReadOptions& options) {
   Expected<std::string> text;
   try {
+    if (auto plain = read_plain_file(path, options)) return *std::move(plain);
     text = read_file(path);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::kLimit, "the file does not fit into memory", {},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The JSON reader: one pass of RapidJSON's SAX parser into the scene; structure is checked
-// afterwards by validate.h, and only then is a JSON pointer turned into a line, by a second pass
-// over the text.
+// The JSON reader: what plain_json_scene.h does not take is one pass of RapidJSON's SAX parser into
+// the scene; structure is checked afterwards by validate.h, and only then is a JSON pointer turned
+// into a line, by a second pass over the text.
 #include <rapidjson/reader.h>
 
 #include <optional>
@@ -10,6 +10,7 @@
 #include "gnomon/scene/validate.h"
 #include "scene/base/text_file.h"
 #include "scene/files/json_scene_handler.h"
+#include "scene/files/plain_json_scene.h"
 #include "scene/files/readers.h"
 #include "scene/json/json_text.h"
 
@@ -37,8 +38,15 @@ Likeness looks_like_json(std::string_view text) {
   return first_word_on(text).starts_with("{") ? Likeness::kCertain : Likeness::kNone;
 }
 
-Expected<ReadResult> read_json(const std::string& file_text, const std::string& file,
+Expected<ReadResult> read_json(const std::string& text, const std::string& file,
                                const ReadOptions& options) {
+  TextWindow window(text);
+  if (auto plain = read_plain_json(window, file, options)) return *std::move(plain);
+  return parse_json(text, file, options);
+}
+
+Expected<ReadResult> parse_json(const std::string& file_text, const std::string& file,
+                                const ReadOptions& options) {
   if (auto readable = check_is_utf8(file_text, file); !readable) {
     return tl::unexpected(std::move(readable.error()));
   }

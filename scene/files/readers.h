@@ -21,6 +21,9 @@ Likeness looks_like_ply(std::string_view text);
 
 Expected<ReadResult> read_json(const std::string& text, const std::string& file,
                                const ReadOptions& options);
+/// What read_json says, found by the parser alone.
+Expected<ReadResult> parse_json(const std::string& text, const std::string& file,
+                                const ReadOptions& options);
 Expected<ReadResult> read_obj(const std::string& text, const std::string& file,
                               const ReadOptions& options);
 Expected<ReadResult> read_off(const std::string& text, const std::string& file,

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "gnomon/kernel/sign.h"
@@ -47,6 +49,12 @@ struct Corner {
 
 template <class Int>
 Vec3<Int> point(const GridPositions& grid, VertexId vertex) {
+  if constexpr (!std::is_same_v<Int, mpz_class>) {
+    if (grid.is_narrow()) {
+      const std::int64_t* const p = grid.narrow_point(vertex);
+      return {Int(p[0]), Int(p[1]), Int(p[2])};
+    }
+  }
   return {coordinate<Int>(grid, vertex, 0), coordinate<Int>(grid, vertex, 1),
           coordinate<Int>(grid, vertex, 2)};
 }
@@ -147,16 +155,19 @@ bool is_convex(const std::vector<Vec3<Int>>& loop, const Vec3<Int>& area) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const bool positive = area[axis] > 0;
   int switches = 0;  // of the edges' lexicographic direction: 2 if the loop goes round once
-  bool last_forward = false;
   Vec3<Int> last = loop[0] - loop[n - 1];
-  for (std::size_t i = 0; i <= n; ++i) {
-    const Vec3<Int> next = loop[(i + 1) % n] - loop[i % n];
+  const auto is_forward = [&](const Vec3<Int>& edge) {
+    return edge[u] > 0 || (edge[u] == 0 && edge[v] > 0);
+  };
+  bool last_forward = is_forward(last);
+  for (std::size_t i = 0; i < n; ++i) {
+    Vec3<Int> next = loop[i + 1 == n ? 0 : i + 1] - loop[i];
     const Int turn = last[u] * next[v] - last[v] * next[u];
     if (positive ? !(turn > 0) : !(turn < 0)) return false;
-    const bool forward = next[u] > 0 || (next[u] == 0 && next[v] > 0);
-    if (i > 0 && forward != last_forward) ++switches;
+    const bool forward = is_forward(next);
+    if (forward != last_forward) ++switches;
     last_forward = forward;
-    last = next;
+    last = std::move(next);
   }
   return switches == 2;
 }

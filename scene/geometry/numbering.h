@@ -18,10 +18,7 @@
 #include <new>
 #include <vector>
 
-#if __has_include(<sys/mman.h>)
-#include <sys/mman.h>
-#endif
-
+#include "scene/base/large_pages.h"
 #include "scene/base/parallel.h"
 #include "scene/base/prefetch.h"
 
@@ -32,7 +29,8 @@ class Numbering {
   /// Numbers the things 0 .. n-1. Requires: n < 2^32 - 1; hash(i) equal for equal things;
   /// equal(i, j) an equivalence; both may be called by several threads at a time.
   template <class Hash, class Equal>
-  Numbering(std::size_t n, const Hash& hash, const Equal& equal) : number_(n) {
+  Numbering(std::size_t n, const Hash& hash, const Equal& equal) {
+    resize_in_large_pages(number_, n);
     first_of_equal(hash, equal);
     number_in_order();
   }
@@ -69,13 +67,7 @@ class Numbering {
   static Slots empty_slots(std::size_t count) {
     Slots slots(static_cast<Slot*>(std::calloc(count, sizeof(Slot))));
     if (slots == nullptr) throw std::bad_alloc();
-#ifdef MADV_HUGEPAGE
-    constexpr std::uintptr_t kLargePage = std::uintptr_t{1} << 21;
-    const auto address = reinterpret_cast<std::uintptr_t>(slots.get());
-    const std::uintptr_t begin = (address + kLargePage - 1) & ~(kLargePage - 1);
-    const std::uintptr_t end = (address + count * sizeof(Slot)) & ~(kLargePage - 1);
-    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
-#endif
+    prefer_large_pages(slots.get(), count * sizeof(Slot));
     return slots;
   }
 

@@ -3,7 +3,9 @@
 
 #include <openssl/evp.h>
 
+#include <bit>
 #include <charconv>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <span>
@@ -37,11 +39,10 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };
 
+constexpr std::size_t kDigits = 24;  // room for an integer of 64 bits
 template <class Integer>
-void append_integer(std::string& text, Integer value, int base = 10) {
-  char buffer[72];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value, base);
-  text.append(buffer, result.ptr);
+char* write_integer(char* text, Integer value, int base = 10) {
+  return std::to_chars(text, text + kDigits, value, base).ptr;
 }
 
 void append_canonical(std::string& text, const Number& number) {
@@ -51,11 +52,15 @@ void append_canonical(std::string& text, const Number& number) {
   }
   std::int64_t twos = number.exponent();
   std::int64_t fives = number.is_decimal() ? number.exponent() : 0;
+  char buffer[3 * kDigits + 2];
+  char* end = buffer;
   if (number.has_small_mantissa()) {
     std::int64_t mantissa = number.small_mantissa();
-    for (; mantissa % 2 == 0; mantissa /= 2) ++twos;
+    const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
+    twos += zeros;
+    mantissa >>= zeros;  // leaves nothing out, and so rounds nothing
     for (; mantissa % 5 == 0; mantissa /= 5) ++fives;
-    append_integer(text, mantissa, 16);
+    end = write_integer(end, mantissa, 16);
   } else {
     mpz_class mantissa = number.mantissa();
     const mp_bitcnt_t zeros = mpz_scan1(mantissa.get_mpz_t(), 0);
@@ -66,16 +71,17 @@ void append_canonical(std::string& text, const Number& number) {
         mpz_remove(mantissa.get_mpz_t(), mantissa.get_mpz_t(), five.get_mpz_t()));
     text += mantissa.get_str(16);
   }
-  text += ':';
-  append_integer(text, twos);
-  text += ':';
-  append_integer(text, fives);
+  *end++ = ':';
+  end = write_integer(end, twos);
+  *end++ = ':';
+  end = write_integer(end, fives);
+  text.append(buffer, end);
 }
 
 void append_loop(std::string& text, const std::vector<VertexId>& loop) {
   for (const VertexId vertex : loop) {
-    text += ' ';
-    append_integer(text, vertex);
+    char buffer[kDigits + 1] = {' '};
+    text.append(buffer, write_integer(buffer + 1, vertex));
   }
   text += '\n';
 }

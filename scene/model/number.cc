@@ -3,7 +3,6 @@
 #include "gnomon/scene/number.h"
 
 #include <algorithm>
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -172,57 +171,7 @@ double round_decimal(const mpz_class& mantissa, std::int32_t exponent) {
 
 }  // namespace
 
-Number::Number(double value) {
-  if (value == 0) return;
-  // Of a binary64: 52 bits of fraction, 11 of exponent (0 if subnormal), the sign.
-  constexpr std::uint64_t kImplicitBit = std::uint64_t{1} << 52;
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  const auto field = static_cast<std::int32_t>((bits >> 52) & 0x7ff);
-  const std::uint64_t fraction = bits & (kImplicitBit - 1);
-  const auto mantissa = static_cast<std::int64_t>(field == 0 ? fraction : fraction | kImplicitBit);
-  const int shift = std::countr_zero(static_cast<std::uint64_t>(mantissa));
-  small_ = std::signbit(value) ? -(mantissa >> shift) : mantissa >> shift;
-  exponent_ = std::max(field, 1) - 1075 + shift;
-}
-
-Number::Number(const Number& other)
-    : exponent_(other.exponent_), base_(other.base_), is_big_(other.is_big_) {
-  if (is_big_) {
-    big_ = new mpz_class(*other.big_);
-  } else {
-    small_ = other.small_;
-  }
-}
-
-Number::Number(Number&& other) noexcept
-    : exponent_(other.exponent_), base_(other.base_), is_big_(other.is_big_) {
-  if (is_big_) {
-    big_ = other.big_;
-    other.is_big_ = false;
-    other.small_ = 0;
-    other.exponent_ = 0;
-  } else {
-    small_ = other.small_;
-  }
-}
-
-Number& Number::operator=(Number other) noexcept {
-  if (is_big_) delete big_;
-  exponent_ = other.exponent_;
-  base_ = other.base_;
-  is_big_ = other.is_big_;
-  if (is_big_) {
-    big_ = other.big_;
-    other.is_big_ = false;
-  } else {
-    small_ = other.small_;
-  }
-  return *this;
-}
-
-Number::~Number() {
-  if (is_big_) delete big_;
-}
+void Number::release() noexcept { delete big_; }
 
 void Number::set(mpz_class mantissa, std::int64_t exponent, std::uint8_t base) {
   base_ = base;
@@ -321,21 +270,11 @@ int Number::sign() const {
   return small_ > 0 ? 1 : small_ < 0 ? -1 : 0;
 }
 
-double Number::nearest() const {
-  constexpr std::int64_t kExactIntegers = std::int64_t{1} << 53;
-  const bool fits = !is_big_ && small_ <= kExactIntegers && small_ >= -kExactIntegers;
-  if (base_ == 2) {
-    // A double's own mantissa and exponent: one exact scaling.
-    if (fits && exponent_ >= -1022 && exponent_ <= 971) {
-      // 2^exponent is a normal double, and so is the product.
-      return static_cast<double>(small_) *
-             std::bit_cast<double>(static_cast<std::uint64_t>(exponent_ + 1023) << 52);
-    }
-    return is_zero() ? 0.0 : round_dyadic(mantissa(), exponent_);
-  }
+double Number::rounded() const {
   if (is_zero()) return 0;
+  if (base_ == 2) return round_dyadic(mantissa(), exponent_);
   // Both operands exact, hence one rounding.
-  if (fits && exponent_ >= -22 && exponent_ <= 22) {
+  if (has_exact_mantissa() && exponent_ >= -22 && exponent_ <= 22) {
     const double value = static_cast<double>(small_);
     return exponent_ < 0 ? value / kPowersOfTen[-exponent_] : value * kPowersOfTen[exponent_];
   }

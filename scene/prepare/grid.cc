@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scene/base/exact_int.h"
+#include "scene/base/large_pages.h"
 #include "scene/base/parallel.h"
 
 namespace gnomon {
@@ -61,11 +62,13 @@ struct CommonUnit {
   std::int32_t two() const { return !dyadic ? 0 : decimal ? std::min(lowest_two, 0) : lowest_two; }
   std::int32_t ten() const { return !decimal ? 0 : dyadic ? std::min(lowest_ten, 0) : lowest_ten; }
 
-  bool fits_machine_integers() const {
+  /// Are all numbers over the unit, and their differences, integers of so many bits?
+  bool fits_integers_of(int bits) const {
     if (big || (dyadic && decimal)) return false;
     if (!dyadic && !decimal) return true;
     const std::int64_t low = dyadic ? lowest_two : (std::int64_t{lowest_ten} * 3322) / 1000 - 1;
-    return top - low <= 118;
+    constexpr int kSpare = 6;  // the sign, a difference, the rounding of `top` and `low`
+    return top - low <= bits - kSpare;
   }
 };
 
@@ -85,28 +88,30 @@ mpq_class unit_value(const CommonUnit& unit) {
   return value;
 }
 
-/// Numbers as machine integers over the unit.
+/// Numbers as machine integers, of 64 or 128 bits, over the unit.
+template <class Int>
 class NarrowScale {
  public:
   explicit NarrowScale(const CommonUnit& unit) : two_(unit.two()), ten_(unit.ten()) {
-    Int128 value = 1;
-    for (Int128& entry : powers_) {
+    Int value = 1;
+    for (Int& entry : powers_) {
       entry = value;
-      if (value < (Int128{1} << 122)) value *= 10;
+      constexpr unsigned kBits = 8 * sizeof(Int);
+      if (value < (Int{1} << (kBits - 6))) value *= 10;
     }
   }
-  Int128 operator()(const Number& number) const {
-    const Int128 mantissa = number.small_mantissa();
+  Int operator()(const Number& number) const {
+    const Int mantissa = number.small_mantissa();
     if (mantissa == 0) return 0;
     if (number.is_decimal()) {
       return mantissa * powers_[static_cast<std::size_t>(number.exponent() - ten_)];
     }
-    return mantissa * (Int128{1} << (number.exponent() - two_));
+    return mantissa * (Int{1} << (number.exponent() - two_));
   }
 
  private:
   std::int32_t two_, ten_;
-  std::array<Int128, 40> powers_;
+  std::array<Int, sizeof(Int) == sizeof(Int128) ? 40 : 20> powers_;
 };
 
 /// Numbers as GMP integers over the unit.
@@ -153,20 +158,23 @@ void fill_narrow_or_wide(ExactGrid& grid, std::vector<mpz_class> coordinates) {
 
 /// The box of points, and the greatest common divisor of the differences of their coordinates along
 /// each axis: 0 if there are none.
+template <class Int, class UInt>
 struct BoxAndStep {
   bool empty = true;
-  std::array<Int128, 3> low{}, high{};
-  UInt128 step = 0;
+  std::array<Int, 3> low{}, high{};
+  UInt step = 0;
 
-  void add(const std::array<Int128, 3>& point) {
+  void add(const std::array<Int, 3>& point) {
     if (empty) {
       empty = false;
       low = high = point;
       return;
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      add_difference(
-          static_cast<UInt128>(point[k] > low[k] ? point[k] - low[k] : low[k] - point[k]));
+      if (step != 1) {
+        add_difference(
+            static_cast<UInt>(point[k] > low[k] ? point[k] - low[k] : low[k] - point[k]));
+      }
       low[k] = std::min(low[k], point[k]);
       high[k] = std::max(high[k], point[k]);
     }
@@ -179,24 +187,27 @@ struct BoxAndStep {
   }
 
  private:
-  void add_difference(UInt128 d) {
+  void add_difference(UInt d) {
     if (d == 0 || step == 1) return;
-    if (step != 0 && ((d | step) >> 64) == 0 &&
+    constexpr UInt kShort = ~std::uint64_t{0};
+    if (step != 0 && (d | step) <= kShort &&
         static_cast<std::uint64_t>(d) % static_cast<std::uint64_t>(step) == 0) {
       return;
     }
-    step = scene_detail::gcd_of(step, d);
+    step = static_cast<UInt>(scene_detail::gcd_of(UInt128{step}, UInt128{d}));
   }
 };
 
+template <class Int, class UInt>
 ExactGrid make_grid_in_machine_integers(std::span<const Position* const> points,
                                         const CommonUnit& unit) {
-  const NarrowScale scale(unit);
-  BoxAndStep box;
-  for (const BoxAndStep& piece :
+  const NarrowScale<Int> scale(unit);
+  using Box = BoxAndStep<Int, UInt>;
+  Box box;
+  for (const Box& piece :
        scene_detail::map_pieces(points.size(), scene_detail::kPieceOfCheapElements,
                                 [&](std::size_t begin, std::size_t end) {
-                                  BoxAndStep result;
+                                  Box result;
                                   for (std::size_t i = begin; i < end; ++i) {
                                     const Position& p = *points[i];
                                     result.add(std::array{scale(p[0]), scale(p[1]), scale(p[2])});
@@ -205,30 +216,25 @@ ExactGrid make_grid_in_machine_integers(std::span<const Position* const> points,
                                 })) {
     box.add(piece);
   }
-  const std::array<Int128, 3>& low = box.low;
-  UInt128 step = box.step;
-  UInt128 top = 0;
+  const std::array<Int, 3>& low = box.low;
+  UInt top = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    top = std::max(top, static_cast<UInt128>(box.high[k] - low[k]));
+    top = std::max(top, static_cast<UInt>(box.high[k] - low[k]));
   }
-  if (step == 0) step = 1;
+  const UInt step = box.step == 0 ? 1 : box.step;
 
   ExactGrid grid;
   const mpq_class unit_length = unit_value(unit);
-  grid.step = top == 0 ? mpq_class(1) : mpq_class(unit_length * to_mpz(step));
-  for (std::size_t k = 0; k < 3; ++k) {
-    mpz_class corner = to_mpz(scene_detail::magnitude(low[k]));
-    if (low[k] < 0) corner = -corner;
-    grid.origin[k] = unit_length * corner;
-  }
-  const UInt128 largest = top / step;
+  grid.step = top == 0 ? mpq_class(1) : mpq_class(unit_length * to_mpz(UInt128{step}));
+  for (std::size_t k = 0; k < 3; ++k) grid.origin[k] = unit_length * to_mpz(low[k]);
+  const UInt largest = top / step;
   if ((largest >> GridPositions::kNarrowBits) == 0) {
     grid.bits = static_cast<unsigned>(std::bit_width(static_cast<std::uint64_t>(largest)));
-    grid.narrow.resize(3 * points.size());
-    const bool short_values = (top >> 64) == 0 && (step >> 64) == 0;
+    scene_detail::resize_in_large_pages(grid.narrow, 3 * points.size());
+    const bool short_values = top <= ~std::uint64_t{0};  // so is the step
     scene_detail::for_each_index(points.size(), [&](std::size_t i) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto d = static_cast<UInt128>(scale((*points[i])[k]) - low[k]);
+        const auto d = static_cast<UInt>(scale((*points[i])[k]) - low[k]);
         grid.narrow[3 * i + k] = static_cast<std::int64_t>(
             step == 1      ? static_cast<std::uint64_t>(d)
             : short_values ? static_cast<std::uint64_t>(d) / static_cast<std::uint64_t>(step)
@@ -240,7 +246,8 @@ ExactGrid make_grid_in_machine_integers(std::span<const Position* const> points,
   std::vector<mpz_class> coordinates(3 * points.size());
   scene_detail::for_each_index(points.size(), [&](std::size_t i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      coordinates[3 * i + k] = to_mpz(static_cast<UInt128>(scale((*points[i])[k]) - low[k]) / step);
+      const auto d = static_cast<UInt>(scale((*points[i])[k]) - low[k]);
+      coordinates[3 * i + k] = to_mpz(UInt128{d} / UInt128{step});
     }
   });
   fill_narrow_or_wide(grid, std::move(coordinates));
@@ -290,8 +297,13 @@ ExactGrid make_grid(std::span<const Position* const> points) {
                                 })) {
     unit.add(piece);
   }
-  return unit.fits_machine_integers() ? make_grid_in_machine_integers(points, unit)
-                                      : make_grid_in_gmp_integers(points, unit);
+  if (unit.fits_integers_of(64)) {
+    return make_grid_in_machine_integers<std::int64_t, std::uint64_t>(points, unit);
+  }
+  if (unit.fits_integers_of(128)) {
+    return make_grid_in_machine_integers<Int128, UInt128>(points, unit);
+  }
+  return make_grid_in_gmp_integers(points, unit);
 }
 
 std::array<mpz_class, 3> primitive_direction(const Position& vector) {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <unordered_map>
 
+#include "scene/base/large_pages.h"
 #include "scene/base/parallel.h"
 #include "scene/base/prefetch.h"
 #include "scene/geometry/loop_geometry.h"
@@ -88,6 +89,15 @@ class RunMaker {
     for (const VertexId v : input) corners.push_back({prepared_.vertex_of_input[v], v});
   }
 
+  void load_vertices_and_points(const std::vector<VertexId>& input) {
+    workspace_.resize(input.size());
+    points_.resize(input.size());
+    for (std::size_t i = 0; i < input.size(); ++i) {
+      workspace_[i] = prepared_.vertex_of_input[input[i]];
+      points_[i] = point<Int>(grid_, workspace_[i]);
+    }
+  }
+
   void load_points(const std::vector<Corner>& corners, std::vector<Point>& points) const {
     points.clear();
     for (const Corner& corner : corners) points.push_back(point<Int>(grid_, corner.vertex));
@@ -107,10 +117,10 @@ class RunMaker {
 
   std::optional<Error> add_polygon(std::uint32_t p) {
     const Polygon& polygon = scene_.polygons[p];
-    load(polygon.loop, loop_);
-    load_points(loop_, points_);
     // The usual case first: a strictly convex loop has neither repeated nor collinear vertices.
+    load_vertices_and_points(polygon.loop);
     if (points_.size() >= 3 && polygon.holes.empty() && add_if_convex(p)) return std::nullopt;
+    load(polygon.loop, loop_);
     if (points_.size() < 3 || !is_clean(points_)) {
       clean_and_note(p);
       if (loop_.size() < 3) {
@@ -118,6 +128,8 @@ class RunMaker {
         return std::nullopt;
       }
       load_points(loop_, points_);
+      workspace_.clear();
+      for (const Corner& corner : loop_) workspace_.push_back(corner.vertex);
       if (polygon.holes.empty() && add_if_convex(p)) return std::nullopt;
     }
     const Point area = area_vector(points_);
@@ -128,14 +140,13 @@ class RunMaker {
     return cut(p, area, lies_in_plane(points_, points_[0], area));
   }
 
-  /// Adds the loop at hand as it is, if it is planar and strictly convex.
+  /// Adds the loop at hand, its vertices in `workspace_`, as it is, if it is planar and strictly
+  /// convex.
   bool add_if_convex(std::uint32_t p) {
     Point area = area_vector(points_);
     if (area.is_zero() || !lies_in_plane(points_, points_[0], area) || !is_convex(points_, area)) {
       return false;
     }
-    workspace_.clear();
-    for (const Corner& corner : loop_) workspace_.push_back(corner.vertex);
     add_part(p, workspace_, std::move(area));
     return true;
   }
@@ -328,8 +339,8 @@ void join(std::vector<Run<Int>>& runs, std::size_t polygons, PreparedScene& out)
     parts += run.parts.size();
     corners += run.loop_vertices.size();
   }
-  out.parts.reserve(parts);
-  out.loop_vertices.reserve(corners);
+  reserve_in_large_pages(out.parts, parts);
+  reserve_in_large_pages(out.loop_vertices, corners);
   out.first_part.reserve(polygons + 1);
   for (Run<Int>& run : runs) {
     const auto first_corner = static_cast<std::uint32_t>(out.loop_vertices.size());
@@ -358,7 +369,7 @@ void number_planes(const std::vector<Run<Int>>& runs, PreparedScene& out) {
   const Numbering planes(
       out.parts.size(), [&](std::size_t i) { return key(i).hash(); },
       [&](std::size_t i, std::size_t j) { return key(i).same_plane(key(j)); });
-  out.geometry.planes.resize(planes.count());
+  resize_in_large_pages(out.geometry.planes, planes.count());
   std::vector<std::uint8_t> flipped(planes.count());  // the key's normal against the support's
   planes.for_each_first([&](std::size_t i, std::size_t plane) {
     const auto loop = out.loop(out.parts[i]);
@@ -374,7 +385,8 @@ void number_planes(const std::vector<Run<Int>>& runs, PreparedScene& out) {
 /// Numbers edges in the order of the loops that run along them.
 void number_edges(PreparedScene& out) {
   const std::size_t corners = out.loop_vertices.size();
-  std::vector<EdgeEnds> ends(corners);
+  std::vector<EdgeEnds> ends;
+  resize_in_large_pages(ends, corners);
   for_each_index(out.parts.size(), [&](std::size_t i) {
     const Part& part = out.parts[i];
     const auto loop = out.loop(part);
@@ -386,10 +398,10 @@ void number_edges(PreparedScene& out) {
   const Numbering edges(
       corners, [&](std::size_t i) { return mix(mix(0, ends[i].a), ends[i].b); },
       [&](std::size_t i, std::size_t j) { return ends[i] == ends[j]; });
-  out.geometry.edges.resize(edges.count());
+  resize_in_large_pages(out.geometry.edges, edges.count());
   edges.for_each_first(
       [&](std::size_t i, std::size_t edge) { out.geometry.edges[edge] = ends[i]; });
-  out.loop_edges.resize(corners);
+  resize_in_large_pages(out.loop_edges, corners);
   for_each_index(corners, [&](std::size_t i) {
     out.loop_edges[i] = PlaneRef(edges[i], out.loop_vertices[i] != ends[i].a);
   });

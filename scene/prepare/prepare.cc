@@ -10,6 +10,7 @@
 
 #include "gnomon/scene/grid.h"
 #include "scene/base/exact_int.h"
+#include "scene/base/large_pages.h"
 #include "scene/base/parallel.h"
 #include "scene/base/prefetch.h"
 #include "scene/geometry/numbering.h"
@@ -119,7 +120,7 @@ void weld(const Scene& scene, std::span<const Position* const> inputs, ExactGrid
       });
       coordinates = std::move(distinct);
     }
-    out.geometry.positions.resize(vertices.count());
+    scene_detail::resize_in_large_pages(out.geometry.positions, vertices.count());
     vertices.for_each_first([&](std::size_t i, std::size_t vertex) {
       const Position& position = *inputs[i];
       out.geometry.positions[vertex] = {position[0].nearest(), position[1].nearest(),
@@ -147,7 +148,9 @@ Expected<PreparedScene> prepare(const Scene& scene) {
       const Expected<std::size_t> corners = mark_used(scene, used);
       if (!corners) return tl::unexpected(corners.error());
       most_corners = *corners;
-      points.reserve(scene.vertices.size());
+      std::size_t most = scene.vertices.size();
+      for (const Light& light : scene.lights) most += light.is_point() ? 1 : light.loop.size();
+      scene_detail::reserve_in_large_pages(points, most);
       for (std::size_t v = 0; v < used.size(); ++v) {
         if (used[v] != 0) points.push_back(&scene.vertices[v]);
       }
@@ -166,6 +169,7 @@ Expected<PreparedScene> prepare(const Scene& scene) {
     if (auto error = scene_detail::prepare_lights(scene, grid, inputs, out)) {
       return tl::unexpected(std::move(*error));
     }
+    scene_detail::reserve_in_large_pages(out.vertex_of_input, scene.vertices.size());
     out.vertex_of_input.assign(scene.vertices.size(), PreparedScene::kUnused);
     weld(scene, std::span(points).first(inputs), grid, out);
   }

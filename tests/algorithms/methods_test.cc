@@ -39,10 +39,10 @@ TEST(Methods, HaveOneNameEach) {
 
 TEST(Methods, AreNamedByTheLightsThatTheyTake) {
   EXPECT_EQ(method_names({.point = true}),
-            "sectors, svbsp, receiver, basic, tiling, svbsp-full, two-pass");
+            "sectors, contour, svbsp, receiver, basic, tiling, svbsp-full, two-pass");
   EXPECT_EQ(method_names({.area = true}), "receiver, merged");
   EXPECT_EQ(method_names({.point = true, .area = true}),
-            "sectors, svbsp, receiver, merged, basic, tiling, svbsp-full, two-pass");
+            "sectors, contour, svbsp, receiver, merged, basic, tiling, svbsp-full, two-pass");
   EXPECT_EQ(method_names({}), "");
 }
 

@@ -88,6 +88,16 @@ TEST_F(AlgorithmOptions, WhatCannotBeIsRefusedInOneLine) {
   expect_refused("shadows", {"--algorithm", "sectors", "--no-merge"}, {"--no-merge", "svbsp"});
   expect_refused("shadows", {"--algorithm", "sectors", "--no-prefix"}, {"--no-prefix", "svbsp"});
   expect_refused("certify", {"--algorithm", "sectors", "--explain"}, {"--explain", "svbsp"});
+  // What tells no fragments is asked for none.
+  for (const std::string option : {"--fragments", "--exact-loops", "--illuminate"}) {
+    expect_refused("shadows", {"--algorithm", "contour", option}, {option, "contour", "sectors"});
+  }
+  expect_refused("shadows", {"--algorithm", "contour", "--combined"}, {"--combined", "svbsp"});
+  expect_refused("shadows", {"--algorithm", "contour", "--no-merge"}, {"--no-merge", "svbsp"});
+  expect_refused("certify", {"--algorithm", "contour", "--explain"}, {"--explain", "svbsp"});
+  expect_refused("certify", {"--algorithm", "contour", "--combined"}, {"--combined", "svbsp"});
+  expect_refused("render", {"--algorithm", "contour"}, {"render", "contour", "sectors"});
+  expect_refused("render", {"--algorithm", "contour", "--illuminate"}, {"render", "contour"});
   for (const std::string command : {"shadows", "certify", "render", "info"}) {
     expect_refused(command, {"--jobs=-1"}, {"--jobs", "-1"});
   }
@@ -115,6 +125,32 @@ TEST_F(AlgorithmOptions, BothAlgorithmsGiveTheSameExactFractions) {
   EXPECT_TRUE(std::ranges::any_of(
       sectors, [](const auto& entry) { return entry.second.find('/') != std::string::npos; }));
   EXPECT_EQ(sectors, svbsp);
+}
+
+/// A method without fragments writes what the others do but for them, and is judged by it.
+TEST_F(AlgorithmOptions, ContourTellsSharesAndClassesAlone) {
+  const auto sectors = lit_fractions(result({"--exact-fractions", "--algorithm", "sectors"}));
+  EXPECT_EQ(lit_fractions(result({"--exact-fractions", "--algorithm", "contour"})), sectors);
+  EXPECT_EQ(algorithm_of(result({"--algorithm", "contour"})), "contour");
+  for (const std::string kernel : {"plane", "rational"}) {
+    const RunResult done = run("certify", {"--algorithm", "contour", "--kernel", kernel});
+    EXPECT_EQ(done.status, 0) << done.out;
+    EXPECT_THAT(done.out, HasSubstr("Identical to the exact answer: " + kernel));
+  }
+  const RunResult rounded = run("certify", {"--algorithm", "contour", "--kernel", "float"});
+  EXPECT_THAT(rounded.out, HasSubstr("by contour"));
+  // Its file has no fragments that could be judged one by one.
+  const std::string answer = directory_.file("answer.json");
+  ASSERT_EQ(run("shadows", {"--algorithm", "contour", "-o", answer}).status, 0);
+  expect_refused("verify", {answer}, {"fragments"});
+  expect_refused("render", {answer}, {"fragments"});
+  // A picture of all methods shows those that have fragments.
+  const RunResult all = run("render", {"--algorithm", "all"});
+  EXPECT_EQ(all.status, 0) << all.err;
+  EXPECT_THAT(all.out, AllOf(HasSubstr("sectors: "), Not(HasSubstr("contour: "))));
+  const RunResult report = run("certify", {"--algorithm", "contour", "--kernel", "float",
+                                           "--report", directory_.file("report")});
+  EXPECT_THAT(report.err, "");
 }
 
 TEST_F(AlgorithmOptions, NoByteDependsOnTheNumberOfThreads) {
@@ -151,7 +187,7 @@ TEST_F(AlgorithmOptions, CertifyJudgesEachAlgorithm) {
 TEST_F(AlgorithmOptions, AllRunsEveryMethodThatTakesTheLights) {
   const RunResult done = run("certify", {"--kernel", "plane", "--algorithm", "all"});
   EXPECT_EQ(done.status, 0) << done.err;
-  for (const char* method : {"sectors", "svbsp", "receiver"}) {
+  for (const char* method : {"sectors", "contour", "svbsp", "receiver"}) {
     EXPECT_THAT(done.out, HasSubstr(method));
   }
   EXPECT_THAT(done.out, Not(HasSubstr("failed")));

@@ -30,7 +30,7 @@ TEST(Subject, OnlySoundExactKernelsOweTheExactAnswer) {
 TEST(Subject, ErrorsNameWhatThereIs) {
   const auto message = [](const char* name) { return to_string(parse_subject(name).error()); };
   EXPECT_THAT(message("quad"), HasSubstr("one of: float double"));
-  EXPECT_THAT(message("double/bsp"), HasSubstr("sectors, svbsp, receiver"));
+  EXPECT_THAT(message("double/bsp"), HasSubstr("sectors, contour, svbsp, receiver"));
   EXPECT_THAT(message("double/svbsp/trees"), HasSubstr("receiver, merged"));
   EXPECT_THAT(message("double/"), HasSubstr("missing"));
   EXPECT_THAT(message("double~typo"), HasSubstr("coplanar-in-sequence"));

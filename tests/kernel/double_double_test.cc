@@ -50,6 +50,21 @@ TEST(DoubleDouble, OperationsHaveTheirBounds) {
   }
 }
 
+TEST(DoubleDouble, SquareRoots) {
+  Random random;
+  for (int i = 0; i < 20000; ++i) {
+    DoubleDouble a = random.pair();
+    if (a.high < 0) a = -a;
+    if (i % 4 == 0) a = double_double(mpz_class(random.integer(50) * random.integer(50)));
+    if (!(a.high > 0)) continue;
+    const mpq_class root = exact(square_root(a)), relative = root * root / exact(a) - 1;
+    // (1 + e)^2 - 1 is 2e and a little.
+    EXPECT_LE(abs(relative), power(-101) + power(-200)) << a.high << ' ' << a.low;
+  }
+  EXPECT_EQ(square_root({9, 0}).high, 3);
+  EXPECT_EQ(square_root({9, 0}).low, 0);
+}
+
 TEST(DoubleDouble, IntegersOfEveryWidth) {
   Random random;
   for (unsigned bits = 1; bits <= 500; ++bits) {

@@ -8,40 +8,13 @@
 #include "gnomon/scene/digest.h"
 #include "gnomon/scene/validate.h"
 #include "gnomon/scene/write.h"
+#include "mutated.h"
 #include "scene_testing.h"
 
 namespace gnomon {
 namespace {
 
 constexpr int kMutations = 4000;
-
-std::string mutated(const std::string& text, std::mt19937_64& random) {
-  static constexpr std::string_view kTelling = "0123456789+-.eE,:[]{}\" \n\\#/vfxnaif\0\xFF";
-  std::string result = text;
-  for (auto n = random() % 4 + 1; n > 0 && !result.empty(); --n) {
-    const std::size_t at = random() % result.size();
-    const std::size_t length = std::min<std::size_t>(random() % 12, result.size() - at);
-    switch (random() % 6) {
-      case 0:
-        result[at] = static_cast<char>(random());
-        break;
-      case 1:
-      case 2:
-        result[at] = kTelling[random() % kTelling.size()];
-        break;
-      case 3:
-        result.erase(at, length);
-        break;
-      case 4:
-        result.insert(at, result.substr(random() % result.size(), length));
-        break;
-      default:
-        result.resize(at);
-        break;
-    }
-  }
-  return result;
-}
 
 void mutate(const std::string& text, const std::string& file, NumberMeaning meaning) {
   std::mt19937_64 random(1992);

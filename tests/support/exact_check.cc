@@ -104,7 +104,8 @@ std::string check_sums(const Case& scene, const ShadowResult& result) {
 }
 
 /// The same without exact fractions: the bounds then come from arithmetic in doubles, and must
-/// hold.
+/// hold. A method without fragments owes narrow ones, and classes that are proven: 1 and 0 where
+/// that is the truth, and nowhere else.
 std::string check_bounds(const Case& scene, const ShadowResult& exact, ShadowOptions options) {
   options.output.exact_fractions = options.output.exact_points = false;
   const Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
@@ -113,11 +114,15 @@ std::string check_bounds(const Case& scene, const ShadowResult& exact, ShadowOpt
     for (std::size_t i = 0; i < exact.lights[l].parts.size(); ++i) {
       const ExactFractions& truth = exact.lights[l].exact_fractions[i];
       const PartResult& bounds = result->lights[l].parts[i];
-      const auto holds = [](const Interval& interval, const mpq_class& value) {
+      const bool fragments = method_info(options.method.point).makes_fragments;
+      const auto holds = [&](const Interval& interval, const mpq_class& value) {
         return mpq_class(interval.lower) <= value && value <= mpq_class(interval.upper) &&
-               interval.upper - interval.lower < 1e-6;
+               interval.upper - interval.lower < (fragments ? 1e-6 : 0x1p-26);
       };
-      if (!holds(bounds.lit, truth.lit) || !holds(bounds.shadow, truth.shadow)) {
+      const bool classes = (bounds.lit.lower == 1) == (truth.lit == 1) &&
+                           (bounds.lit.upper == 0) == (truth.lit == 0);
+      if (!holds(bounds.lit, truth.lit) || !holds(bounds.shadow, truth.shadow) ||
+          !(fragments || classes)) {
         return fmt::format("{}, light '{}', polygon '{}': lit {} is not in [{}, {}]",
                            name_of(exact), light_of(scene, exact.lights[l].light),
                            polygon_of(scene, bounds.part), truth.lit.get_str(), bounds.lit.lower,
@@ -189,6 +194,8 @@ std::vector<ShadowOptions> variants(const Case& scene) {
     options.output.merge = options.method.prefix = kernel != KernelId::kRational;
     options.method.seed = 1 + static_cast<std::uint64_t>(kernel);
     all.push_back(options);
+    options.method.point = MethodId::kContour;
+    all.push_back(options);
     if (kernel != KernelId::kPlane) continue;
     options.method.point = MethodId::kReceiver;  // as area lights are found
     all.push_back(options);
@@ -254,6 +261,30 @@ std::string check_methods(const Case& scene) {
       if (!wrong.empty()) return text_of(method) + ": " + wrong;
       if (is_first) first = std::move(*result);
     }
+  }
+  return {};
+}
+
+std::string check_contour(const Case& scene) {
+  ShadowOptions usual = options_for(KernelId::kPlane);
+  usual.tuning.jobs = 1;
+  for (std::uint32_t light = 0; light < scene.prepared().lights.size(); ++light) {
+    if (!scene.is_area(light)) usual.lights.push_back(light);
+  }
+  if (usual.lights.empty()) return {};
+  usual.method.point = MethodId::kSectors;
+  const Expected<ShadowResult> first = compute_shadows(scene.prepared(), usual);
+  if (!first) return to_string(first.error());
+  for (const KernelId kernel : kExactKernels) {
+    ShadowOptions options = usual;
+    options.kernel.id = kernel;
+    options.method.point = MethodId::kContour;
+    const Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
+    if (!result) return to_string(result.error());
+    std::string wrong = check_sums(scene, *result);
+    if (wrong.empty()) wrong = compare_results(scene, *first, *result);
+    if (wrong.empty()) wrong = check_bounds(scene, *first, options);
+    if (!wrong.empty()) return std::string(kernel_info(kernel).name) + " by contour: " + wrong;
   }
   return {};
 }

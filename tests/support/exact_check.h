@@ -25,6 +25,10 @@ std::string check_exact(const Case& scene);
 /// bounds; witnesses that hold; fragments that the oracle calls identical.
 std::string check_methods(const Case& scene);
 
+/// The method `contour` alone, without the oracle: on every exact kernel the exact shares of
+/// sectors on `plane`, and bounds that hold them with proven classes.
+std::string check_contour(const Case& scene);
+
 /// Exact lit fraction of each part under each light (parts of light 0, then of light 1, ...).
 std::vector<mpq_class> lit_fractions(const Case& scene, const ShadowOptions& options);
 

@@ -17,7 +17,9 @@
 namespace gnomon {
 
 enum class MethodId : std::uint8_t {
-  kAutomatic,  // sectors and receiver, or svbsp where only that can do what is asked (`combined`)
+  // Of area lights receiver; of others svbsp where lights are combined, contour where an exact kernel
+  // is asked for classes and nearest shares alone, else sectors.
+  kAutomatic,
   kSectors,
   kSvbsp,
   kReceiver,

@@ -39,6 +39,12 @@ struct ClaimedFragment : ClaimedShape {
   std::uint64_t level = 0;
 };
 
+/// How much of a side is lit, where it is not told where.
+struct ClaimedShare {
+  double lower = 0, upper = 1;      // bounds of the lit share; equal ones are a rounded share
+  std::optional<LightState> whole;  // the class of all of the side, if it has one
+};
+
 /// One side of a polygon.
 struct ClaimedPolygon {
   std::string id;
@@ -47,6 +53,7 @@ struct ClaimedPolygon {
   // As claimed, if claimed exactly; shadow for point lights, penumbra and umbra for area lights.
   std::optional<mpq_class> lit_fraction, shadow_fraction, penumbra_fraction, umbra_fraction;
   std::vector<ClaimedFragment> fragments;
+  ClaimedShare share;  // ClaimedTerms::shares_alone
 };
 
 /// How the fragments of a light are meant.
@@ -60,6 +67,9 @@ struct ClaimedTerms {
   /// ("umbra": "per-caster"). Otherwise it may be claimed wherever no light arrives, and need not
   /// be.
   bool per_caster_umbra = false;
+  /// Point and directional lights: there are no fragments, and every side claims how much of it is
+  /// lit (ClaimedPolygon::share, and exact fractions if there are any).
+  bool shares_alone = false;
   /// kLights: fragments name what hides the light, and every side is listed. Else they name
   /// nothing, and sides that no light reaches may be missing; of kOverlay, what lies on a side that
   /// this light does not reach tells of other lights alone.

@@ -36,7 +36,7 @@ struct ExactGrid {
 };
 
 /// Cost: O(n), in machine integers as long as all coordinates over their common unit have at most
-/// 120 bits, in GMP integers otherwise.
+/// 58 bits (64-bit integers) or 122 bits (128), in GMP integers otherwise.
 ExactGrid make_grid(std::span<const Position* const> points);
 
 /// A direction as the primitive integer vector (without common factor) on the same ray; all zero if

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the point-light core was to reach, beside what it does: the overhead of exactness against
-// the same code in doubles, other exact numbers, other ways to the same areas, growth, a million
-// polygons, two threads. One function a group of rows; each prints its details, and all fill one
-// table of verdicts.
+// Point lights: the overhead of exactness against the same code in doubles, other exact numbers,
+// other ways to the same areas, growth, a million polygons, two threads, and what the core was to
+// reach of each. One function a group of rows; each prints its details, and all fill one table of
+// verdicts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,6 +15,8 @@
 
 #include "answers.h"
 #include "child.h"
+#include "contest.h"
+#include "gnomon/algorithms/method.h"
 #include "machine.h"
 #include "parts.h"
 #include "peers/peer.h"
@@ -39,45 +41,6 @@ std::vector<std::string> algorithm_names() {
   return names;
 }
 
-ShadowOptions options_for(MethodId algorithm, KernelId kernel, bool identity = false) {
-  ShadowOptions options;
-  options.method.point = algorithm;
-  options.kernel.id = kernel;
-  options.kernel.identity = identity;
-  options.tuning.jobs = 1;
-  return options;
-}
-
-/// The same work on several choices, timed in turn; keeps each one's last result.
-class Contest {
- public:
-  explicit Contest(const PreparedScene& scene) : scene_(scene) {}
-  void enter(const ShadowOptions& options) { options_.push_back(options); }
-  void run(int rounds) {
-    results_.resize(options_.size());
-    std::vector<std::function<void()>> work;
-    for (std::size_t i = 0; i < options_.size(); ++i) {
-      work.emplace_back([this, i] { results_[i] = shadows_or_stop(scene_, options_[i]); });
-    }
-    times_ = interleaved(work, rounds);
-  }
-  double cpu(std::size_t i) const { return median(times_[i].cpu); }
-  double wall_ratio(std::size_t i, std::size_t j) const {
-    return median_ratio(times_[i].wall, times_[j].wall);
-  }
-  double ratio(std::size_t i, std::size_t j) const {
-    return median_ratio(times_[i].cpu, times_[j].cpu);
-  }
-  double wall(std::size_t i) const { return median(times_[i].wall); }
-  const ShadowResult& result(std::size_t i) const { return results_[i]; }
-
- private:
-  const PreparedScene& scene_;
-  std::vector<ShadowOptions> options_;
-  std::vector<ShadowResult> results_;
-  std::vector<Times> times_;
-};
-
 void print_scene(const std::string& title, const PreparedScene& scene, double prepare_seconds) {
   fmt::print("\n{}: {} polygons, grid of {} bits, prepared in {} ms\n", title,
              grouped(scene.parts.size()), scene.position_bits, short_number(1e3 * prepare_seconds));
@@ -92,6 +55,7 @@ PreparedScene prepared_and_printed(const Sized& choice) {
 }
 
 std::string percent(std::uint64_t part, std::uint64_t whole) {
+  if (whole == 0) return "-";
   return fmt::format("{:.2f}", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
@@ -148,7 +112,8 @@ bool measure_overhead(Extent extent, Verdicts& verdicts) {
       for (const Row& row : rows) {
         ShadowOptions options = options_for(algorithm.algorithm, row.kernel, row.identity);
         contest.enter(options);
-        options.output.points = true;
+        // A method of shares alone runs twice alike.
+        options.output.points = method_info(algorithm.algorithm).makes_fragments;
         contest.enter(options);
       }
     }
@@ -172,9 +137,13 @@ bool measure_overhead(Extent extent, Verdicts& verdicts) {
                    short_number(contest.ratio(areas, at + 2)),
                    short_number(contest.ratio(areas, at)), grouped(total_fragments(result))});
       }
+      const bool has_points = method_info(algorithm.algorithm).makes_fragments;
       for (std::size_t points = 0; points < 2; ++points) {
-        identity_ratios[points].push_back(contest.ratio(at + 4 + points, at + 2 + points));
-        plain_ratios[points].push_back(contest.ratio(at + 4 + points, at + points));
+        const bool measured = points == 0 || has_points;
+        identity_ratios[points].push_back(measured ? contest.ratio(at + 4 + points, at + 2 + points)
+                                                   : kNothing);
+        plain_ratios[points].push_back(measured ? contest.ratio(at + 4 + points, at + points)
+                                                : kNothing);
       }
       const ShadowResult& own = contest.result(at + 4);
       if (first == nullptr) first = &own;
@@ -471,8 +440,10 @@ bool measure_threads(Extent extent, Verdicts& verdicts) {
 
 }  // namespace
 
-bool run_targets(Extent extent) {
-  Verdicts verdicts(algorithm_names(), default_algorithm());
+bool run_point(Extent extent) {
+  Verdicts verdicts(
+      fmt::format("Targets (verdict: algorithm {})", algorithms()[default_algorithm()].name),
+      algorithm_names(), default_algorithm());
   bool good = true;
   for (const auto measure : {measure_overhead, measure_exact_kernels, measure_peers, measure_growth,
                              measure_large, measure_threads}) {

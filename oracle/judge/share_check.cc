@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "oracle/judge/share_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "oracle/geometry/group_overlay.h"
+
+namespace gnomon::oracle {
+
+namespace {
+
+std::string told(const std::optional<LightState>& whole) {
+  return whole ? std::string("all ") + name_of(*whole) : "partly lit";
+}
+
+/// How far a share is outside of claimed bounds.
+Enclosure distance(const ClaimedShare& claimed, const AreaShare& lit) {
+  if (!std::isfinite(claimed.lower) || !std::isfinite(claimed.upper)) return {1, 1};
+  if (lit.exact) {
+    const mpq_class below = mpq_class(claimed.lower) - *lit.exact;
+    const mpq_class above = *lit.exact - mpq_class(claimed.upper);
+    return enclose(std::max(mpq_class(0), std::max(below, above)));
+  }
+  const Enclosure below = Enclosure{claimed.lower, claimed.lower} - lit.fraction;
+  const Enclosure above = lit.fraction - Enclosure{claimed.upper, claimed.upper};
+  // Where the bounds of the truth leave it open the claim has the benefit of the doubt.
+  const double least = std::max({0.0, below.lower, above.lower});
+  return least > 0 ? Enclosure{least, std::max(below.upper, above.upper)} : Enclosure{};
+}
+
+Enclosure largest(Enclosure a, Enclosure b) { return b.upper > a.upper ? b : a; }
+
+}  // namespace
+
+ShareError share_error(const ClaimedPolygon& claimed, const AreaShare& lit,
+                       const AreaShare& shadow) {
+  ShareError error;
+  error.found = claimed.share.whole;
+  if (shadow.zero) error.truth = LightState::kLit;
+  if (lit.zero) error.truth = LightState::kShadow;
+  Enclosure wrong = distance(claimed.share, lit);
+  for (const auto& [own, truth] :
+       {std::pair{&claimed.lit_fraction, &lit}, {&claimed.shadow_fraction, &shadow}}) {
+    if (*own && truth->exact) {
+      wrong = largest(wrong, enclose(abs(mpq_class(**own - *truth->exact))));
+    }
+  }
+  bool zero = wrong.is_zero();
+  if (error.found != error.truth) {
+    zero = false;
+    if (error.found == LightState::kLit) wrong = largest(wrong, shadow.fraction);
+    if (error.found == LightState::kShadow) wrong = largest(wrong, lit.fraction);
+    if (!error.found) wrong = largest(wrong, {0, claimed.share.upper - claimed.share.lower});
+  }
+  if (zero) return error;
+  error.wrong.zero = false;
+  error.wrong.fraction = wrong;
+  error.wrong.area = wrong * (lit.area + shadow.area);
+  const std::string share =
+      claimed.lit_fraction ? claimed.lit_fraction->get_str()
+      : claimed.share.lower == claimed.share.upper
+          ? fmt::format("{:.17g}", claimed.share.lower)
+          : fmt::format("{:.17g} to {:.17g}", claimed.share.lower, claimed.share.upper);
+  error.text = fmt::format(
+      "found {}, share {}, truly {}, share {}", told(error.found), share, told(error.truth),
+      lit.exact ? lit.exact->get_str() : fmt::format("{:.17g}", lit.fraction.middle()));
+  return error;
+}
+
+PolygonComparison compare_shares(const ExactAnswer& answer, std::uint32_t light,
+                                 const AnswerEntry& entry, const ClaimedPolygon& candidate) {
+  const PreparedScene& prepared = answer.prepared();
+  PolygonComparison result;
+  result.polygon = answer.scene().polygons[entry.polygon].id;
+  result.side = entry.side;
+  // Shares are of all parts of the polygon: those that this side does not show the light are dark.
+  ShareSum lit, shadow;
+  for (const ReceiverGroup& group : entry.groups) {
+    const Enclosure whole = group_area(prepared, group.parts);
+    TrueFractions own;
+    if (group.faces && !group.optional) {
+      own = answer.group_fractions(light, group, candidate.lit_fraction.has_value());
+    } else {
+      own.lit.exact = 0;
+      own.shadow = {{1, 1}, whole, mpq_class(1), false};
+    }
+    lit.add(own.lit, whole);
+    shadow.add(own.shadow, whole);
+  }
+  result.lit = lit.result();
+  result.shadow = shadow.result();
+  const ShareError error = share_error(candidate, result.lit, result.shadow);
+  result.misclassified = result.judged_misclassified = error.wrong;
+  if (error.wrong.zero) return result;
+  result.regions = 1;
+  Witness witness;
+  witness.light = answer.scene().lights[prepared.lights[light].light].id;
+  witness.polygon = result.polygon;
+  witness.side = entry.side;
+  witness.kind = ErrorKind::kMisclassified;
+  witness.found = error.found;
+  witness.truth = error.truth;
+  witness.text = error.text;
+  // Where it is wrong is not told: the middle of the first part stands for the side.
+  const auto loop = prepared.loop(prepared.parts[entry.groups.front().parts.front()]);
+  const Geometry& geometry = prepared.geometry;
+  for (int k = 0; k < 3; ++k) {
+    mpz_class sum = 0;
+    for (const VertexId vertex : loop) sum += geometry.grid.at(vertex, k);
+    witness.point[k] = geometry.origin[k] + geometry.step * mpq_class(sum, loop.size());
+    witness.point[k].canonicalize();
+    witness.nearest[k] = enclose(witness.point[k]).middle();
+  }
+  result.worst.push_back({error.wrong, std::move(witness), false});
+  return result;
+}
+
+}  // namespace gnomon::oracle

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bounds of the contour method's doubles (ContourBounds, zero_between), each held against the
+// same values in rationals.
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "algorithms/contour/light_rays.h"
+#include "gnomon/scene/prepare.h"
+#include "kernel/implicit/implicit_kernel.h"
+#include "scene/base/random.h"
+
+namespace gnomon {
+namespace {
+
+using Numbers = ContourNumbers<double, Trust::kCertified>;
+using Space = ImplicitLightSpace<NoStats>;
+using Exact3 = std::array<mpq_class, 3>;
+
+mpq_class power_of_two(int exponent) {
+  mpq_class result(1);
+  if (exponent >= 0) {
+    mpq_mul_2exp(result.get_mpq_t(), result.get_mpq_t(), static_cast<unsigned>(exponent));
+  } else {
+    mpq_div_2exp(result.get_mpq_t(), result.get_mpq_t(), static_cast<unsigned>(-exponent));
+  }
+  return result;
+}
+mpq_class exact_dot(const Exact3& a, const Exact3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Exact3 exact_cross(const Exact3& a, const Exact3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Exact3 exact_difference(const Exact3& a, const Exact3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double unit(Random& random) { return static_cast<double>(random.next() >> 11) * 0x1p-53; }
+
+/// A light space in doubles, and the same in rationals.
+struct BothRays {
+  BothRays(const PreparedScene& scene, std::uint32_t light)
+      : point(scene.lights[light].point),
+        scene_space(scene.geometry, {}),
+        space(scene_space, point, {}),
+        integers(scene.geometry, point) {
+    make_light_rays(space, scene.geometry, point, 1, rays);
+    const bool from_doubles = !rays.positions.empty();
+    const int b = static_cast<int>(integers.grid_bits()), e = static_cast<int>(integers.light_bits);
+    const int q = static_cast<int>(integers.q_bits);
+    const mpq_class scale = power_of_two(from_doubles ? -(b + e) : -q);
+    for (VertexId v = 0; v < rays.rays.size(); ++v) {
+      const Vector3<mpz_class> at = integers.q<mpz_class>(v);
+      Exact3 ray{mpq_class(at[0]) * scale, mpq_class(at[1]) * scale, mpq_class(at[2]) * scale};
+      if (point.directional) ray[2] *= power_of_two(b);
+      exact.push_back(ray);
+    }
+  }
+  Exact3 exact_depth(const Geometry& geometry, PlaneId id) const {
+    const ExactPlane<mpz_class> plane = ExactGeometry<mpz_class>(geometry).plane(id);
+    const Vector3<mpz_class>& l = point.grid;
+    const int b = static_cast<int>(integers.grid_bits()), e = static_cast<int>(integers.light_bits);
+    Exact3 depth;
+    if (point.directional) {
+      const auto [x, y, z] = integers.axes;
+      const mpq_class factor =
+          power_of_two(e) * (sgn(l[z]) < 0 ? -1 : 1) / mpq_class(dot(plane.n, l));
+      return {-factor * plane.n[x], -factor * plane.n[y], factor * plane.d * power_of_two(-b)};
+    }
+    const mpq_class height = dot(plane.n, l) - plane.d;
+    for (int k = 0; k < 3; ++k) {
+      depth[k] = mpq_class(plane.n[k]) / height * power_of_two(static_cast<int>(integers.q_bits));
+    }
+    return depth;
+  }
+
+  LightPoint point;
+  Space::SceneSpace scene_space;
+  Space space;
+  LightIntegers integers;
+  LightRays<Numbers> rays;
+  std::vector<Exact3> exact;
+};
+
+/// Triangles of random corners with so many bits, and a light: a lamp or a sun of as many.
+PreparedScene random_scene(Random& random, int bits, bool sun) {
+  Scene scene;
+  const auto coordinate = [&] {
+    const auto value = static_cast<double>(random.below(std::uint64_t{1} << bits));
+    return Number(value);
+  };
+  for (int i = 0; i < 30; ++i) scene.vertices.push_back({coordinate(), coordinate(), coordinate()});
+  for (std::uint32_t i = 0; i + 2 < 30; i += 3) {
+    Polygon polygon;
+    polygon.id = std::to_string(i);
+    polygon.loop = {i, i + 1, i + 2};
+    polygon.two_sided = true;
+    scene.polygons.push_back(polygon);
+  }
+  Light light;
+  light.id = "light";
+  light.type = sun ? LightType::kDirectional : LightType::kPoint;
+  light.position = {coordinate(), coordinate(), coordinate()};
+  scene.lights.push_back(light);
+  return prepare(scene).value();
+}
+
+class ContourBoundsTest : public testing::TestWithParam<std::tuple<int, bool>> {};
+
+TEST_P(ContourBoundsTest, HoldLinesAndDepths) {
+  const auto [bits, sun] = GetParam();
+  Random random(static_cast<std::uint64_t>(bits) * 2 + (sun ? 1 : 0));
+  double closest = 0;
+  for (int round = 0; round < 20; ++round) {
+    const PreparedScene scene = random_scene(random, bits, sun);
+    const BothRays both(scene, 0);
+    const LightRays<Numbers>& rays = both.rays;
+    for (EdgeId edge = 0; edge < scene.geometry.edges.size(); ++edge) {
+      const auto [from, to] = scene.geometry.edges[edge];
+      const Exact3 line =
+          exact_cross(both.exact[from], exact_difference(both.exact[to], both.exact[from]));
+      for (VertexId v = 0; v < rays.rays.size(); ++v) {
+        const double reach = rays.reach > 0 ? rays.reach : largest(rays.rays[v]);
+        const double bound = rays.line_error[edge] * reach;
+        const mpq_class off = abs(exact_dot(line, both.exact[v]) -
+                                  mpq_class(dot_product(rays.lines[edge], rays.rays[v])));
+        ASSERT_LE(off, mpq_class(bound)) << edge << ' ' << v;
+        closest = std::max(closest, off.get_d() / bound);
+        if (rays.positions.empty()) continue;
+        double size;
+        const Vector<double> difference = rays.difference(v, from, size);
+        const mpq_class relative =
+            exact_dot(line, exact_difference(both.exact[v], both.exact[from]));
+        ASSERT_LE(abs(relative - mpq_class(dot_product(rays.lines[edge], difference))),
+                  mpq_class(rays.line_error[edge] * size));
+      }
+    }
+    for (PlaneId id = 0; id < scene.geometry.planes.size(); ++id) {
+      if (both.space.light_side(id) == Sign::kZero) continue;
+      const Exact3 depth = both.exact_depth(scene.geometry, id);
+      for (VertexId v = 0; v < rays.rays.size(); ++v) {
+        const double reach = rays.reach > 0 ? rays.reach : largest(rays.rays[v]);
+        const mpq_class off = abs(exact_dot(depth, both.exact[v]) -
+                                  mpq_class(dot_product(rays.depths[id], rays.rays[v])));
+        ASSERT_LE(off, mpq_class(rays.depth_error[id] * reach)) << id << ' ' << v;
+      }
+    }
+  }
+  // A bound that nothing comes near would say little. Of few bits all doubles are exact.
+  if (bits > 10) {
+    EXPECT_GT(closest, sun ? 0.002 : 0.01);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BitsAndLights, ContourBoundsTest,
+                         testing::Combine(testing::Values(4, 20, 40, 52), testing::Bool()));
+
+TEST(ZeroBetween, IsOffByLessThanItsError) {
+  Random random(7);
+  for (int i = 0; i < 20000; ++i) {
+    const double scale = std::ldexp(1.0, static_cast<int>(random.below(40)) - 20);
+    const double at_from = unit(random) * scale, at_to = -unit(random) * scale;
+    const double error = unit(random) * scale * 0.2;
+    const Place<Numbers> place = zero_between<Numbers>(at_from, at_to, error, PlaceName());
+    for (const double first : {-1.0, 1.0}) {
+      for (const double second : {-1.0, 1.0}) {
+        const mpq_class s = mpq_class(at_from) + mpq_class(first) * mpq_class(error);
+        const mpq_class t = mpq_class(at_to) + mpq_class(second) * mpq_class(error);
+        if (sgn(s) < 0 || sgn(t) > 0 || s == t) continue;  // not opposite: not asked for
+        ASSERT_LE(abs(s / (s - t) - mpq_class(place.t)), mpq_class(place.error)) << i;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gnomon
