@@ -14,7 +14,9 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "algorithms/contour/by_contour.h"
@@ -23,6 +25,7 @@
 #include "algorithms/contour/lanes/simd_level.h"
 #include "algorithms/contour/light_charts.h"
 #include "algorithms/contour/pair_search.h"
+#include "algorithms/contour/space_order.h"
 #include "algorithms/partition/run_task.h"
 #include "algorithms/sectors/sector_run.h"
 #include "kernel/concept/kernel_model.h"
@@ -363,8 +366,12 @@ Expected<ShadowResult> compute_by_contour_here(const RunTask& task) {
   const double start = cpu_seconds();
   const Expected<SimdLevel> level = chosen_simd_level();
   if (!level) return tl::unexpected<Error>(level.error());
-  typename Space::SceneSpace scene_space(task.scene.geometry, options.kernel.options());
-  ContourRun<Space, Numbers> run(task.scene, options, task.rules, scene_space, lanes(*level));
+  // Rounded answers would depend on the order.
+  std::optional<SpaceOrder> order;
+  if (Space::kExact && SpaceOrder::pays(task.scene)) order.emplace(task.scene);
+  const PreparedScene& scene = order ? order->scene() : task.scene;
+  typename Space::SceneSpace scene_space(scene.geometry, options.kernel.options());
+  ContourRun<Space, Numbers> run(scene, options, task.rules, scene_space, lanes(*level));
   for (std::size_t i = 0; i < lights.size(); ++i) {
     std::function<void(double)> progress;
     if (options.control.progress) {
@@ -375,7 +382,9 @@ Expected<ShadowResult> compute_by_contour_here(const RunTask& task) {
     }
     const RunOutcome outcome = run.run(lights[i], progress);
     if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
-    if (!put_light(options, run.finish(), result)) {
+    LightResult found = run.finish();
+    if (order) order->restore(found);
+    if (!put_light(options, std::move(found), result)) {
       return stopped_by(RunOutcome::kInterrupted, options);
     }
   }
