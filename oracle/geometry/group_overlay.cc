@@ -19,13 +19,39 @@ ExactPlane support_of(const PreparedScene& scene, std::uint32_t part) {
   return plane_of(grid_loop(scene, part));
 }
 
-Enclosure group_area(const PreparedScene& scene, std::span<const std::uint32_t> parts) {
-  // Area vectors of coplanar parts are parallel: their sum is the area vector of all.
+namespace {
+
+/// Area vectors of coplanar parts are parallel: their sum is the area vector of all.
+Integers3 sum_of_area_vectors(const PreparedScene& scene, std::span<const std::uint32_t> parts) {
   Integers3 sum;
   for (std::uint32_t part : parts) {
     const Integers3 own = area_vector(grid_loop(scene, part));
     for (int k = 0; k < 3; ++k) sum[k] += own[k];
   }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<Enclosure> areas_in_ratio(const PreparedScene& scene,
+                                      std::span<const std::vector<std::uint32_t>> groups) {
+  std::vector<mpz_class> squares;
+  for (const std::vector<std::uint32_t>& parts : groups) {
+    const Integers3 sum = sum_of_area_vectors(scene, parts);
+    squares.emplace_back(dot(sum, sum));
+  }
+  const mpz_class largest = *std::ranges::max_element(squares);
+  std::vector<Enclosure> areas;
+  for (const mpz_class& square : squares) {
+    mpq_class ratio(square, largest);
+    ratio.canonicalize();
+    areas.push_back(enclose_square_root(ratio));
+  }
+  return areas;
+}
+
+Enclosure group_area(const PreparedScene& scene, std::span<const std::uint32_t> parts) {
+  const Integers3 sum = sum_of_area_vectors(scene, parts);
   const mpq_class square = scene.geometry.step * scene.geometry.step;
   mpq_class value = mpq_class(dot(sum, sum)) / 4;
   value *= square * square;

@@ -21,6 +21,9 @@ std::vector<Integers3> grid_loop(const PreparedScene& scene, std::uint32_t part)
 ExactPlane support_of(const PreparedScene& scene, std::uint32_t part);
 /// Of coplanar parts, in scene units squared.
 Enclosure group_area(const PreparedScene& scene, std::span<const std::uint32_t> parts);
+/// The same of several groups in units of the largest, which doubles hold at every scale.
+std::vector<Enclosure> areas_in_ratio(const PreparedScene& scene,
+                                      std::span<const std::vector<std::uint32_t>> groups);
 /// |a| / |b| without overflow on the way.
 Enclosure enclose_ratio(const mpz_class& a, const mpz_class& b);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "oracle/geometry/group_overlay.h"
 
@@ -77,9 +78,15 @@ PolygonComparison compare_shares(const ExactAnswer& answer, std::uint32_t light,
   result.polygon = answer.scene().polygons[entry.polygon].id;
   result.side = entry.side;
   // Shares are of all parts of the polygon: those that this side does not show the light are dark.
+  std::vector<std::vector<std::uint32_t>> parts;
+  for (const ReceiverGroup& group : entry.groups) parts.push_back(group.parts);
+  const std::vector<Enclosure> weights = areas_in_ratio(prepared, parts);
   ShareSum lit, shadow;
-  for (const ReceiverGroup& group : entry.groups) {
-    const Enclosure whole = group_area(prepared, group.parts);
+  Enclosure area;  // scene units squared
+  for (std::size_t g = 0; g < entry.groups.size(); ++g) {
+    const ReceiverGroup& group = entry.groups[g];
+    const Enclosure whole = weights[g];
+    area = area + group_area(prepared, group.parts);
     TrueFractions own;
     if (group.faces && !group.optional) {
       own = answer.group_fractions(light, group, candidate.lit_fraction.has_value());
@@ -87,11 +94,15 @@ PolygonComparison compare_shares(const ExactAnswer& answer, std::uint32_t light,
       own.lit.exact = 0;
       own.shadow = {{1, 1}, whole, mpq_class(1), false};
     }
+    own.lit.area = own.lit.fraction * whole;
+    own.shadow.area = own.shadow.fraction * whole;
     lit.add(own.lit, whole);
     shadow.add(own.shadow, whole);
   }
   result.lit = lit.result();
   result.shadow = shadow.result();
+  result.lit.area = not_negative(result.lit.fraction * area);
+  result.shadow.area = not_negative(result.shadow.fraction * area);
   const ShareError error = share_error(candidate, result.lit, result.shadow);
   result.misclassified = result.judged_misclassified = error.wrong;
   if (error.wrong.zero) return result;

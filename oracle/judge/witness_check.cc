@@ -585,8 +585,12 @@ void WitnessChecker::check_share(const ClaimedPolygon& polygon, std::uint32_t in
        ++part) {
     families[prepared_.parts[part].plane].push_back(part);
   }
+  std::vector<std::vector<std::uint32_t>> groups;
+  for (const auto& [plane, parts] : families) groups.push_back(parts);
+  const std::vector<Enclosure> weights = areas_in_ratio(prepared_, groups);
   ShareSum lit, shadow;
-  for (const auto& [plane, parts] : families) {
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const std::vector<std::uint32_t>& parts = groups[g];
     std::array<mpq_class, 2> areas;  // lit, dark
     for (const std::uint32_t part : parts) {
       const Solid& solid = light_->solid(part);
@@ -600,7 +604,7 @@ void WitnessChecker::check_share(const ClaimedPolygon& polygon, std::uint32_t in
       areas[1] += (1 - share) * whole;
     }
     const mpq_class sum = areas[0] + areas[1];
-    const Enclosure whole = group_area(prepared_, parts);
+    const Enclosure whole = weights[g];
     const auto add = [&](ShareSum& total, const mpq_class& area) {
       const mpq_class share = area / sum;
       total.add({enclose(share), enclose(share) * whole, share, area == 0}, whole);
