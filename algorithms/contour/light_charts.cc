@@ -26,6 +26,25 @@ void keep_front(std::vector<Direction>& loop, std::vector<Direction>& work, cons
   loop.swap(work);
 }
 
+/// Perpendicular to a loop; of the corners that make it longest.
+Direction normal_of(std::span<const Direction> corners) {
+  Direction best{0, 0, 0};
+  double longest = 0;
+  const auto difference = [](const Direction& a, const Direction& b) {
+    return Direction{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  };
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    const Direction normal =
+        cross_product(difference(corners[i - 1], corners[0]), difference(corners[i], corners[0]));
+    const double size = dot_product(normal, normal);
+    if (size > longest) {
+      longest = size;
+      best = normal;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 void BoxArrays::push(const std::array<double, 4>& box, std::uint32_t owner) {
@@ -45,7 +64,14 @@ void LightCharts::add_to_faces(std::span<const Direction> corners, std::uint32_t
   for (const Direction& r : corners) {
     most = std::max({most, std::fabs(r[0]), std::fabs(r[1]), std::fabs(r[2])});
   }
-  const bool known = most > 0 && most < std::numeric_limits<double>::infinity();
+  // Of a polygon whose plane the lamp is nearly in, roundings may be as far as the lamp; all other
+  // points of a polygon are much farther from it than roundings are.
+  constexpr double kLeastDistance = 0x1p-30;
+  const Direction normal = normal_of(corners);
+  const double distance = std::fabs(dot_product(normal, corners[0]));
+  const double length = std::sqrt(dot_product(normal, normal));
+  const bool known =
+      most < std::numeric_limits<double>::infinity() && distance > kLeastDistance * most * length;
   for (int face = 0; face < 6; ++face) {
     const int w = face / 2, u = (w + 1) % 3, v = (w + 2) % 3;
     const double sign = face % 2 == 0 ? 1 : -1;

@@ -203,6 +203,13 @@ Expected<void> write_result(const ShadowsOptions& options, const LoadedScene& lo
   return done;
 }
 
+/// Whether `auto` may take the method that makes no fragments: as compute_shadows() does.
+bool asks_for_shares_alone(const ShadowsOptions& options, const KernelChoice& kernel) {
+  return options.algorithm == kAutomaticName && kernel_info(kernel.kernel).exact &&
+         !options.fragments && !options.exact_loops && !options.exact_fractions &&
+         !options.combined && !options.deep_umbra && !options.illuminate.illuminate;
+}
+
 int run_shadows(const ShadowsOptions& options) {
   auto kernel = parse_kernel_choice(options.kernel);
   if (!kernel) return report_error(kernel.error());
@@ -214,6 +221,9 @@ int run_shadows(const ShadowsOptions& options) {
                           {"--no-merge", options.no_merge, &Method::leaves_out_steps},
                           {"--no-prefix", options.no_prefix, &Method::leaves_out_steps}});
   if (!algorithm) return report_error(algorithm.error());
+  if (asks_for_shares_alone(options, *kernel) && algorithm->point == MethodId::kSectors) {
+    algorithm->point = MethodId::kContour;
+  }
   if (options.pieces) {
     if (algorithm->point == MethodId::kReceiver) {
       return report_usage("--pieces needs merged, not receiver", "--algorithm merged, or auto");

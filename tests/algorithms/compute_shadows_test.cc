@@ -69,7 +69,7 @@ TEST(ComputeShadows, TakesLightsOfEveryKindAndRefusesThoseThatAreNot) {
     ASSERT_EQ(result->lights[i].parts.size(), 1u);
     EXPECT_EQ(result->lights[i].area_fractions.size(), i);
   }
-  EXPECT_EQ(result->algorithm, "sectors+receiver");
+  EXPECT_EQ(result->algorithm, "contour+receiver");
   options.lights = {1, 0};
   const Expected<ShadowResult> turned = compute_shadows(both->prepared(), options);
   ASSERT_TRUE(turned);
@@ -107,8 +107,19 @@ TEST(ComputeShadows, ReportsProgressThatGrows) {
   }
 }
 
-TEST(ComputeShadows, AlgorithmIsSectorsUnlessOnlySvbspCan) {
+TEST(ComputeShadows, AlgorithmIsContourForSharesElseSectorsUnlessOnlySvbspCan) {
   const auto scene = box_on_floor();
+  ShadowOptions asked;
+  const auto chosen = [&] { return compute_shadows(scene->prepared(), asked)->algorithm; };
+  EXPECT_EQ(chosen(), "contour");
+  asked.output.points = true;
+  EXPECT_EQ(chosen(), "sectors");
+  asked.output = {};
+  asked.output.exact_fractions = true;
+  EXPECT_EQ(chosen(), "sectors");
+  asked.output = {};
+  asked.kernel.id = KernelId::kDouble;  // rounded: no bound would tell what is wrong
+  EXPECT_EQ(chosen(), "sectors");
   const auto algorithm_of = [&](MethodId algorithm, bool combined) {
     ShadowOptions options;
     options.method.point = algorithm;
@@ -117,7 +128,6 @@ TEST(ComputeShadows, AlgorithmIsSectorsUnlessOnlySvbspCan) {
     EXPECT_TRUE(result);
     return result ? result->algorithm : "";
   };
-  EXPECT_EQ(algorithm_of(MethodId::kAutomatic, false), "sectors");
   EXPECT_EQ(algorithm_of(MethodId::kAutomatic, true), "svbsp");
   EXPECT_EQ(algorithm_of(MethodId::kSectors, false), "sectors");
   EXPECT_EQ(algorithm_of(MethodId::kSvbsp, false), "svbsp");

@@ -113,6 +113,7 @@ TEST(PipelineLimits, TooManyFragmentsIsAnError) {
   const auto prepared = prepare(*scene);
   ASSERT_TRUE(prepared);
   ShadowOptions options;
+  options.method.point = MethodId::kSectors;
   options.limits.fragments = 50;
   const auto result = compute_shadows(*prepared, options);
   ASSERT_FALSE(result);
