@@ -100,7 +100,7 @@ class ContourRun {
   void set_classes();
   void set_class(std::uint32_t i);
   RunOutcome find_open_ones(Space space, const std::function<void(double)>& progress);
-  bool is_open(const Sum& sum) const;
+  bool is_open(std::uint32_t i) const;
 
   const PreparedScene& scene_;
   const ShadowOptions& options_;
@@ -231,11 +231,15 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
 
 /// Whether the bounds leave open a polygon's class or much of its share.
 template <SectorSpaceModel Space, class Numbers>
-bool ContourRun<Space, Numbers>::is_open(const Sum& sum) const {
+bool ContourRun<Space, Numbers>::is_open(std::uint32_t i) const {
   if constexpr (!Numbers::kCertified) {
     return false;
   } else {
+    // Bounds add up: a polygon among thousands may be known a little less well.
     constexpr auto kWidest = static_cast<std::uint64_t>(PartMeasure<Space>::kWidest * 0x1p60);
+    constexpr std::uint64_t kMany = 1024;
+    const Sum& sum = sums_[i];
+    const std::uint64_t widest = kWidest * (1 + pairs_.neighbours(i).size() / kMany);
     if (sum.flags & kContourOpen) return true;
     const bool lit = sum.flags & kHoldsLit, shadow = sum.flags & kHoldsShadow;
     if (!lit && (sum.flags & kPerhapsLit)) return true;
@@ -244,7 +248,7 @@ bool ContourRun<Space, Numbers>::is_open(const Sum& sum) const {
     // No sum of a proof is outside of [0, 1]; one that is would be a fault of ours.
     const auto value = static_cast<std::int64_t>(sum.units),
                error = static_cast<std::int64_t>(sum.error);
-    return sum.error > kWidest || value < -error || value > (std::int64_t{1} << Sum::kBits) + error;
+    return sum.error > widest || value < -error || value > (std::int64_t{1} << Sum::kBits) + error;
   }
 }
 
@@ -316,7 +320,7 @@ RunOutcome ContourRun<Space, Numbers>::find_open_ones(Space space,
     std::vector<std::uint8_t> takes_part(polygons_.size());  // 1: casts; 2: receives
     bool some = false;
     for (std::uint32_t i = 0; i < polygons_.size(); ++i) {
-      if (!is_open(sums_[i])) continue;
+      if (!is_open(i)) continue;
       some = true;
       takes_part[i] |= 2;
       for (const std::uint32_t j : pairs_.neighbours(i)) {
