@@ -14,6 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -82,11 +83,22 @@ class ContourRun {
  private:
   static constexpr std::uint32_t kGrain = 4096;  // polygons of one thread, where little is done
 
+  /// The part of the progress that is told when all polygons have been walked along.
+  static constexpr double kShareOfWalk = 0.9;
+
   /// What one thread works with.
   struct Worker {
+    Worker(const ContourRun& run, const Sides& from, std::uint32_t count)
+        : sides(from.fork()),
+          sums(count),
+          walk(run.rays_, run.polygons_, run.measure_, run.charts_.depths(), run.rules_, sides,
+               run.lanes_, sums) {}
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+
     Sides sides;
     std::vector<Sum> sums;
-    std::uint64_t intervals = 0, segments = 0;
+    ContourWalk<Numbers, Sides> walk;
   };
 
   double thickness() const {
@@ -96,6 +108,8 @@ class ContourRun {
       return 0;
     }
   }
+  bool find_pairs(const Space& space, const LightPoint& point);
+  RunOutcome walk_all(const Sides& sides, const std::function<void(double)>& progress);
   void measure(std::uint32_t begin, std::uint32_t end);
   void set_classes();
   void set_class(std::uint32_t i);
@@ -167,6 +181,18 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   result_.light = light;
   result_.facing_parts = facing_->parts.size();
   result_.facing_edges = facing_->edges;
+  if (!find_pairs(space, point)) return RunOutcome::kTooManyFragments;
+  Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
+  if (const RunOutcome outcome = walk_all(sides, progress); outcome != RunOutcome::kDone) {
+    return outcome;
+  }
+  set_classes();
+  return find_open_ones(std::move(sides.space()), progress);
+}
+
+// Lays the polygons out in the numbers of a light, and finds their neighbours.
+template <SectorSpaceModel Space, class Numbers>
+bool ContourRun<Space, Numbers>::find_pairs(const Space& space, const LightPoint& point) {
   if constexpr (Numbers::kCertified) {
     make_light_rays(space, scene_.geometry, point, jobs_, rays_);
   } else {
@@ -184,14 +210,19 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   charts_.find(polygons_, rays_, jobs_);
   casts_.resize(count);
   for (std::uint32_t i = 0; i < count; ++i) casts_[i] = polygons_.polygons[i].casts;
-  if (!pairs_.run(charts_.charts(), count, {.casts = casts_, .jobs = jobs_})) {
-    return RunOutcome::kTooManyFragments;
-  }
-  Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
+  return pairs_.run(charts_.charts(), count, {.casts = casts_, .jobs = jobs_});
+}
+
+template <SectorSpaceModel Space, class Numbers>
+RunOutcome ContourRun<Space, Numbers>::walk_all(const Sides& sides,
+                                                const std::function<void(double)>& progress) {
+  constexpr std::uint32_t kChunk = 64, kChunkOfOne = 4096;  // of several threads, of one
+  const std::uint32_t count = polygons_.size();
   tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers;
   std::atomic<bool> no_ieee = false, stopped = false;
-  std::atomic<std::uint32_t> done = 0;
-  in_parallel(jobs_, count, 64, [&](std::uint32_t begin, std::uint32_t end) {
+  std::mutex progress_mutex;
+  std::uint32_t done = 0;
+  const auto walk_range = [&](std::uint32_t begin, std::uint32_t end) {
     if (stopped.load(std::memory_order_relaxed)) return;
     std::unique_ptr<Worker>& worker = workers.local();
     if (!worker) {
@@ -199,34 +230,39 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
         no_ieee = stopped = true;
         return;
       }
-      worker = std::make_unique<Worker>(Worker{sides.fork(), std::vector<Sum>(count)});
+      worker = std::make_unique<Worker>(*this, sides, count);
     }
-    ContourWalk<Numbers, Sides> walk(rays_, polygons_, measure_, charts_.depths(), rules_,
-                                     worker->sides, lanes_, worker->sums);
     for (std::uint32_t i = begin; i < end; ++i) {
       const std::atomic<bool>* interrupted = options_.control.interrupted;
       if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) {
         stopped = true;
         return;
       }
-      walk.walk(i, pairs_.neighbours(i));
+      worker->walk.walk(i, pairs_.neighbours(i));
     }
-    worker->intervals += walk.intervals();
-    worker->segments += walk.segments();
+    if (!progress) return;
+    const std::lock_guard lock(progress_mutex);
     done += end - begin;
-    if (progress) progress(0.9 * done / count);
-  });
+    progress(kShareOfWalk * done / count);
+  };
+  if (jobs_ == 1) {
+    for (std::uint32_t i = 0; i < count; i += kChunkOfOne) {
+      walk_range(i, std::min(count, i + kChunkOfOne));
+    }
+  } else {
+    in_parallel(jobs_, count, kChunk, walk_range);
+  }
   if (stopped) return no_ieee ? RunOutcome::kNoIeee : RunOutcome::kInterrupted;
   for (const std::unique_ptr<Worker>& worker : workers) {
     in_parallel(jobs_, count, kGrain, [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t i = begin; i < end; ++i) sums_[i] += worker->sums[i];
     });
     stages_ += worker->sides.space().stage_counts();
-    result_.work[Counter::kIntervals] += worker->intervals;
-    result_.work[Counter::kSegments] += worker->segments;
+    if (options_.output.stage_counts) stages_.filter += worker->walk.filtered();
+    result_.work[Counter::kIntervals] += worker->walk.intervals();
+    result_.work[Counter::kSegments] += worker->walk.segments();
   }
-  set_classes();
-  return find_open_ones(sides.space().fork(), progress);
+  return RunOutcome::kDone;
 }
 
 /// Whether the bounds leave open a polygon's class or much of its share.

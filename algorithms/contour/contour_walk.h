@@ -75,6 +75,8 @@ class ContourWalk {
 
   std::uint64_t intervals() const { return intervals_; }
   std::uint64_t segments() const { return segments_; }
+  /// Decisions that numbers made; the kernel counts its own.
+  std::uint64_t filtered() const { return survey_.filtered(); }
 
  private:
   using PlaceOnEdge = Place<Numbers>;

@@ -148,6 +148,8 @@ class EdgeSurvey {
   BlockSigns block_signs(std::uint32_t p, std::uint32_t q) requires(kInBlocks);
   /// Where the line goes whose signs of four corners are in a block, of a polygon of n corners.
   LineThrough through_block(std::uint32_t q, unsigned left, unsigned right) const;
+  /// Decisions that the numbers made, without the kernel; those of find_nearer() are not counted.
+  std::uint64_t filtered() const { return filtered_; }
   /// Whether, by find_signs(), no corner is inside of edge k's line.
   bool is_outside(std::uint32_t k) const { return sets_[k].left == 0; }
   /// False if all corners are on one side of edge k's line, by find_signs().
@@ -210,6 +212,7 @@ class EdgeSurvey {
   const FacingPolygons<Numbers>* polygons_;
   Sides* sides_;
   const Lanes* lanes_;
+  std::uint64_t filtered_ = 0;
   std::vector<CornerSet> sets_;     // of each edge of a polygon: the corners of another
   std::vector<std::int8_t> signs_;  // of the corners of a polygon against a line
 };
@@ -221,9 +224,11 @@ int EdgeSurvey<Numbers, Sides>::side(std::uint32_t p, std::uint32_t k, std::uint
     const FacingPolygon& own = polygons_->polygons[p];
     value = dot_product(polygons_->line(own, k), polygons_->corner(polygons_->polygons[q], j));
     const double bound = polygons_->error_of_line(own, k) * polygons_->reach[q];
+    ++filtered_;
     if (value > bound) return 1;
     if (value < -bound) return -1;
     if constexpr (!Numbers::kCertified) return 0;
+    --filtered_;
   }
   return undecided_side(p, k, q, j);
 }
@@ -298,6 +303,7 @@ BlockSigns EdgeSurvey<Numbers, Sides>::block_signs(std::uint32_t p,
   const unsigned valid = valid_signs(own.count, other.count);
   signs.positive = static_cast<std::uint16_t>(signs.positive & valid);
   signs.negative = static_cast<std::uint16_t>(signs.negative & valid);
+  filtered_ += static_cast<unsigned>(std::popcount(unsigned{signs.positive} | signs.negative));
   if constexpr (Numbers::kCertified) {
     for (unsigned open = valid & ~(signs.positive | signs.negative); open != 0; open &= open - 1) {
       const auto bit = static_cast<std::uint32_t>(std::countr_zero(open));
@@ -335,6 +341,7 @@ bool EdgeSurvey<Numbers, Sides>::find_signs(std::uint32_t p, std::uint32_t q) {
     const auto settle = [&](std::uint32_t k, CornerSet set) {
       set.left &= all;
       set.right &= all;
+      filtered_ += static_cast<unsigned>(std::popcount(set.left | set.right));
       if constexpr (Numbers::kCertified) {
         for (std::uint64_t open = all & ~(set.left | set.right); open != 0; open &= open - 1) {
           find_sign(p, k, q, static_cast<std::uint32_t>(std::countr_zero(open)), set);
@@ -456,9 +463,11 @@ bool EdgeSurvey<Numbers, Sides>::interval(std::uint32_t p, std::uint32_t k, std:
   const double reach = polygons_->reach[p];
   const auto sign = [&](std::uint32_t edge, const T& value, double bound, std::uint32_t j) {
     if constexpr (!Numbers::kAsksKernel) {
+      ++filtered_;
       if (value > bound) return 1;
       if (value < -bound) return -1;
       if constexpr (!Numbers::kCertified) return 0;
+      --filtered_;
     }
     return undecided_side(q, edge, p, j);
   };
@@ -543,9 +552,11 @@ int EdgeSurvey<Numbers, Sides>::nearer(std::uint32_t q, std::uint32_t p, std::ui
   } else {
     const T difference = (light_->directional ? depth(p, p, j) : T(1)) - depth_of_other;
     const double bound = Numbers::kCertified ? depth_over_error(p, q) : light_->depth_error[other];
+    ++filtered_;
     if (difference > bound) return 1;
     if (difference < -bound) return -1;
     if constexpr (!Numbers::kCertified) return 0;
+    --filtered_;
     return undecided_nearer(q, p, j);
   }
 }

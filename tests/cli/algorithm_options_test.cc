@@ -108,8 +108,12 @@ TEST_F(AlgorithmOptions, WhatCannotBeIsRefusedInOneLine) {
 }
 
 TEST_F(AlgorithmOptions, TheResultSaysWhichAlgorithmRan) {
-  EXPECT_EQ(algorithm_of(result({})), "sectors");
-  EXPECT_EQ(algorithm_of(result({"--algorithm", "auto"})), "sectors");
+  EXPECT_EQ(algorithm_of(result({})), "contour");
+  EXPECT_EQ(algorithm_of(result({"--algorithm", "auto"})), "contour");
+  // Where more than nearest shares is asked for, or a kernel rounds, it is sectors.
+  EXPECT_EQ(algorithm_of(result({"--fragments"})), "sectors");
+  EXPECT_EQ(algorithm_of(result({"--exact-fractions"})), "sectors");
+  EXPECT_EQ(algorithm_of(result({"--kernel", "double"})), "sectors");
   EXPECT_EQ(algorithm_of(result({"--algorithm", "sectors"})), "sectors");
   EXPECT_EQ(algorithm_of(result({"--algorithm", "svbsp"})), "svbsp");
   // Where only svbsp can do it, auto is that.
@@ -211,7 +215,11 @@ TEST_F(AlgorithmOptions, ExplainingTakesTheAlgorithmThatIsExplained) {
 }
 
 TEST_F(AlgorithmOptions, StatisticsNameThePhases) {
-  const RunResult sectors = run("shadows", {"--stats"});
+  const RunResult contour = run("shadows", {"--stats"});
+  EXPECT_THAT(contour.err, AllOf(HasSubstr("algorithm contour"), HasSubstr("intervals"),
+                                 HasSubstr("by the filter 9"), HasSubstr("preparation")));
+  EXPECT_EQ(contour.out, result({}));
+  const RunResult sectors = run("shadows", {"--stats", "--algorithm", "sectors"});
   EXPECT_EQ(sectors.status, 0);
   EXPECT_THAT(sectors.err,
               AllOf(HasSubstr("algorithm sectors"), HasSubstr("cells"), HasSubstr("by the filter"),
@@ -221,7 +229,7 @@ TEST_F(AlgorithmOptions, StatisticsNameThePhases) {
   EXPECT_THAT(svbsp.err, AllOf(HasSubstr("algorithm svbsp"), HasSubstr("tree nodes"),
                                HasSubstr("scene BSP: "), HasSubstr("of these scene BSP")));
   // Counting changes no answer.
-  EXPECT_EQ(sectors.out, result({}));
+  EXPECT_EQ(sectors.out, result({"--algorithm", "sectors"}));
 }
 
 TEST_F(AlgorithmOptions, AnInterruptStopsAllThreads) {

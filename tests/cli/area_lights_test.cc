@@ -156,7 +156,7 @@ TEST(AreaLights, AlgorithmsAndWhatTheyAreRefusedFor) {
   EXPECT_EQ(algorithm({}), "receiver");
   EXPECT_EQ(algorithm({"--algorithm", "sectors"}), "receiver");
   EXPECT_EQ(algorithm({"--algorithm", "receiver"}), "receiver");
-  EXPECT_EQ(algorithm({"--point=1,2,90"}), "sectors+receiver");
+  EXPECT_EQ(algorithm({"--point=1,2,90"}), "contour+receiver");
   EXPECT_EQ(algorithm({"--point=1,2,90", "--algorithm", "svbsp"}), "svbsp+receiver");
   EXPECT_EQ(algorithm({"--point=1,2,90", "--algorithm", "receiver"}), "receiver");
   expect_refused({"shadows", scene, "--algorithm", "magic"}, {"receiver", "merged"});
