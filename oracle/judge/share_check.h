@@ -14,7 +14,7 @@
 namespace gnomon::oracle {
 
 struct ShareError {
-  AreaShare wrong;  // by how much; zero if nothing is
+  AreaShare wrong;                         // by how much; zero if nothing is
   std::optional<LightState> found, truth;  // none: both classes
   std::string text;                        // one sentence; empty if nothing is wrong
 };

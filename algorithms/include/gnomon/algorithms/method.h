@@ -17,7 +17,8 @@
 namespace gnomon {
 
 enum class MethodId : std::uint8_t {
-  // Of area lights receiver; of others svbsp where lights are combined, contour where an exact kernel
+  // Of area lights receiver; of others svbsp where lights are combined, contour where an exact
+  // kernel
   // is asked for classes and nearest shares alone, else sectors.
   kAutomatic,
   kSectors,
