@@ -132,7 +132,9 @@ void FacingPolygons<Numbers>::fill(const LightRays<Numbers>& light, std::uint32_
                                    std::uint32_t end) {
   for (std::uint32_t i = begin; i < end; ++i) {
     const FacingPolygon& p = polygons[i];
-    double most = 0;
+    // Bounds of at least 2^-960: what underflows is off by 2^-1074 for each operation.
+    constexpr double kLeastError = 0x1p-900, kLeastReach = 0x1p-60;
+    double most = kLeastReach;
     for (std::uint32_t k = 0; k < 4 * p.blocks(); ++k) {
       // The last block is filled up with corner 0, which changes no sign of the polygon.
       const std::uint32_t from = p.first + (k < p.count ? k : 0);
@@ -145,7 +147,8 @@ void FacingPolygons<Numbers>::fill(const LightRays<Numbers>& light, std::uint32_
         for (T& x : line) x = T(-x);
       }
       lines[p.block + k / 4].set(k % 4, line);
-      line_error[4 * std::size_t{p.block} + k] = light.line_error[edge.index()];
+      line_error[4 * std::size_t{p.block} + k] =
+          light.line_error[edge.index()] + (Numbers::kCertified ? kLeastError : 0);
     }
     reach[i] = !Numbers::kCertified ? 1 : light.reach > 0 ? light.reach : most;
   }

@@ -117,7 +117,9 @@ Place<Numbers> zero_between(const typename Numbers::T& at_from, const typename N
   place.name = name;
   if constexpr (Numbers::kCertified) {
     const double size = gap < 0 ? -gap : gap;
-    if (size > 8 * error) {
+    // What has underflowed says nothing, whatever its bound.
+    constexpr double kLeast = 0x1p-900;
+    if (size > 8 * error && size > kLeast) {
       place.error = 1.7 * error / size + 4 * Ball::kUnit;
     } else {
       place.t = 0.5;
