@@ -7,12 +7,11 @@
 // greatest caster. What is seen on one side only gets the boundary integral of the line there,
 // once. Taken edge by edge of a polygon O, with its inner and outer side:
 //  own     O gets the integral where no caster has a greater key on the inner side;
-//  acting  there, if O casts, it is taken from every polygon that covers both sides, lies below O
-//  on
-//          the inner side, and is seen on the outer one: those of the plane of the first caster
-//          behind, and those before it that cast none. Of several casters of one plane with an edge
-//          on this line and the same inner side the one of the smallest number acts; none does
-//          where a caster of O's plane goes on across the line.
+//  acting  there, if O casts, it is taken from every polygon that covers both sides, lies below
+//          O on the inner side, and is seen on the outer one: those of the plane of the first
+//          caster behind, and those before it that cast none. Of several casters of one plane with
+//          an edge on this line and the same inner side the one of the smallest number acts; none
+//          does where a caster of O's plane goes on across the line.
 //  crease  where another caster B passes through O, O gets the integral of the line in which they
 //          meet, where it is not hidden on the side on which it is nearer than B.
 //

@@ -131,28 +131,29 @@ Place<Numbers> zero_between(const typename Numbers::T& at_from, const typename N
   return place;
 }
 
-/// The earlier of two places; where they cannot be told apart, one that is off by as much as both.
+/// One of two places, off by as much as both where the bounds do not tell them apart.
 template <class Numbers>
-Place<Numbers> earlier_of(const Place<Numbers>& p, const Place<Numbers>& q) {
-  Place<Numbers> result = q.t < p.t ? q : p;
+Place<Numbers> chosen_of(const Place<Numbers>& chosen, const Place<Numbers>& other) {
+  Place<Numbers> result = chosen;
   if constexpr (Numbers::kCertified) {
-    if (!certainly_before(p, q) && !certainly_before(q, p) && !(p.name == q.name)) {
-      result.error = p.error + q.error + (q.t < p.t ? p.t - q.t : q.t - p.t);
+    if (!certainly_before(chosen, other) && !certainly_before(other, chosen) &&
+        !(chosen.name == other.name)) {
+      result.error = chosen.error + other.error +
+                     (other.t < chosen.t ? chosen.t - other.t : other.t - chosen.t);
       result.name = {};
     }
   }
   return result;
 }
+/// The earlier and the later of two places; where they cannot be told apart, one that is off by as
+/// much as both.
+template <class Numbers>
+Place<Numbers> earlier_of(const Place<Numbers>& p, const Place<Numbers>& q) {
+  return q.t < p.t ? chosen_of(q, p) : chosen_of(p, q);
+}
 template <class Numbers>
 Place<Numbers> later_of(const Place<Numbers>& p, const Place<Numbers>& q) {
-  Place<Numbers> result = q.t > p.t ? q : p;
-  if constexpr (Numbers::kCertified) {
-    if (!certainly_before(p, q) && !certainly_before(q, p) && !(p.name == q.name)) {
-      result.error = p.error + q.error + (q.t < p.t ? p.t - q.t : q.t - p.t);
-      result.name = {};
-    }
-  }
-  return result;
+  return q.t > p.t ? chosen_of(q, p) : chosen_of(p, q);
 }
 
 /// Makes a stretch of what may have no length: false if it certainly has none. Where that is open,
