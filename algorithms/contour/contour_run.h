@@ -71,7 +71,8 @@ class ContourRun {
         run_options_(run_options_of(options)),
         rules_(rules),
         scene_space_(scene_space),
-        jobs_(Space::kParallel && options.tuning.jobs != 1 ? options.tuning.jobs : 1),
+        // Rounded sums would depend on which thread adds what.
+        jobs_(Space::kParallel && Numbers::kTrust != Trust::kRounded ? options.tuning.jobs : 1),
         lanes_(lanes),
         pairs_(lanes) {}
 
