@@ -8,45 +8,6 @@
 
 namespace gnomon {
 
-// Leaves of each segment of `base` what no stretch covers. Sorts `covers`. Where a stretch begins
-// and the one before ends, and neither the numbers nor the names tell that nothing is between,
-// there is a segment that is not sure.
-template <class Numbers, class Sides>
-void ContourWalk<Numbers, Sides>::uncovered(std::span<const Segment<Numbers>> base,
-                                            std::vector<Stretch<Numbers>>& covers,
-                                            std::vector<Segment<Numbers>>& result) {
-  if (covers.size() > 1) {
-    std::sort(covers.begin(), covers.end(), [](const auto& a, const auto& b) {
-      return a.low.t != b.low.t ? a.low.t < b.low.t : b.high.t < a.high.t;
-    });
-  }
-  result.clear();
-  for (const Segment<Numbers>& segment : base) {
-    PlaceOnEdge at = segment.low;
-    const auto leave = [&](const PlaceOnEdge& end) {
-      if (at.t < end.t) {
-        result.push_back({at, end, segment.sure && certainly_before(at, end)});
-      } else if (!certainly_no_gap(at, end)) {
-        PlaceOnEdge low = at, high = end;
-        low.error = high.error = at.error + end.error;
-        high.t = low.t;
-        result.push_back({low, high, false});
-      }
-    };
-    for (const Stretch<Numbers>& cover : covers) {
-      if (!(cover.low.t < segment.high.t) && certainly_no_gap(cover.low, segment.high)) break;
-      if (cover.high.t < at.t && certainly_before(cover.high, at)) continue;
-      if (certainly_no_gap(at, cover.low)) {
-        if (at.t < cover.high.t) at = cover.high;
-        continue;
-      }
-      leave(earlier_of(cover.low, segment.high));
-      at = later_of(at, cover.high);
-    }
-    leave(segment.high);
-  }
-}
-
 template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::walk_edge(std::uint32_t k) {
   EdgeLists<Numbers>& lists = lists_[k];
@@ -58,7 +19,7 @@ void ContourWalk<Numbers, Sides>::walk_edge(std::uint32_t k) {
   if (lists.hidden.empty()) {
     seen_.assign(1, whole);
   } else {
-    uncovered({&whole, 1}, lists.hidden, seen_);
+    uncovered<Numbers>({&whole, 1}, lists.hidden, seen_);
   }
   for (const Segment<Numbers>& segment : seen_) add_own(k, segment);
   if (!casts(p_) || seen_.empty()) return;
@@ -76,7 +37,7 @@ void ContourWalk<Numbers, Sides>::walk_edge(std::uint32_t k) {
     for (const Behind<Numbers>& other : lists.level) {
       if (casts(other.polygon)) covers_.push_back({other.low, other.high});
     }
-    uncovered(seen_, covers_, free_);
+    uncovered<Numbers>(seen_, covers_, free_);
     free = free_;
   }
   if (free.empty()) return;
@@ -110,7 +71,7 @@ void ContourWalk<Numbers, Sides>::act_level(std::uint32_t k, const Behind<Number
   }
   const Segment<Numbers> whole{receiver.low, receiver.high,
                                certainly_before(receiver.low, receiver.high)};
-  uncovered({&whole, 1}, covers_, free_);
+  uncovered<Numbers>({&whole, 1}, covers_, free_);
   for (const Segment<Numbers>& segment : free_) {
     if (segment.sure) {
       take_from(k, receiver, segment.low, segment.high);

@@ -91,7 +91,7 @@ void ContourWalk<Numbers, Sides>::crease(std::uint32_t q) {
     }
   }
   const Segment<Numbers> whole{inside.low, inside.high, certainly_before(inside.low, inside.high)};
-  uncovered({&whole, 1}, covers_, free_);
+  uncovered<Numbers>({&whole, 1}, covers_, free_);
   const T rate = T(dot_product(crease.line, polygons_->corner(polygons_->polygons[p_], 0)) *
                    measure_->scale[p_]);
   for (const Segment<Numbers>& segment : free_) {

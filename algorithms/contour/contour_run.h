@@ -22,6 +22,7 @@
 
 #include "algorithms/contour/by_contour.h"
 #include "algorithms/contour/contour_walk.h"
+#include "algorithms/contour/dark_polygons.h"
 #include "algorithms/contour/in_parallel.h"
 #include "algorithms/contour/lanes/simd_level.h"
 #include "algorithms/contour/light_charts.h"
@@ -83,6 +84,10 @@ class ContourRun {
 
  private:
   static constexpr std::uint32_t kGrain = 4096;  // polygons of one thread, where little is done
+  // Looking for dark polygons pays where at least one of six is: a proof takes a sixth of what
+  // walking along a dark one and meeting it costs.
+  static constexpr std::uint32_t kFewestToSample = 512, kLeastNeighbours = 10, kLeastShare = 6;
+  static constexpr std::uint32_t kSampleStride = 29;  // prime, as few patterns of files are
 
   /// The part of the progress that is told when all polygons have been walked along.
   static constexpr double kShareOfWalk = 0.9;
@@ -92,8 +97,8 @@ class ContourRun {
     Worker(const ContourRun& run, const Sides& from, std::uint32_t count)
         : sides(from.fork()),
           sums(count),
-          walk(run.rays_, run.polygons_, run.measure_, run.charts_.depths(), run.rules_, sides,
-               run.lanes_, sums) {}
+          walk(run.rays_, run.polygons_, run.measure_, run.charts_.depths(), run.dark_, run.rules_,
+               sides, run.lanes_, sums) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
@@ -110,6 +115,8 @@ class ContourRun {
     }
   }
   bool find_pairs(const Space& space, const LightPoint& point);
+  void find_dark(const Sides& sides);
+  std::uint32_t prove_dark(const Sides& sides, std::uint32_t stride);
   RunOutcome walk_all(const Sides& sides, const std::function<void(double)>& progress);
   void measure(std::uint32_t begin, std::uint32_t end);
   void set_classes();
@@ -132,6 +139,8 @@ class ContourRun {
   const Lanes& lanes_;
   PairSearch pairs_;
   std::vector<std::uint8_t> casts_;  // of each polygon
+  DarkScene dark_scene_;
+  std::vector<std::uint8_t> dark_;  // of each polygon: 1 if it is known to be
   StageCounts stages_;
   LightResult result_;
 };
@@ -184,6 +193,7 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   result_.facing_edges = facing_->edges;
   if (!find_pairs(space, point)) return RunOutcome::kTooManyFragments;
   Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
+  find_dark(sides);
   if (const RunOutcome outcome = walk_all(sides, progress); outcome != RunOutcome::kDone) {
     return outcome;
   }
@@ -199,7 +209,7 @@ bool ContourRun<Space, Numbers>::find_pairs(const Space& space, const LightPoint
   } else {
     make_light_rays(scene_.geometry, point, thickness(), rays_);
   }
-  polygons_.lay_out(scene_, *facing_);
+  polygons_.lay_out(scene_, *facing_, jobs_);
   const std::uint32_t count = polygons_.size();
   sums_.assign(count, {});
   measure_.scale.resize(count);
@@ -212,6 +222,48 @@ bool ContourRun<Space, Numbers>::find_pairs(const Space& space, const LightPoint
   casts_.resize(count);
   for (std::uint32_t i = 0; i < count; ++i) casts_[i] = polygons_.polygons[i].casts;
   return pairs_.run(charts_.charts(), count, {.casts = casts_, .jobs = jobs_});
+}
+
+// Which polygons are dark, before anything is walked along. In a large scene first a sample is
+// looked at, and the others only where enough of it is dark: the same for every number of threads.
+template <SectorSpaceModel Space, class Numbers>
+void ContourRun<Space, Numbers>::find_dark(const Sides& sides) {
+  const std::uint32_t count = polygons_.size();
+  dark_.assign(count, 0);
+  if constexpr (Numbers::kCertified) {
+    if (!charts_.is_one()) return;
+    const bool is_large = count >= kFewestToSample;
+    if (is_large && pairs_.neighbours().size() < kLeastNeighbours * count) return;
+    dark_scene_.make(polygons_, charts_, scene_.geometry.edges.size(), jobs_);
+    std::uint64_t& found = result_.work[Counter::kDarkPolygons];
+    if (is_large) {
+      found = prove_dark(sides, kSampleStride);
+      if (found * kSampleStride * kLeastShare < count) return;
+    }
+    found = prove_dark(sides, 1);
+  }
+}
+
+// Looks at every so-manieth polygon; how many are dark.
+template <SectorSpaceModel Space, class Numbers>
+std::uint32_t ContourRun<Space, Numbers>::prove_dark(const Sides& sides, std::uint32_t stride) {
+  std::atomic<std::uint32_t> found = 0;
+  std::mutex stages_mutex;
+  const std::uint32_t count = (polygons_.size() + stride - 1) / stride;
+  in_parallel(jobs_, count, 512, [&](std::uint32_t begin, std::uint32_t end) {
+    Sides mine = sides.fork();
+    DarkProof<Numbers, Sides> proof(dark_scene_, rays_, polygons_, charts_, pairs_, mine, lanes_);
+    std::uint32_t here = 0;
+    for (std::uint32_t i = stride * begin; i < stride * end && i < polygons_.size(); i += stride) {
+      dark_[i] = proof.is_dark(i);
+      here += dark_[i];
+    }
+    found += here;
+    const std::lock_guard lock(stages_mutex);
+    stages_ += mine.space().stage_counts();
+    if (options_.output.stage_counts) stages_.filter += proof.filtered();
+  });
+  return found;
 }
 
 template <SectorSpaceModel Space, class Numbers>
@@ -239,7 +291,7 @@ RunOutcome ContourRun<Space, Numbers>::walk_all(const Sides& sides,
         stopped = true;
         return;
       }
-      worker->walk.walk(i, pairs_.neighbours(i));
+      if (dark_[i] == 0) worker->walk.walk(i, pairs_.neighbours(i));
     }
     if (!progress) return;
     const std::lock_guard lock(progress_mutex);
@@ -266,134 +318,6 @@ RunOutcome ContourRun<Space, Numbers>::walk_all(const Sides& sides,
   return RunOutcome::kDone;
 }
 
-/// Whether the bounds leave open a polygon's class or much of its share.
-template <SectorSpaceModel Space, class Numbers>
-bool ContourRun<Space, Numbers>::is_open(std::uint32_t i) const {
-  if constexpr (!Numbers::kCertified) {
-    return false;
-  } else {
-    // Bounds add up: a polygon among thousands may be known a little less well.
-    constexpr auto kWidest = static_cast<std::uint64_t>(PartMeasure<Space>::kWidest * 0x1p60);
-    constexpr std::uint64_t kMany = 1024;
-    const Sum& sum = sums_[i];
-    const std::uint64_t widest = kWidest * (1 + pairs_.neighbours(i).size() / kMany);
-    if (sum.flags & kContourOpen) return true;
-    const bool lit = sum.flags & kHoldsLit, shadow = sum.flags & kHoldsShadow;
-    if (!lit && (sum.flags & kPerhapsLit)) return true;
-    if (!shadow && (sum.flags & kPerhapsShadow)) return true;
-    if (!lit || !shadow) return false;
-    // No sum of a proof is outside of [0, 1]; one that is would be a fault of ours.
-    const auto value = static_cast<std::int64_t>(sum.units),
-               error = static_cast<std::int64_t>(sum.error);
-    return sum.error > widest || value < -error || value > (std::int64_t{1} << Sum::kBits) + error;
-  }
-}
-
-template <SectorSpaceModel Space, class Numbers>
-void ContourRun<Space, Numbers>::set_classes() {
-  const auto parts = static_cast<std::uint32_t>(scene_.parts.size());
-  result_.parts.resize(parts);
-  if (options_.output.exact_fractions) result_.exact_fractions.resize(parts);
-  in_parallel(jobs_, parts, kGrain, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t index = begin; index < end; ++index) {
-      PartResult& part = result_.parts[index];
-      part.part = index;
-      part.side = facing_->facing[index].side;
-      part.reason = facing_->facing[index].reason;
-      part.lit = {0, 0};
-      part.shadow = {1, 1};
-      if (options_.output.exact_fractions) result_.exact_fractions[index].shadow = 1;
-    }
-  });
-  in_parallel(jobs_, polygons_.size(), kGrain, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) set_class(i);
-  });
-}
-
-template <SectorSpaceModel Space, class Numbers>
-void ContourRun<Space, Numbers>::set_class(std::uint32_t i) {
-  const std::uint32_t index = polygons_.polygons[i].part;
-  PartResult& part = result_.parts[index];
-  const Sum& sum = sums_[i];
-  if (!(sum.flags & kHoldsLit)) return;
-  const bool shadow = sum.flags & kHoldsShadow;
-  if (!shadow) {
-    part.lit = {1, 1};
-    part.shadow = {0, 0};
-  } else {
-    if constexpr (Numbers::kCertified) {
-      const double middle = static_cast<double>(static_cast<std::int64_t>(sum.units)) * 0x1p-60;
-      // Roundings of a number of size 1, besides.
-      const double radius = static_cast<double>(sum.error) * 0x1p-60 + 4 * Ball::kUnit;
-      part.lit = {std::max(0.0, middle - radius), std::min(1.0, middle + radius)};
-    } else if constexpr (Numbers::kExact) {
-      const double value = sum.value.get_d();  // truncated: within one unit in the last place
-      part.lit = {std::max(0.0, value - 2 * Ball::kUnit), std::min(1.0, value + 2 * Ball::kUnit)};
-    } else {
-      const auto value = static_cast<double>(sum.value);
-      part.lit = {value, value};
-    }
-    // 1 - x rounds by half a unit.
-    const double slack = Numbers::kTrust == Trust::kRounded ? 0 : Ball::kUnit;
-    part.shadow = {std::max(0.0, 1 - part.lit.upper - slack),
-                   std::min(1.0, 1 - part.lit.lower + slack)};
-    if (Numbers::kTrust == Trust::kRounded) part.shadow = {1 - part.lit.lower, 1 - part.lit.lower};
-  }
-  if constexpr (Numbers::kExact) {
-    if (options_.output.exact_fractions) {
-      ExactFractions& fractions = result_.exact_fractions[index];
-      fractions.lit = shadow ? mpq_class(sum.value) : mpq_class(1);
-      fractions.shadow = 1 - fractions.lit;
-    }
-  }
-}
-
-/// Exact subtraction for what is open: the sectors method on these polygons and what may shadow
-/// them.
-template <SectorSpaceModel Space, class Numbers>
-RunOutcome ContourRun<Space, Numbers>::find_open_ones(Space space,
-                                                      const std::function<void(double)>& progress) {
-  if constexpr (Numbers::kCertified) {
-    std::vector<std::uint8_t> takes_part(polygons_.size());  // 1: casts; 2: receives
-    bool some = false;
-    for (std::uint32_t i = 0; i < polygons_.size(); ++i) {
-      if (!is_open(i)) continue;
-      some = true;
-      takes_part[i] |= 2;
-      for (const std::uint32_t j : pairs_.neighbours(i)) {
-        if (polygons_.polygons[j].casts) takes_part[j] |= 1;
-      }
-    }
-    if (!some) return RunOutcome::kDone;
-    std::vector<std::uint32_t> parts;
-    std::vector<std::uint8_t> receives;
-    for (std::uint32_t i = 0; i < polygons_.size(); ++i) {
-      if (takes_part[i] == 0) continue;
-      parts.push_back(polygons_.polygons[i].part);
-      receives.push_back(takes_part[i] & 2);
-      result_.work[Counter::kOpenPolygons] += takes_part[i] >> 1;
-    }
-    SectorRun<Space> exact(scene_, run_options_, rules_, scene_space_, result_.light,
-                           std::move(space), std::move(*facing_), LeafMethod::kSubtract,
-                           Cover::kPartition, {parts, receives});
-    const RunOutcome outcome = exact.run({});
-    if (outcome != RunOutcome::kDone) return outcome;
-    stages_ += exact.stage_counts();
-    const LightResult found = exact.finish();
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      if (receives[i] == 0) continue;
-      PartResult& part = result_.parts[parts[i]];
-      part = found.parts[parts[i]];
-      if (part.lit.upper <= 0) {  // of pieces that several casters hide
-        part.lit = {0, 0};
-        part.shadow = {1, 1};
-      }
-    }
-  }
-  if (progress) progress(1);
-  return RunOutcome::kDone;
-}
-
 template <SectorSpaceModel Space, class Numbers>
 LightResult ContourRun<Space, Numbers>::finish() {
   return std::move(result_);
@@ -409,7 +333,7 @@ Expected<ShadowResult> compute_by_contour_here(const RunTask& task) {
   if (!level) return tl::unexpected<Error>(level.error());
   // Rounded answers would depend on the order.
   std::optional<SpaceOrder> order;
-  if (Space::kExact && SpaceOrder::pays(task.scene)) order.emplace(task.scene);
+  if (Space::kExact && SpaceOrder::pays(task.scene)) order.emplace(task.scene, options.tuning.jobs);
   const PreparedScene& scene = order ? order->scene() : task.scene;
   typename Space::SceneSpace scene_space(scene.geometry, options.kernel.options());
   ContourRun<Space, Numbers> run(scene, options, task.rules, scene_space, lanes(*level));
@@ -451,5 +375,7 @@ Expected<ShadowResult> ByContour<Kernel>::run(const RunTask& task) {
 }
 
 }  // namespace gnomon
+
+#include "algorithms/contour/contour_classes.h"
 
 #endif  // GNOMON_ALGORITHMS_CONTOUR_CONTOUR_RUN_H

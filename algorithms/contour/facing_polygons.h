@@ -5,11 +5,14 @@
 #define GNOMON_ALGORITHMS_CONTOUR_FACING_POLYGONS_H
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "algorithms/contour/in_parallel.h"
 #include "algorithms/contour/light_rays.h"
 #include "algorithms/partition/import_export.h"
 #include "gnomon/scene/prepare.h"
@@ -67,17 +70,21 @@ struct FacingPolygons {
   PlaneRef edge(const FacingPolygon& p, std::uint32_t k) const { return edges[p.first + k]; }
 
   /// Lays out the parts of `facing`, in its order. The arrays are kept from light to light.
-  void lay_out(const PreparedScene& scene, const FacingParts& facing);
-  void find_shared_edges(std::size_t edge_count);
+  void lay_out(const PreparedScene& scene, const FacingParts& facing, unsigned jobs);
+  void find_shared_edges(std::size_t edge_count, unsigned jobs);
   /// Fills polygons [begin, end) with the numbers of one light.
   void fill(const LightRays<Numbers>& light, std::uint32_t begin, std::uint32_t end);
 
  private:
+  static constexpr std::uint32_t kGrain = 4096;  // polygons of one thread
+  void name_corners(const PreparedScene& scene, const FacingPolygon& p);
+
   std::vector<std::uint8_t> edge_users_;
 };
 
 template <class Numbers>
-void FacingPolygons<Numbers>::lay_out(const PreparedScene& scene, const FacingParts& facing) {
+void FacingPolygons<Numbers>::lay_out(const PreparedScene& scene, const FacingParts& facing,
+                                      unsigned jobs) {
   polygons.resize(facing.parts.size());
   vertices.resize(facing.edges);
   edges.resize(facing.edges);
@@ -87,19 +94,13 @@ void FacingPolygons<Numbers>::lay_out(const PreparedScene& scene, const FacingPa
     const Part& part = scene.parts[index];
     const bool reversed = facing.facing[index].side == Side::kBack;
     polygons[i] = {index, first, part.count, block, part.plane, part.casts, reversed};
-    const auto loop = scene.loop(part);
-    const auto loop_edges = scene.edges(part);
-    // Reversed: vertex k becomes n - 1 - k, and the edge that ended in it now starts from it.
-    for (std::uint32_t k = 0; k < part.count; ++k) {
-      const std::uint32_t from = reversed ? part.count - 1 - k : k;
-      const std::uint32_t edge = !reversed ? k : from == 0 ? part.count - 1 : from - 1;
-      vertices[first + k] = loop[from];
-      edges[first + k] = reversed ? -loop_edges[edge] : loop_edges[edge];
-    }
     first += part.count;
     block += polygons[i].blocks();
   }
-  find_shared_edges(scene.geometry.edges.size());
+  in_parallel(jobs, size(), kGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) name_corners(scene, polygons[i]);
+  });
+  find_shared_edges(scene.geometry.edges.size(), jobs);
   corners.resize(block);
   lines.resize(block);
   line_error.resize(4 * std::size_t{block});
@@ -107,24 +108,49 @@ void FacingPolygons<Numbers>::lay_out(const PreparedScene& scene, const FacingPa
 }
 
 template <class Numbers>
-void FacingPolygons<Numbers>::find_shared_edges(std::size_t edge_count) {
-  // Of each edge: how often it is there in either direction (2: more than once), and whether all
-  // of its polygons cast.
-  constexpr std::uint8_t kDoesNotCast = 16;
+void FacingPolygons<Numbers>::name_corners(const PreparedScene& scene, const FacingPolygon& p) {
+  const Part& part = scene.parts[p.part];
+  const auto loop = scene.loop(part);
+  const auto loop_edges = scene.edges(part);
+  // Reversed: vertex k becomes n - 1 - k, and the edge that ended in it now starts from it.
+  for (std::uint32_t k = 0; k < p.count; ++k) {
+    const std::uint32_t from = p.reversed ? p.count - 1 - k : k;
+    const std::uint32_t edge = !p.reversed ? k : from == 0 ? p.count - 1 : from - 1;
+    vertices[p.first + k] = loop[from];
+    edges[p.first + k] = p.reversed ? -loop_edges[edge] : loop_edges[edge];
+  }
+}
+
+template <class Numbers>
+void FacingPolygons<Numbers>::find_shared_edges(std::size_t edge_count, unsigned jobs) {
+  // Of each edge: whether it is there in either direction, whether more than once, and whether it
+  // is one of a polygon that does not cast. Bits are only ever set, so that the order of polygons
+  // does not matter.
+  constexpr std::uint8_t kForward = 1, kBackward = 2, kAgain = 4, kDoesNotCast = 8;
   edge_users_.assign(edge_count, 0);
-  for (const FacingPolygon& p : polygons) {
-    for (std::uint32_t k = 0; k < p.count; ++k) {
-      const PlaneRef edge = edges[p.first + k];
-      std::uint8_t& users = edge_users_[edge.index()];
-      const int shift = edge.flipped() ? 2 : 0;
-      if ((users >> shift & 3) < 2) users = static_cast<std::uint8_t>(users + (1 << shift));
-      if (!p.casts) users |= kDoesNotCast;
+  const auto set = [jobs](std::uint8_t& users, std::uint8_t bits) {
+    if (jobs == 1) return std::exchange(users, static_cast<std::uint8_t>(users | bits));
+    return std::atomic_ref(users).fetch_or(bits, std::memory_order_relaxed);
+  };
+  in_parallel(jobs, size(), kGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const FacingPolygon& p = polygons[i];
+      for (std::uint32_t k = 0; k < p.count; ++k) {
+        const PlaneRef edge = edges[p.first + k];
+        std::uint8_t& users = edge_users_[edge.index()];
+        const std::uint8_t direction = edge.flipped() ? kBackward : kForward;
+        if (set(users, direction) & direction) set(users, kAgain);
+        if (!p.casts) set(users, kDoesNotCast);
+      }
     }
-  }
+  });
   is_shared.resize(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    is_shared[i] = edge_users_[edges[i].index()] == (1 | 1 << 2);
-  }
+  in_parallel(jobs, static_cast<std::uint32_t>(edges.size()), 4 * kGrain,
+              [&](std::uint32_t begin, std::uint32_t end) {
+                for (std::uint32_t i = begin; i < end; ++i) {
+                  is_shared[i] = edge_users_[edges[i].index()] == (kForward | kBackward);
+                }
+              });
 }
 
 template <class Numbers>

@@ -59,6 +59,15 @@ class LightCharts {
 
   std::span<const ChartBoxes> charts() const { return charts_; }
   std::span<const DepthRange> depths() const { return depths_; }
+  /// Whether there is one chart, in which box i is that of polygon i.
+  bool is_one() const { return charts_.size() == 1; }
+  /// Where a direction is in the one chart. Requires: is_one().
+  std::array<float, 2> place(const Direction& ray) const {
+    if (directional_) return {static_cast<float>(ray[0]), static_cast<float>(ray[1])};
+    const double z = 1 / dot_product(frame_.w, ray);
+    return {static_cast<float>(dot_product(frame_.u, ray) * z),
+            static_cast<float>(dot_product(frame_.v, ray) * z)};
+  }
 
  private:
   /// A chart of all directions in front of a plane.
@@ -73,6 +82,8 @@ class LightCharts {
   /// Adds the boxes of a polygon in the faces of the cube.
   void add_to_faces(std::span<const Direction> corners, std::uint32_t owner);
 
+  bool directional_ = false;
+  Frame frame_{};  // of a lamp's one chart
   BoxArrays one_;
   std::array<BoxArrays, 6> faces_;
   std::vector<ChartBoxes> charts_;
@@ -191,9 +202,9 @@ void LightCharts::find(const FacingPolygons<Numbers>& polygons, const LightRays<
                        unsigned jobs) {
   depths_.assign(polygons.size(), {});
   charts_.clear();
-  Frame frame;
-  if ((light.directional || choose_frame(polygons, frame)) &&
-      fill_one_chart(polygons, light, frame, jobs)) {
+  directional_ = light.directional;
+  if ((light.directional || choose_frame(polygons, frame_)) &&
+      fill_one_chart(polygons, light, frame_, jobs)) {
     charts_.push_back(one_.view());
     return;
   }

@@ -22,7 +22,8 @@ class SpaceOrder {
   /// Whether the scene is so large that the caches do not hold it in any order.
   static bool pays(const PreparedScene& scene);
 
-  explicit SpaceOrder(const PreparedScene& scene);
+  /// With `jobs` other than 1 on the threads of the caller's arena; the same for every number.
+  explicit SpaceOrder(const PreparedScene& scene, unsigned jobs = 1);
 
   /// The scene in the new order, as far as point lights need it: without notes, and first_part is
   /// empty, since the parts of a polygon need not follow each other.

@@ -32,7 +32,7 @@ constexpr std::array kTilingCounters = {
     kNulled,           kShadowPolygons, kTileWrites,      kClosedTiles, kTileBytes, kMeanMet,
     kFirstQuartileMet, kMedianMet,      kThirdQuartileMet};
 constexpr std::array kSvbspFullCounters = {kVolumes, kShadowPolygons, kNodes, kDepth};
-constexpr std::array kContourCounters = {kIntervals, kSegments, kOpenPolygons};
+constexpr std::array kContourCounters = {kIntervals, kSegments, kDarkPolygons, kOpenPolygons};
 constexpr std::array kTwoPassCounters = {kClips, kShadowPolygons, kLists, kLongestList,
                                          kDeepestStack};
 

@@ -34,6 +34,7 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kDeepestStack, "deepest stack", "lists that waited at the same time", kMost},
     {Counter::kIntervals, "intervals", "of edges inside other polygons", kSum},
     {Counter::kSegments, "segments", "of edges that take light from what is behind them", kSum},
+    {Counter::kDarkPolygons, "dark polygons", "proven to be so before they are met", kSum},
     {Counter::kOpenPolygons, "open polygons", "left open by bounds, found by exact subtraction",
      kSum},
 }};

@@ -36,6 +36,7 @@ enum class Counter : std::uint8_t {
   kDeepestStack,  // lists that waited at the same time
   kIntervals,     // of edges inside other polygons
   kSegments,      // of edges that take light from what is behind them
+  kDarkPolygons,  // proven to be so before they are met
   kOpenPolygons,  // that bounds left open, and exact subtraction found
 };
 inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kOpenPolygons) + 1;

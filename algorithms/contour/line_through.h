@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Where a line goes through a convex polygon, by the sides of the line on which its corners are,
+// and which part of an edge is inside.
+#ifndef GNOMON_ALGORITHMS_CONTOUR_LINE_THROUGH_H
+#define GNOMON_ALGORITHMS_CONTOUR_LINE_THROUGH_H
+
+#include <array>
+#include <cstdint>
+
+namespace gnomon {
+
+/// Which sides of a line a polygon covers along it.
+enum class LineCover : std::uint8_t { kNone, kBoth, kInner, kOuter };
+
+/// Where the line of an edge goes through a polygon: it enters through edge `in` and leaves through
+/// edge `out`, or through a corner of these that is on the line.
+struct LineThrough {
+  static constexpr std::uint32_t kNoCorner = 0xffffffffu;
+  LineCover cover = LineCover::kNone;
+  std::uint32_t in = 0, out = 0;
+  std::uint32_t in_corner = kNoCorner, out_corner = kNoCorner;
+};
+
+/// Corners of a polygon on the left and on the right of a line, as bits; the others are on it.
+struct CornerSet {
+  static constexpr std::uint32_t kMost = 64;
+  std::uint64_t left = 0, right = 0;
+};
+
+/// Whether a part of a line from one point to another is inside of a convex polygon, and whether
+/// it begins and ends with these.
+struct IntervalEnds {
+  bool meets = false, starts_inside = false, ends_inside = false;
+};
+
+/// By sign(leaves, at_to): of the line through which the line enters, or leaves, at the first point
+/// or at the last one, positive inside; only what is needed is asked for.
+///
+/// A first point that is on the line of entry is inside if the last one is. For polygons in all
+/// directions around a lamp: an edge and the part of its line in the polygon are arcs of one great
+/// circle, each shorter than half of it, so that an edge that starts on the inner side of both
+/// lines meets the polygon at once or not at all.
+template <class SignOf>
+IntervalEnds ends_of_interval(const SignOf& sign) {
+  IntervalEnds ends;
+  const int enters_from = sign(false, false);
+  ends.starts_inside = enters_from > 0;
+  if (!ends.starts_inside) {
+    if (sign(false, true) <= 0) return ends;
+    ends.starts_inside = enters_from == 0;
+  }
+  const int leaves_to = sign(true, true);
+  ends.ends_inside = leaves_to >= 0;
+  ends.meets = (!ends.starts_inside && ends.ends_inside) || sign(true, false) > 0;
+  return ends;
+}
+
+/// A sign that bounds may leave open.
+struct MaybeSign {
+  int sign = 0;
+  bool known = true;
+};
+
+/// Where a line goes through a polygon of three or four corners, by the set of those on its left:
+/// it enters through an edge from the left to the right, and leaves through one back.
+struct BlockEnds {
+  std::uint8_t in = 0, out = 0;
+};
+constexpr BlockEnds ends_of_block(unsigned n, unsigned left) {
+  BlockEnds ends;
+  for (unsigned k = n; k-- > 0;) {
+    const bool here = left >> k & 1, then = left >> (k + 1) % n & 1;
+    if (here && !then) ends.in = static_cast<std::uint8_t>(k);
+    if (!here && then) ends.out = static_cast<std::uint8_t>(k);
+  }
+  return ends;
+}
+inline constexpr auto kBlockEnds = [] {
+  std::array<std::array<BlockEnds, 16>, 2> table{};
+  for (unsigned n = 3; n <= 4; ++n) {
+    for (unsigned left = 0; left < 1u << n; ++left) table[n - 3][left] = ends_of_block(n, left);
+  }
+  return table;
+}();
+/// The bits of BlockSigns that are of lines and corners that there are.
+constexpr unsigned valid_signs(std::uint32_t lines, std::uint32_t corners) {
+  return (0x1111u >> 4 * (4 - lines)) * ((1u << corners) - 1);
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_CONTOUR_LINE_THROUGH_H
