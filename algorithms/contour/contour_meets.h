@@ -30,10 +30,12 @@ void ContourWalk<Numbers, Sides>::find_silent_edges() {
   const FacingPolygon& own = polygons_->polygons[p_];
   silent_.assign(own.count, 1);
   all_edges_silent_ = true;
+  silent_edges_ = 0x1111;
   if (!own.casts) return;
   for (std::uint32_t k = 0; k < own.count; ++k) {
     silent_[k] = polygons_->is_shared[own.first + k];
     all_edges_silent_ = all_edges_silent_ && silent_[k] != 0;
+    if (silent_[k] == 0 && k < 4) silent_edges_ &= ~(1u << 4 * k);
   }
 }
 
@@ -81,8 +83,13 @@ template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::meet_block(std::uint32_t q) requires(Survey::kInBlocks) {
   const BlockSigns signs = survey_.block_signs(p_, q);
   const std::uint32_t n = polygons_->polygons[p_].count;
-  // Bit 4 k: whether any corner is on that side of edge k.
+  // Bit 4 k: of edge k, whether any corner is in a set, and whether two are.
   const auto any = [](unsigned set) { return (set | set >> 1 | set >> 2 | set >> 3) & 0x1111u; };
+  const auto two = [](unsigned set) {
+    const unsigned sum =
+        (set & 0x1111u) + (set >> 1 & 0x1111u) + (set >> 2 & 0x1111u) + (set >> 3 & 0x1111u);
+    return (sum >> 1 | sum >> 2) & 0x1111u;
+  };
   const unsigned lines = 0x1111u >> 4 * (4 - n);
   const unsigned some_left = any(signs.positive);
   bool overlaps = some_left == lines;
@@ -90,24 +97,25 @@ void ContourWalk<Numbers, Sides>::meet_block(std::uint32_t q) requires(Survey::k
   // Where all corners are on one side, the polygon is beside the edge if two are on its line.
   const unsigned on_line = valid_signs(n, polygons_->polygons[q].count) &
                            ~static_cast<unsigned>(signs.positive | signs.negative);
-  unsigned met = overlaps ? (some_left & any(signs.negative)) | any(on_line) : any(on_line);
+  const unsigned along = two(on_line);
+  unsigned met = overlaps ? (some_left & any(signs.negative)) | along : along;
   met &= ~hidden_edges_;
+  // A silent edge is beside nobody, and casts nothing on what is below.
+  if (!overlaps || order_ > 0) met &= ~silent_edges_;
   if (met == 0 && (!overlaps || order_ != 0)) return;
   if (order_ == 0) {
     find_order(q);
-    if (order_ > 0 && all_edges_silent_) return;
+    if (order_ > 0) met &= ~silent_edges_;
   }
-  if (!survey_.find_values(q, p_)) {
-    if (!casts(q) || all_edges_silent_) return;
-    met &= any(on_line);
-    if (met == 0) return;
+  if (met != 0 && !survey_.find_values(q, p_)) {
+    if (!casts(q)) return;
+    met &= along & ~silent_edges_;
     overlaps = false;
   }
   in_block_ = true;
   for (; met != 0; met &= met - 1) {
     const auto bit = static_cast<std::uint32_t>(std::countr_zero(met));
     const std::uint32_t k = bit / 4;
-    if (silent_[k] && (order_ > 0 || !overlaps)) continue;
     const LineThrough through =
         survey_.through_block(q, signs.positive >> bit & 15u, signs.negative >> bit & 15u);
     if (through.cover == LineCover::kNone) continue;

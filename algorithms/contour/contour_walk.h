@@ -158,10 +158,11 @@ class ContourWalk {
   // caster's, or another caster goes on from it.
   std::vector<std::uint8_t> silent_;
   bool all_edges_silent_ = false;
-  unsigned hidden_edges_ = 0;  // bit 4 k: edge k < 4 is hidden from end to end
-  bool in_block_ = false;      // the polygon that is met: survey_ has the values of its lines
-  CornerSet nearer_;           // corners of p_ against it
-  int order_ = 0;  // of the polygon that is met: 1: all of it is behind p_, -1: before it
+  // Bit 4 k: of edge k < 4, whether it is silent, and whether it is hidden from end to end.
+  unsigned silent_edges_ = 0, hidden_edges_ = 0;
+  bool in_block_ = false;  // the polygon that is met: survey_ has the values of its lines
+  CornerSet nearer_;       // corners of p_ against it
+  int order_ = 0;          // of the polygon that is met: 1: all of it is behind p_, -1: before it
   std::vector<Segment<Numbers>> seen_, free_;
   std::vector<Stretch<Numbers>> covers_;
   struct Event {
