@@ -41,11 +41,6 @@ void ContourWalk<Numbers, Sides>::walk_edge(std::uint32_t k) {
     free = free_;
   }
   if (free.empty()) return;
-  if (lists.behind.size() > 1) {
-    std::sort(lists.behind.begin(), lists.behind.end(), [](const auto& a, const auto& b) {
-      return a.low.t != b.low.t ? a.low.t < b.low.t : a.polygon < b.polygon;
-    });
-  }
   for (const Segment<Numbers>& segment : free) {
     if (segment.sure) {
       act_along(k, segment);
@@ -96,6 +91,8 @@ bool ContourWalk<Numbers, Sides>::is_above_outside(std::uint32_t k, std::uint32_
 }
 
 // Goes along a seen segment, from one place where a polygon behind it begins or ends to the next.
+// Places that may be in another order than their numbers are taken together: what happens from the
+// least value of all of them to the greatest is open.
 template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::act_along(std::uint32_t k, const Segment<Numbers>& segment) {
   const std::vector<Behind<Numbers>>& behind = lists_[k].behind;
@@ -109,50 +106,99 @@ void ContourWalk<Numbers, Sides>::act_along(std::uint32_t k, const Segment<Numbe
     }
     return;
   }
-  events_.clear();
-  clipped_.clear();
-  for (std::uint32_t i = 0; i < behind.size(); ++i) {
-    const Behind<Numbers>& entry = behind[i];
-    if (certainly_before(segment.high, entry.low)) break;  // so are all that follow
-    if (certainly_before(entry.high, segment.low)) continue;
-    Clipped part{later_of(entry.low, segment.low), earlier_of(entry.high, segment.high), i};
-    if (part.high.t < part.low.t) part.high.t = part.low.t;  // within the bounds
-    const auto index = static_cast<std::uint32_t>(clipped_.size());
-    events_.push_back({part.low.t, index, true});
-    events_.push_back({part.high.t, index, false});
-    clipped_.push_back(std::move(part));
+  find_events(k, segment);
+  bool started = false;
+  PlaceOnEdge at = segment.low;
+  for (std::size_t begin = 0; begin < events_.size();) {
+    const EventGroup group = group_of_events(begin);
+    if (started) go_to(k, at, group.low);
+    if (group.is_open) perhaps_at(k, group.low, group.high);
+    at = group.high;
+    bool ended = false;
+    for (std::size_t i = begin; i < group.end; ++i) {
+      const Event& event = events_[i];
+      if (event.entry == kSegment) {
+        (event.begins ? started : ended) = true;
+      } else if (event.begins) {
+        active_.push_back(event.entry);
+      }
+    }
+    if (ended) return;
+    for (std::size_t i = begin; i < group.end; ++i) {
+      if (!events_[i].begins) std::erase(active_, events_[i].entry);
+    }
+    begin = group.end;
   }
-  if (events_.empty()) return;
+}
+
+// What begins and ends within a segment, and its own ends; what is there from its beginning is
+// active at once.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::find_events(std::uint32_t k, const Segment<Numbers>& segment) {
+  const std::vector<Behind<Numbers>>& behind = lists_[k].behind;
+  const auto is_one = [](const PlaceOnEdge& a, const PlaceOnEdge& b) {
+    return a.name.is_known() && a.name == b.name;
+  };
+  active_.clear();
+  events_.clear();
+  events_.push_back({segment.low, kSegment, true});
+  events_.push_back({segment.high, kSegment, false});
+  for (std::uint32_t i = 0; i < behind.size(); ++i) {
+    const PlaceOnEdge &low = behind[i].low, &high = behind[i].high;
+    if (certainly_before(segment.high, low) || certainly_before(high, segment.low)) continue;
+    if (certainly_before(low, segment.low) || is_one(low, segment.low)) {
+      active_.push_back(i);
+    } else {
+      events_.push_back({low, i, true});
+    }
+    if (!certainly_before(segment.high, high) && !is_one(high, segment.high)) {
+      events_.push_back({high, i, false});
+    }
+  }
   std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {
-    if (a.t != b.t) return a.t < b.t;
+    const auto at_a = least_of(a.place), at_b = least_of(b.place);
+    if (at_a != at_b) return at_a < at_b;
     return a.entry != b.entry ? a.entry < b.entry : a.begins > b.begins;
   });
-  active_.clear();
-  PlaceOnEdge at = segment.low;
-  const auto go_to = [&](const PlaceOnEdge& next) {
-    if (certainly_before(at, next)) {
-      // The order of depths may change on the way.
-      while (!active_.empty()) {
-        PlaceOnEdge end = next;
-        if (!piece(k, at, end)) perhaps_at(k, at, end);
-        if (!(end.t < next.t)) break;
-        at = end;
-      }
-    } else if (!certainly_no_gap(at, next)) {
-      perhaps_at(k, at, next);
-    }
-    at = next;
-  };
-  for (const Event& event : events_) {
-    const Clipped& part = clipped_[event.entry];
-    go_to(event.begins ? part.low : part.high);
-    if (event.begins) {
-      active_.push_back(part.entry);
-    } else {
-      std::erase(active_, part.entry);
+}
+
+// The events from one on that may be in another order, or are in one place.
+template <class Numbers, class Sides>
+auto ContourWalk<Numbers, Sides>::group_of_events(std::size_t begin) const -> EventGroup {
+  const PlaceOnEdge& first = events_[begin].place;
+  EventGroup group{first, first, begin + 1, false};
+  auto reach = greatest_of(first);
+  for (; group.end < events_.size(); ++group.end) {
+    const PlaceOnEdge& place = events_[group.end].place;
+    if (reach < least_of(place)) break;
+    if (reach < greatest_of(place)) reach = greatest_of(place);
+    if constexpr (Numbers::kCertified) {
+      group.is_open = group.is_open || !first.name.is_known() || !(place.name == first.name);
     }
   }
-  go_to(segment.high);
+  if constexpr (Numbers::kCertified) {
+    if (group.is_open) {
+      // The ends round by u, the sum that made them by as much.
+      group.low = {least_of(first), 4 * Ball::kUnit, {}};
+      group.high = {reach, 4 * Ball::kUnit, {}};
+    }
+  }
+  return group;
+}
+
+// From one group of events to the next. The order of depths may change on the way.
+template <class Numbers, class Sides>
+void ContourWalk<Numbers, Sides>::go_to(std::uint32_t k, PlaceOnEdge at, const PlaceOnEdge& next) {
+  if (!certainly_before(at, next)) {
+    if (!certainly_no_gap(at, next)) perhaps_at(k, at, next);
+    return;
+  }
+  while (!active_.empty()) {
+    PlaceOnEdge end = next;
+    if (!piece(k, at, end)) perhaps_at(k, at, end);
+    if (!(end.t < next.t)) break;
+    at = end;
+  }
 }
 
 // Between two places where nothing begins or ends. `high` comes nearer where the order changes.

@@ -101,7 +101,7 @@ void ContourWalk<Numbers, Sides>::crease(std::uint32_t q) {
       const double reach = polygons_->reach[p_];
       const double value_error =
           (3.1 * crease.line_error + 12 * Ball::kUnit * largest(crease.line)) * reach;
-      error = share_error(p_, rate, value_error, segment.low, segment.high, 1, 1, 0);
+      error = share_error(p_, rate, value_error, segment.low, segment.high, 1, 1, 0, 0);
     }
     sum.add(T(T(segment.high.t - segment.low.t) * rate), error);
   }

@@ -46,23 +46,26 @@ void ContourWalk<Numbers, Sides>::add_own(std::uint32_t k, const Segment<Numbers
   const T share = T(T(segment.high.t - segment.low.t) * rate);
   double error = 0;
   if constexpr (Numbers::kCertified) {
-    error = share_error(p_, rate, value_error, segment.low, segment.high, 1, 1, 0);
+    error = share_error(p_, rate, value_error, segment.low, segment.high, 1, 1, 0, 0);
   }
   sum.add(share, error);
 }
 
 /// Bound of the error of (t - s) (n . c) scale / (w(s) w(t)) in doubles. With V = |n . c| scale: a
 /// place off by e moves the integral by V e / w^2 (the derivative by t is V / w(t)^2), which is
-/// doubled where w is itself known within a quarter; n . c is off by its bound; the scale, and each
-/// w, by a relative error; the operations round by less than 8u.
+/// doubled where w is itself known within a quarter, by its own bound and wherever the place may
+/// be; n . c is off by its bound; the scale, and each w, by a relative error; the operations round
+/// by less than 8u. `depth_rate`: by how much w changes along the edge.
 template <class Numbers, class Sides>
 double ContourWalk<Numbers, Sides>::share_error(std::uint32_t q, double rate,
                                                 double line_value_error, const PlaceOnEdge& low,
                                                 const PlaceOnEdge& high, double depth_low,
-                                                double depth_high, double depth_error) const {
+                                                double depth_high, double depth_error,
+                                                double depth_rate) const {
   const double value_error = line_value_error * measure_->scale[q];
   const double least = std::min(depth_low, depth_high) - depth_error;
-  if (!(depth_error < 0.25 * least)) return std::numeric_limits<double>::infinity();
+  const double change = (std::fabs(depth_rate) + depth_error) * std::max(low.error, high.error);
+  if (!(depth_error + change < 0.25 * least)) return std::numeric_limits<double>::infinity();
   const double width = std::fabs(high.t - low.t), size = std::fabs(rate);
   const double relative = measure_->relative_error[q] + 16 * Ball::kUnit;
   const double sum = (size + value_error) * (2 * (low.error + high.error) + width * relative) +
@@ -89,10 +92,10 @@ void ContourWalk<Numbers, Sides>::take_from(std::uint32_t k, const Behind<Number
     share = T(share / T(depth_low * depth_high));
     if constexpr (Numbers::kCertified) {
       error = share_error(q, rate, value_error, low, high, depth_low, depth_high,
-                          2 * receiver.depth_error);
+                          2 * receiver.depth_error, receiver.depth_to - receiver.depth_from);
     }
   } else if constexpr (Numbers::kCertified) {
-    error = share_error(q, rate, value_error, low, high, 1, 1, 0);
+    error = share_error(q, rate, value_error, low, high, 1, 1, 0, 0);
   }
   sum.add(share, error);
 }
@@ -111,10 +114,11 @@ void ContourWalk<Numbers, Sides>::take_perhaps(std::uint32_t k, const Behind<Num
     first.error += std::fabs(high.t - low.t);
     double error;
     if (light_->directional) {
-      error = share_error(q, rate, value_error, first, last, 1, 1, 0);
+      error = share_error(q, rate, value_error, first, last, 1, 1, 0, 0);
     } else {
       error = share_error(q, rate, value_error, first, last, depth_at(receiver, low),
-                          depth_at(receiver, high), 2 * receiver.depth_error);
+                          depth_at(receiver, high), 2 * receiver.depth_error,
+                          receiver.depth_to - receiver.depth_from);
     }
     sum.add(0, error);
   }

@@ -74,6 +74,19 @@ class ContourWalk {
 
  private:
   using PlaceOnEdge = Place<Numbers>;
+  static constexpr std::uint32_t kSegment = 0xffffffffu;
+  /// A polygon behind a segment begins or ends, or the segment itself.
+  struct Event {
+    PlaceOnEdge place;
+    std::uint32_t entry = 0;  // of lists_[k].behind, or kSegment
+    bool begins = false;
+  };
+  /// Events up to `end` of events_, from one place to another; open if they are not in one place.
+  struct EventGroup {
+    PlaceOnEdge low, high;
+    std::size_t end = 0;
+    bool is_open = false;
+  };
 
   // Filling of lists_.
   void find_silent_edges();
@@ -108,6 +121,9 @@ class ContourWalk {
   void act_level(std::uint32_t k, const Behind<Numbers>& receiver);
   bool is_above_outside(std::uint32_t k, std::uint32_t q, std::uint32_t than);
   void act_along(std::uint32_t k, const Segment<Numbers>& segment);
+  void find_events(std::uint32_t k, const Segment<Numbers>& segment);
+  EventGroup group_of_events(std::size_t begin) const;
+  void go_to(std::uint32_t k, PlaceOnEdge at, const PlaceOnEdge& next);
   bool piece(std::uint32_t k, const PlaceOnEdge& low, PlaceOnEdge& high);
   int depth_order(const Behind<Numbers>& a, const Behind<Numbers>& b,
                   const PlaceOnEdge& place) const;
@@ -133,7 +149,7 @@ class ContourWalk {
   void add_own(std::uint32_t k, const Segment<Numbers>& segment);
   double share_error(std::uint32_t q, double rate, double line_value_error, const PlaceOnEdge& low,
                      const PlaceOnEdge& high, double depth_low, double depth_high,
-                     double depth_error) const;
+                     double depth_error, double depth_rate) const;
   void take_from(std::uint32_t k, const Behind<Numbers>& receiver, const PlaceOnEdge& low,
                  const PlaceOnEdge& high);
   void take_perhaps(std::uint32_t k, const Behind<Numbers>& receiver, const PlaceOnEdge& low,
@@ -165,17 +181,7 @@ class ContourWalk {
   int order_ = 0;          // of the polygon that is met: 1: all of it is behind p_, -1: before it
   std::vector<Segment<Numbers>> seen_, free_;
   std::vector<Stretch<Numbers>> covers_;
-  struct Event {
-    T t{};
-    std::uint32_t entry = 0;  // of clipped_
-    bool begins = false;
-  };
-  struct Clipped {
-    PlaceOnEdge low, high;
-    std::uint32_t entry = 0;  // of lists_[k].behind
-  };
-  std::vector<Event> events_;  // along a segment
-  std::vector<Clipped> clipped_;
+  std::vector<Event> events_;          // along a segment
   std::vector<std::uint32_t> active_;  // of lists_[k].behind
   std::span<const std::uint32_t> neighbours_;
   std::uint64_t intervals_ = 0, segments_ = 0;

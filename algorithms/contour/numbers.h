@@ -12,6 +12,7 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -131,22 +132,22 @@ Place<Numbers> zero_between(const typename Numbers::T& at_from, const typename N
   return place;
 }
 
-/// One of two places, off by as much as both where the bounds do not tell them apart.
+/// The one of two places that the numbers choose, where it may be the other. Its bound holds for
+/// that, too: the later one of s and t >= s is off to the lower side by at most the bound of t, and
+/// to the upper side by that or as far as s may reach beyond t.
 template <class Numbers>
 Place<Numbers> chosen_of(const Place<Numbers>& chosen, const Place<Numbers>& other) {
   Place<Numbers> result = chosen;
   if constexpr (Numbers::kCertified) {
-    if (!certainly_before(chosen, other) && !certainly_before(other, chosen) &&
-        !(chosen.name == other.name)) {
-      result.error = chosen.error + other.error +
-                     (other.t < chosen.t ? chosen.t - other.t : other.t - chosen.t);
-      result.name = {};
-    }
+    if (chosen.name.is_known() && chosen.name == other.name) return result;
+    const double distance = other.t < chosen.t ? chosen.t - other.t : other.t - chosen.t;
+    if (distance > chosen.error + other.error) return result;
+    result.error = std::max(chosen.error, other.error - distance);
+    result.name = {};
   }
   return result;
 }
-/// The earlier and the later of two places; where they cannot be told apart, one that is off by as
-/// much as both.
+/// The earlier and the later of two places.
 template <class Numbers>
 Place<Numbers> earlier_of(const Place<Numbers>& p, const Place<Numbers>& q) {
   return q.t < p.t ? chosen_of(q, p) : chosen_of(p, q);

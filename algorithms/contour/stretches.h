@@ -24,15 +24,37 @@ struct Segment {
   bool sure = true;
 };
 
+/// The least value that a place may have, and the greatest.
+template <class Numbers>
+auto least_of(const Place<Numbers>& place) {
+  if constexpr (Numbers::kCertified) {
+    return place.t - place.error;
+  } else {
+    return place.t;
+  }
+}
+template <class Numbers>
+auto greatest_of(const Place<Numbers>& place) {
+  if constexpr (Numbers::kCertified) {
+    return place.t + place.error;
+  } else {
+    return place.t;
+  }
+}
+
 /// Leaves of each segment of `base` what no stretch covers. Sorts `covers`. Where a stretch begins
 /// and the one before ends, and neither the numbers nor the names tell that nothing is between,
 /// there is a segment that is not sure.
+///
+/// Stretches are taken in the order in which they may begin. So nothing is covered before the least
+/// value of the end of a segment that is left, and what else is covered there is within its bound.
 template <class Numbers>
 void uncovered(std::span<const Segment<Numbers>> base, std::vector<Stretch<Numbers>>& covers,
                std::vector<Segment<Numbers>>& result) {
   if (covers.size() > 1) {
     std::sort(covers.begin(), covers.end(), [](const auto& a, const auto& b) {
-      return a.low.t != b.low.t ? a.low.t < b.low.t : b.high.t < a.high.t;
+      const auto at_a = least_of(a.low), at_b = least_of(b.low);
+      return at_a != at_b ? at_a < at_b : b.high.t < a.high.t;
     });
   }
   result.clear();
@@ -49,13 +71,10 @@ void uncovered(std::span<const Segment<Numbers>> base, std::vector<Stretch<Numbe
       }
     };
     for (const Stretch<Numbers>& cover : covers) {
-      if (!(cover.low.t < segment.high.t) && certainly_no_gap(cover.low, segment.high)) break;
+      if (greatest_of(segment.high) < least_of(cover.low)) break;
+      if (!(cover.low.t < segment.high.t) && certainly_no_gap(cover.low, segment.high)) continue;
       if (cover.high.t < at.t && certainly_before(cover.high, at)) continue;
-      if (certainly_no_gap(at, cover.low)) {
-        if (at.t < cover.high.t) at = cover.high;
-        continue;
-      }
-      leave(earlier_of(cover.low, segment.high));
+      if (!certainly_no_gap(at, cover.low)) leave(earlier_of(cover.low, segment.high));
       at = later_of(at, cover.high);
     }
     leave(segment.high);
