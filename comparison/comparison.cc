@@ -70,16 +70,6 @@ std::string quoted(const std::string& word) {
   return text + '\'';
 }
 
-/// The methods that take these lights and are chosen by name.
-std::vector<std::string> systems_for(LightsAsked lights) {
-  std::vector<std::string> names;
-  for (const Method& method : methods()) {
-    const bool takes = lights == LightsAsked::kArea ? method.lights.area : method.lights.point;
-    if (takes && method.chosen_by_name) names.emplace_back(method.name);
-  }
-  return names;
-}
-
 /// What no size changes: the rows over which time grows.
 using Series = std::tuple<std::string, std::string, std::string>;
 Series series_of(const RunRequest& request) {
@@ -119,18 +109,29 @@ std::vector<Growth> growth_of(const std::vector<Row>& rows) {
   return growth;
 }
 
-/// Exact kernels must be confirmed, and all give one answer a scene.
-std::vector<std::string> contradictions_of(const std::vector<Row>& rows) {
+}  // namespace
+
+std::vector<std::string> systems_for(LightsAsked lights) {
+  std::vector<std::string> names;
+  for (const Method& method : methods()) {
+    const bool takes = lights == LightsAsked::kArea ? method.lights.area : method.lights.point;
+    if (takes && method.chosen_by_name) names.emplace_back(method.name);
+  }
+  return names;
+}
+
+std::vector<std::string> contradictions_of(const std::vector<const Row*>& rows) {
   std::vector<std::string> found;
-  std::map<std::pair<std::string, std::optional<std::uint64_t>>, const Row*> first;
-  for (const Row& row : rows) {
+  std::map<std::tuple<std::string, std::optional<std::uint64_t>, LightsAsked>, const Row*> first;
+  for (const Row* const each : rows) {
+    const Row& row = *each;
     const Measurement& measurement = row.measurement;
     if (!measurement.exact || measurement.checksum.empty()) continue;
     if (measurement.judgement && !measurement.judgement->confirms) {
       found.push_back(row.request.kernel + '/' + row.request.system + " on " + row.request.scene +
                       ": " + measurement.judgement->verdict + "; " + row.command);
     }
-    const Row*& other = first[{row.request.scene, row.request.size}];
+    const Row*& other = first[{row.request.scene, row.request.size, row.request.lights}];
     if (other == nullptr) other = &row;
     if (other->measurement.checksum == measurement.checksum) continue;
     found.push_back(row.request.kernel + '/' + row.request.system + " on " + row.request.scene +
@@ -139,8 +140,6 @@ std::vector<std::string> contradictions_of(const std::vector<Row>& rows) {
   }
   return found;
 }
-
-}  // namespace
 
 double growth_exponent(const std::vector<double>& x, const std::vector<double>& y) {
   const auto n = static_cast<double>(x.size());
@@ -286,7 +285,9 @@ Expected<Comparison> compare(const ComparePlan& plan, const RunProgram& program,
     comparison.rows.push_back(std::move(row));
   }
   comparison.growth = growth_of(comparison.rows);
-  comparison.contradictions = contradictions_of(comparison.rows);
+  std::vector<const Row*> rows;
+  for (const Row& row : comparison.rows) rows.push_back(&row);
+  comparison.contradictions = contradictions_of(rows);
   return comparison;
 }
 

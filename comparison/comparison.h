@@ -80,6 +80,13 @@ struct Comparison {
 /// scenes.
 Expected<std::vector<Planned>> planned_runs(const ComparePlan& plan);
 
+/// The methods that take these lights and are chosen by name.
+std::vector<std::string> systems_for(LightsAsked lights);
+
+/// Of exact kernels: verdicts that do not confirm, checksums of one scene that differ; one sentence
+/// each.
+std::vector<std::string> contradictions_of(const std::vector<const Row*>& rows);
+
 /// What ratios are of: svbsp, or for area lights receiver, on doubles.
 RunRequest reference_of(const RunRequest& request);
 

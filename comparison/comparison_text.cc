@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "comparison/csv_text.h"
 #include "gnomon/algorithms/method.h"
 #include "gnomon/algorithms/method_options.h"
 #include "report/json/json_writer.h"
@@ -153,18 +154,6 @@ void write_row(report::JsonWriter& json, const Comparison& comparison, std::size
   json.end_object();
 }
 
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
-void add_line(std::string& text, const std::vector<std::string>& line) {
-  for (std::size_t i = 0; i < line.size(); ++i) text += (i == 0 ? "" : ",") + csv_cell(line[i]);
-  text += '\n';
-}
-
 /// Counters that one of the rows has, in order.
 std::vector<Counter> columns_of_work(const Comparison& comparison) {
   std::vector<Counter> columns;
@@ -269,7 +258,7 @@ std::string comparison_csv(const Comparison& comparison, bool times) {
   }
   header.emplace_back("command");
   std::string text;
-  add_line(text, header);
+  add_csv_line(text, header);
   for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
     const Row& row = comparison.rows[i];
     const Measurement& measurement = row.measurement;
@@ -297,7 +286,7 @@ std::string comparison_csv(const Comparison& comparison, bool times) {
       line.push_back(growth ? report::shortest(*growth) : "");
     }
     line.push_back(row.command);
-    add_line(text, line);
+    add_csv_line(text, line);
   }
   return text;
 }

@@ -49,6 +49,11 @@ Judgement read_judgement(JsonMembers& members) {
   members.read("confirms", judgement.confirms);
   members.read("by_points", judgement.by_points);
   members.read("wrong", judgement.wrong);
+  members.read("worst_share", judgement.worst_share);
+  members.read("width", judgement.width);
+  members.read("diagonal", judgement.diagonal);
+  members.read("invented", judgement.invented);
+  members.read("lost", judgement.lost);
   members.read("breaks", judgement.breaks);
   members.read("reason", judgement.reason);
   return judgement;
@@ -68,6 +73,9 @@ std::string request_text(const RunRequest& request) {
     json.member("system", request.system);
     json.member("kernel", request.kernel);
     json.member("area", request.lights == LightsAsked::kArea);
+    json.member("has_thickness", request.thickness.has_value());
+    json.member("thickness", request.thickness.value_or(0));
+    json.member("change", request.change);
     json.member("repeat", request.repeat);
     json.member("certify_up_to", request.certify_up_to);
   });
@@ -79,17 +87,22 @@ Expected<RunRequest> parse_request(std::string_view text) {
   JsonMembers members(*document, {}, {}, "a request of a comparison");
   RunRequest request;
   std::uint64_t size = 0;
-  bool area = false;
+  bool area = false, has_thickness = false;
+  double thickness = 0;
   members.read("scene", request.scene);
   members.read("size", size);
   members.read("seed", request.seed);
   members.read("system", request.system);
   members.read("kernel", request.kernel);
   members.read("area", area);
+  members.read("has_thickness", has_thickness);
+  members.read("thickness", thickness);
+  members.read("change", request.change);
   members.read("repeat", request.repeat);
   members.read("certify_up_to", request.certify_up_to);
   if (members.error()) return tl::unexpected(*members.error());
   if (size > 0) request.size = size;
+  if (has_thickness) request.thickness = thickness;
   request.lights = area ? LightsAsked::kArea : LightsAsked::kPoint;
   return request;
 }
@@ -114,6 +127,12 @@ std::string measurement_text(const Measurement& measurement) {
       json.member(info.name, measurement.work[info.counter]);
     }
     json.end_object();
+    json.member("changed", measurement.difference.has_value());
+    if (measurement.difference) {
+      json.member("sides", measurement.difference->sides);
+      json.member("differs", measurement.difference->worst_share);
+      json.member("where", measurement.difference->worst);
+    }
     json.member("judged", measurement.judgement.has_value());
     if (!measurement.judgement) return;
     const Judgement& judgement = *measurement.judgement;
@@ -121,6 +140,11 @@ std::string measurement_text(const Measurement& measurement) {
     json.member("confirms", judgement.confirms);
     json.member("by_points", judgement.by_points);
     json.member("wrong", judgement.wrong);
+    json.member("worst_share", judgement.worst_share);
+    json.member("width", judgement.width);
+    json.member("diagonal", judgement.diagonal);
+    json.member("invented", judgement.invented);
+    json.member("lost", judgement.lost);
     json.member("breaks", judgement.breaks);
     json.member("reason", judgement.reason);
   });
@@ -132,7 +156,7 @@ Expected<Measurement> parse_measurement(std::string_view text) {
   JsonMembers members(*document, {}, {}, "a measurement of a comparison");
   Measurement measurement;
   std::string end;
-  bool judged = false;
+  bool judged = false, changed = false;
   members.read("end", end);
   members.read("why", measurement.why);
   members.read("polygons", measurement.polygons);
@@ -148,6 +172,13 @@ Expected<Measurement> parse_measurement(std::string_view text) {
   JsonMembers work = members.object("work");
   for (const CounterInfo& info : counter_infos()) {
     work.read(std::string(info.name).c_str(), measurement.work[info.counter]);
+  }
+  members.read("changed", changed);
+  if (changed) {
+    Difference& difference = measurement.difference.emplace();
+    members.read("sides", difference.sides);
+    members.read("differs", difference.worst_share);
+    members.read("where", difference.worst);
   }
   members.read("judged", judged);
   if (judged) measurement.judgement = read_judgement(members);

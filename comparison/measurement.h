@@ -25,8 +25,10 @@ struct RunRequest {
   std::string system;  // parse_method()
   std::string kernel;  // parse_kernel_choice()
   LightsAsked lights = LightsAsked::kPoint;
-  std::uint64_t repeat = 0;         // times that the clock runs; 0: up to 25, while all are short
-  std::uint64_t certify_up_to = 0;  // polygons of scenes that are judged
+  std::uint64_t repeat = 0;           // times that the clock runs; 0: up to 25, while all are short
+  std::uint64_t certify_up_to = 0;    // polygons of scenes that are judged
+  std::optional<double> thickness{};  // of planes; else the kernel's own
+  std::string change{};               // of scene_change.h: also what it changes; empty: none
   friend bool operator==(const RunRequest&, const RunRequest&) = default;
 };
 
@@ -52,9 +54,21 @@ struct Judgement {
   bool by_points = false;
   double wrong = 0;  // area that is misclassified, uncovered, covered twice or outside, as a share
                      // of all that is judged
-  std::string breaks;  // the worst witness: "misclassified: found lit, true shadow"
-  std::string reason;  // the oracle's sentence; empty unless it failed
+  std::string breaks;      // the worst witness: "misclassified: found lit, true shadow"
+  std::string reason;      // the oracle's sentence; empty unless it failed
+  double worst_share = 0;  // wrong area of the polygon that has most of it, as its share
+  double width = 0;        // of the widest region of error, scene units
+  double diagonal = 0;     // of the scene, in the same units
+  std::uint64_t invented = 0, lost = 0;
   friend bool operator==(const Judgement&, const Judgement&) = default;
+};
+
+/// What a change of the scene that changes no exact answer did to this one.
+struct Difference {
+  std::uint64_t sides = 0;  // of polygons whose share is another double
+  double worst_share = 0;   // by which a share differs
+  std::string worst;        // where: light, polygon, side
+  friend bool operator==(const Difference&, const Difference&) = default;
 };
 
 struct Measurement {
@@ -69,6 +83,7 @@ struct Measurement {
   std::string checksum;                    // answer_checksum.h
   bool exact = false;                      // of an exact kernel: the same for every right answer
   std::optional<Judgement> judgement;
+  std::optional<Difference> difference;  // where a change was asked for
 
   bool timed() const { return runs > 0; }
   friend bool operator==(const Measurement&, const Measurement&) = default;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "comparison/answer_checksum.h"
+#include "comparison/scene_change.h"
 #include "comparison/scene_source.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/kernel_choice.h"
@@ -56,7 +57,7 @@ class Run {
   Measurement operator()() {
     if (!read() || !prepare_scene() || !time()) return done_;
     tell();
-    if (!answer()) return done_;
+    if (!answer() || !change()) return done_;
     tell();
     judge();
     return done_;
@@ -81,6 +82,7 @@ class Run {
     options_.kernel.id = kernel->kernel;
     options_.kernel.identity = kernel->identity;
     if (kernel->thin) options_.kernel.thickness = 0;
+    if (request_.thickness) options_.kernel.thickness = *request_.thickness;
     options_.method.options = system->values;
     options_.tuning.jobs = 1;
     const LightKinds takes = method_info(system->id).lights;
@@ -157,6 +159,23 @@ class Run {
     return true;
   }
 
+  /// The same of the changed scene, beside this answer.
+  bool change() {
+    if (request_.change.empty()) return true;
+    const SceneChange* change = change_by_name(request_.change);
+    if (change == nullptr) return stop({ErrorCode::kUsage, {}, "there is no such change", {}});
+    const Scene scene = change->make(scene_);
+    const auto prepared = prepare(scene);
+    if (!prepared) return stop(prepared.error());
+    ShadowOptions options = options_;
+    options.output.exact_fractions = done_.exact;
+    const auto result = compute_shadows(*prepared, options);
+    if (!result) return stop(result.error());
+    done_.difference = difference_of(shares_of(scene_, prepared_, result_, done_.exact),
+                                     shares_of(scene, *prepared, *result, done_.exact));
+    return true;
+  }
+
   void judge() {
     if (!judged()) return;
     const Claims claims =
@@ -176,6 +195,13 @@ class Run {
     judgement.by_points = report->by_points;
     const double area = report::facing_area(prepared_, options_.lights);
     if (area > 0) judgement.wrong = report->totals.misclassified.upper / area;
+    const oracle::ComparisonTotals& totals = report->totals;
+    judgement.worst_share = std::max({totals.worst_misclassified, totals.worst_uncovered,
+                                      totals.worst_overlapping, totals.worst_outside});
+    judgement.width = totals.width.upper;
+    judgement.diagonal = report->diagonal;
+    judgement.invented = totals.invented;
+    judgement.lost = totals.lost;
     if (report->verdict != oracle::Verdict::kIdentical) judgement.breaks = worst_place(*report);
     judgement.reason = report->oracle_fault ? "the oracle contradicts itself" : report->reason;
   }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gnomon compare: systems beside each other, on scenes by sizes (comparison/README.md); and
 // gnomon measure, the process of one run.
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "cli/common/algorithm_choice.h"
+#include "cli/commands/comparison_options.h"
 #include "cli/common/check_options.h"
 #include "cli/common/commands.h"
 #include "cli/common/interrupt.h"
@@ -16,76 +15,31 @@
 #include "comparison/comparison.h"
 #include "comparison/comparison_text.h"
 #include "comparison/run_measurement.h"
-#include "gnomon/algorithms/method_options.h"
-#include "gnomon/algorithms/shadows.h"
-#include "gnomon/kernel/kernel_choice.h"
 
 namespace gnomon::cli {
 
 namespace {
 
-struct CompareCommandOptions {
-  std::vector<std::string> scenes, algorithms, kernels;
-  std::vector<std::uint64_t> sizes;
-  std::uint64_t seed = 1, repeat = 0, certify_up_to = comparison::kCertifyUpTo;
-  std::string time;
-  std::uint64_t megabytes = comparison::RunLimits{}.megabytes;
-  bool commands = false, counters = false, times = false;
-  std::string json, csv;
+struct CompareCommandOptions : ComparisonOptions {
+  bool counters = false, times = false;
 };
-
-template <class Text>
-void add_once(std::vector<std::string>& texts, Text text) {
-  if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
-}
-
-Expected<void> add_kernels(const std::vector<std::string>& names,
-                           std::vector<std::string>& kernels) {
-  for (const std::string& name : names) {
-    if (name == kAllName) {
-      for (const KernelInfo& info : kernel_list()) {
-        if (has_kernel(info.id)) add_once(kernels, std::string(info.name));
-      }
-      continue;
-    }
-    const auto kernel = parse_kernel_choice(name);
-    if (!kernel) return tl::unexpected(kernel.error());
-    add_once(kernels, kernel->name());
-  }
-  return {};
-}
 
 Expected<comparison::ComparePlan> plan_of(const CompareCommandOptions& options) {
   comparison::ComparePlan plan;
-  for (const std::string& text : options.scenes) {
-    auto scene = comparison::SceneSource::parse(text);
-    if (!scene) return tl::unexpected(scene.error());
-    plan.scenes.push_back(std::move(*scene));
-  }
-  bool all = options.algorithms.empty();
-  for (const std::string& text : options.algorithms) {
-    if (text == kAllName) {
-      all = true;
-      continue;
-    }
-    const auto method = parse_method(text);
-    if (!method) {
-      Error error = method.error();
-      error.what = "--algorithm " + error.what;
-      return tl::unexpected(std::move(error));
-    }
-    add_once(plan.systems, method_text(method->id, method->values));
-  }
-  if (all) plan.systems.clear();
-  const std::vector<std::string> usual = {"double", "plane"};
-  const auto added = add_kernels(options.kernels.empty() ? usual : options.kernels, plan.kernels);
-  if (!added) return tl::unexpected(added.error());
+  auto scenes = options.sources();
+  if (!scenes) return tl::unexpected(scenes.error());
+  auto systems = options.systems();
+  if (!systems) return tl::unexpected(systems.error());
+  auto kernels = options.kernel_names({"double", "plane"});
+  if (!kernels) return tl::unexpected(kernels.error());
+  plan.scenes = std::move(*scenes);
+  plan.systems = std::move(*systems);
+  plan.kernels = std::move(*kernels);
   plan.sizes = options.sizes;
   plan.seed = options.seed;
   plan.repeat = options.repeat;
   plan.certify_up_to = options.certify_up_to;
-  if (!options.time.empty()) plan.limits.seconds = duration_seconds(options.time);
-  plan.limits.megabytes = options.megabytes;
+  plan.limits = options.limits();
   return plan;
 }
 
@@ -144,53 +98,10 @@ void add_compare_command(CLI::App& app, Action& action) {
       "Examples:\n"
       "  gnomon compare city --size 100 --size 1000 --size 10000\n"
       "  gnomon compare quads:two_sided=1 room.json --algorithm svbsp --algorithm tiling:tiles=64");
-  command
-      .add_option("SCENE", options->scenes,
-                  "Scenes of 'gnomon generate' as NAME[:parameter=value,...], files, or generators "
-                  "of campaigns")
-      ->required()
-      ->type_name("FAMILY|SCENE...");
-  repeatable(command.add_option("--algorithm", options->algorithms,
-                                "A system with its options (repeatable; gnomon systems lists "
-                                "them); absent or all:\nevery one that takes the scene's lights"))
-      ->type_name("A");
-  repeatable(command.add_option("--kernel", options->kernels,
-                                "A kernel (repeatable), or all; double and plane if absent"))
-      ->type_name("K");
-  repeatable(command.add_option("--size", options->sizes,
-                                "Polygons of a family's scene, at most (repeatable); absent: the "
-                                "family's default"))
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
-  command.add_option("--seed", options->seed, "Seed of what is random")
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      .add_option("--certify-up-to", options->certify_up_to,
-                  "Scenes of at most so many polygons are judged by the oracle")
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      .add_option("--repeat", options->repeat,
-                  "Times that each run is measured, of which the median counts; 0: 3 to 25 times, "
-                  "once\nwhat is long")
-      ->type_name("R")
-      ->capture_default_str();
-  command.add_option("--time", options->time, "Of the clock, for one run with its judging; 60s")
-      ->check(duration())
-      ->type_name("T");
-  command.add_option("--memory", options->megabytes, "Megabytes for one run; 0: no limit")
-      ->type_name("M")
-      ->capture_default_str();
+  add_comparison_options(command, *options, "double and plane");
   command.add_flag("--counters", options->counters, "Print all that each system counts");
-  command.add_flag("--commands", options->commands, "Print the command that repeats each row");
   command.add_flag("--times", options->times,
                    "Seconds, ratios, memory and growth in JSON and CSV too");
-  command
-      .add_option("--json", options->json, "Write the rows as JSON; - for standard output alone")
-      ->type_name("FILE");
-  command.add_option("--csv", options->csv, "Write the rows as CSV; - for standard output alone")
-      ->type_name("FILE");
   command.callback([options, &action] { action = [options] { return run_compare(*options); }; });
 }
 

@@ -68,6 +68,7 @@ int run(int argc, char** argv) {
   add_render_command(app, action);
   add_info_command(app, action);
   add_compare_command(app, action);
+  add_tradeoff_command(app, action);
   add_systems_command(app, action);
   add_generate_command(app, action);
   add_convert_command(app, action);

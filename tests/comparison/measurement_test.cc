@@ -29,6 +29,8 @@ TEST(Measurement, TextFormsReadBack) {
   asked.lights = LightsAsked::kArea;
   EXPECT_EQ(*parse_request(request_text(asked)), asked);
   asked.size.reset();
+  asked.thickness = 0;
+  asked.change = "axes yzx";
   EXPECT_EQ(*parse_request(request_text(asked)), asked);
 
   Measurement measured;
@@ -40,7 +42,9 @@ TEST(Measurement, TextFormsReadBack) {
   measured.checksum = "0123456789abcdef";
   measured.work[Counter::kTests] = 7;
   EXPECT_EQ(*parse_measurement(measurement_text(measured)), measured);
-  measured.judgement = Judgement{"failed", false, true, 1e-9, "misclassified", "too much"};
+  measured.difference = Difference{3, 1e-16, "light sun, polygon \"a\" (front)"};
+  measured.judgement =
+      Judgement{"failed", false, true, 1e-9, "misclassified", "too much", 2e-9, 0.25, 100.5, 7, 8};
   EXPECT_EQ(*parse_measurement(measurement_text(measured)), measured);
   EXPECT_EQ(measurement_text(measured).find('\n'), std::string::npos);
 
