@@ -39,9 +39,10 @@ TEST(Tradeoff, EveryKernelThicknessAndMethodWithAFront) {
   const std::string json = directory.file("rows.json"), csv = directory.file("rows.csv"),
                     plot = directory.file("rows.svg");
   const RunResult done =
-      tradeoff({"city:n=3", "--algorithm", "sectors", "--algorithm", "svbsp", "--kernel", "float",
-                "--kernel", "double", "--kernel", "plane", "--try", "0", "--try", "1e-12", "--try",
-                "1e-3", "--repeat", "1", "--json", json, "--csv", csv, "--plot", plot});
+      tradeoff({"city:n=3", "--algorithm", "sectors",  "--algorithm", "svbsp", "--kernel", "float",
+                "--kernel", "double",      "--kernel", "plane",       "--try", "0",        "--try",
+                "1e-12",    "--try",       "1e-3",     "--repeat",    "1",     "--json",   json,
+                "--csv",    csv,           "--plot",   plot});
   EXPECT_EQ(done.status, 0) << done.err;  // float fails, which is the subject
   EXPECT_THAT(done.out, AllOf(HasSubstr("identical"), HasSubstr("worst share"), HasSubstr("*")));
   rapidjson::Document rows;
@@ -64,9 +65,8 @@ TEST(Tradeoff, ThicknessesOfAFolder) {
     std::filesystem::copy_file(std::string(GNOMON_EXAMPLES) + '/' + name, directory.file(name));
   }
   std::ofstream(directory.file("other.json")) << "{}";
-  const RunResult done =
-      tradeoff({directory.path(), "--thickness", "--algorithm", "sectors", "--try", "1e-12",
-                "--try", "1e-6"});
+  const RunResult done = tradeoff({directory.path().string(), "--thickness", "--algorithm",
+                                   "sectors", "--try", "1e-12", "--try", "1e-6"});
   EXPECT_EQ(done.status, 0) << done.err;
   EXPECT_THAT(done.out, AllOf(HasSubstr("best single thickness 1e-12"), HasSubstr("2 of 2")));
   EXPECT_THAT(done.err, HasSubstr("1 of 3 files are left out"));
@@ -97,10 +97,10 @@ TEST(Tradeoff, ALogIsGoneOnWith) {
 
 TEST(Tradeoff, WrongWordsAreOneLine) {
   for (const Arguments& options :
-       {Arguments{"nosuch"}, Arguments{"city", "--try", "-1"}, Arguments{"city", "--try", "x"},
-        Arguments{"city", "--kernel", "nosuch"}, Arguments{"city", "--algorithm", "nosuch"},
-        Arguments{"city", "--change", "nosuch"}, Arguments{"city", "--thickness", "--invariances"},
-        Arguments{}}) {
+       {Arguments{"nosuch-scene"}, Arguments{"city", "--try", "-1"},
+        Arguments{"city", "--try", "x"}, Arguments{"city", "--kernel", "nosuch"},
+        Arguments{"city", "--algorithm", "nosuch"}, Arguments{"city", "--change", "nosuch"},
+        Arguments{"city", "--thickness", "--invariances"}, Arguments{}}) {
     const RunResult done = tradeoff(options);
     EXPECT_EQ(done.status, 2) << done.err;
     EXPECT_THAT(done.err, HasSubstr("gnomon: "));
