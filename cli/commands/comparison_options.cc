@@ -68,7 +68,8 @@ Expected<std::vector<comparison::SceneSource>> ComparisonOptions::sources() cons
       if (names.size() > 1) {  // of a folder, where other files may lie, too
         const auto scene = source->make({}, seed);
         if (!scene || scene->lights.empty()) {
-          if (++count == 1) left_out = scene ? name + ": there is no light" : to_string(scene.error());
+          if (++count == 1)
+            left_out = scene ? name + ": there is no light" : to_string(scene.error());
           continue;
         }
       }
