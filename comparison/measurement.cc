@@ -23,6 +23,10 @@ constexpr std::array<std::pair<RunEnd, std::string_view>, 7> kEnds = {
      {RunEnd::kCrashed, "crashed"},
      {RunEnd::kNotRun, "not run"}}};
 
+constexpr std::array<const char*, 8> kStages = {"by_identity",  "by_filter",   "by_64_bits",
+                                                "by_128_bits",  "by_256_bits", "by_512_bits",
+                                                "by_1024_bits", "by_gmp"};
+
 std::optional<RunEnd> end_by_name(std::string_view name) {
   for (const auto& [end, own] : kEnds) {
     if (own == name) return end;
@@ -127,6 +131,9 @@ std::string measurement_text(const Measurement& measurement) {
       json.member(info.name, measurement.work[info.counter]);
     }
     json.end_object();
+    for (std::size_t i = 0; i < kStages.size(); ++i) {
+      json.member(kStages[i], measurement.decided_by[i]);
+    }
     json.member("changed", measurement.difference.has_value());
     if (measurement.difference) {
       json.member("sides", measurement.difference->sides);
@@ -172,6 +179,9 @@ Expected<Measurement> parse_measurement(std::string_view text) {
   JsonMembers work = members.object("work");
   for (const CounterInfo& info : counter_infos()) {
     work.read(std::string(info.name).c_str(), measurement.work[info.counter]);
+  }
+  for (std::size_t i = 0; i < kStages.size(); ++i) {
+    members.read(kStages[i], measurement.decided_by[i]);
   }
   members.read("changed", changed);
   if (changed) {

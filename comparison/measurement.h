@@ -4,6 +4,7 @@
 #ifndef GNOMON_COMPARISON_MEASUREMENT_H
 #define GNOMON_COMPARISON_MEASUREMENT_H
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -63,6 +64,10 @@ struct Judgement {
   friend bool operator==(const Judgement&, const Judgement&) = default;
 };
 
+/// How often each stage of the exact predicates decided: identity, the filter, integers of 64, 128,
+/// 256, 512 and 1024 bits, GMP.
+using DecidedBy = std::array<std::uint64_t, 8>;
+
 /// What a change of the scene that changes no exact answer did to this one.
 struct Difference {
   std::uint64_t sides = 0;  // of polygons whose share is another double
@@ -84,6 +89,7 @@ struct Measurement {
   bool exact = false;                      // of an exact kernel: the same for every right answer
   std::optional<Judgement> judgement;
   std::optional<Difference> difference;  // where a change was asked for
+  DecidedBy decided_by{};                // of kernel plane: which stage decided how often
 
   bool timed() const { return runs > 0; }
   friend bool operator==(const Measurement&, const Measurement&) = default;

@@ -152,9 +152,12 @@ class Run {
     ShadowOptions options = options_;
     options.output.exact_fractions = done_.exact;
     options.output.exact_points = judged();
+    options.output.stage_counts = done_.exact;
     auto result = compute_shadows(prepared_, options);
     if (!result) return stop(result.error());
     result_ = std::move(*result);
+    done_.decided_by = {result_.stages.identity, result_.stages.filter};
+    std::ranges::copy(result_.stages.by_width(), done_.decided_by.begin() + 2);
     done_.checksum = done_.exact ? exact_checksum(result_) : rounded_checksum(result_);
     return true;
   }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "comparison/extreme_scenes.h"
 #include "gnomon/scene/read.h"
 
 namespace gnomon::comparison {
@@ -41,6 +42,12 @@ Expected<std::map<std::string, std::int64_t>> parse_parameters(std::string_view 
 Expected<SceneSource> SceneSource::parse(std::string_view text) {
   SceneSource source;
   source.name_ = text;
+  if (text.starts_with(kExtremePrefix)) {
+    auto scene = extreme_by_name(text);
+    if (!scene) return tl::unexpected(std::move(scene.error()));
+    source.scene_ = std::make_shared<const Scene>(std::move(*scene));
+    return source;
+  }
   const std::size_t colon = text.find(':');
   source.family_ = generator_by_name(text.substr(0, colon));
   if (source.family_ != nullptr) {
@@ -82,6 +89,7 @@ Expected<Scene> SceneSource::of_parameter(std::int64_t value, std::uint64_t seed
 }
 
 Expected<Scene> SceneSource::make(std::optional<std::uint64_t> polygons, std::uint64_t seed) const {
+  if (scene_) return *scene_;
   if (generator_) return generator_->make(seed).scene;
   if (family_ == nullptr) {
     auto read = read_scene(name_, {});

@@ -20,8 +20,8 @@ namespace gnomon::comparison {
 
 class SceneSource {
  public:
-  /// NAME[:parameter=value,...] of `gnomon generate`, a file, or a generator of campaigns. Errors:
-  /// kUsage, for what is none of these.
+  /// NAME[:parameter=value,...] of `gnomon generate`, a file, a generator of campaigns, or a step
+  /// of an extreme (extreme_scenes.h). Errors: kUsage, for what is none of these.
   static Expected<SceneSource> parse(std::string_view text);
 
   /// The text that it was parsed from.
@@ -45,6 +45,7 @@ class SceneSource {
   std::string size_parameter_;
   std::int64_t smallest_ = 0, largest_ = 0;  // of that parameter
   std::shared_ptr<const fuzz::Generator> generator_;
+  std::shared_ptr<const Scene> scene_;  // of an extreme
 };
 
 }  // namespace gnomon::comparison

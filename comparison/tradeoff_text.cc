@@ -22,7 +22,7 @@ using report::grouped;
 using report::rounded;
 using report::shortest;
 
-constexpr std::size_t kWidth = 150;
+constexpr std::size_t kWidthOfTradeoff = 150;
 
 std::string scene_text(const TradeoffRow& row) {
   return row.request.scene + (row.request.lights == LightsAsked::kArea ? " (area lights)" : "");
@@ -79,7 +79,7 @@ std::string remark(const TradeoffRow& row) {
 
 void add_ends(std::string& text, const Tradeoff& tradeoff) {
   for (const std::string& contradiction : tradeoff.contradictions) {
-    text += report::wrapped("a bug of ours: " + contradiction, kWidth, 0, 2);
+    text += report::wrapped("a bug of ours: " + contradiction, kWidthOfTradeoff, 0, 2);
   }
   if (tradeoff.interrupted) text += "Interrupted: what was not reached is missing.\n";
 }
@@ -135,7 +135,7 @@ std::string scene_table(std::span<const TradeoffRow> rows, bool commands) {
     if (const std::string text = remark(row); !text.empty()) table.add_note(text);
     if (commands) table.add_note(row.command);
   }
-  return table.to_string(kWidth);
+  return table.to_string(kWidthOfTradeoff);
 }
 
 }  // namespace
@@ -166,7 +166,7 @@ std::string thickness_text(const Tradeoff& tradeoff) {
                    verdict.system, verdict.kernel, grouped(verdict.tried), range_text(verdict)});
     if (verdict.judged > 0) groups[verdict.kernel + '/' + verdict.system].push_back(verdict);
   }
-  std::string text = table.to_string(kWidth);
+  std::string text = table.to_string(kWidthOfTradeoff);
   for (const auto& [name, group] : groups) {
     std::string sentence = name + ": ";
     const std::vector<ThicknessScore> scores = thickness_scores(group);
@@ -189,7 +189,7 @@ std::string thickness_text(const Tradeoff& tradeoff) {
       none += (none.empty() ? "" : ", ") + verdict.scene;
     }
     if (count > 0) sentence += "; none is right for " + grouped(count) + ": " + none;
-    text += report::wrapped(sentence, kWidth, 0, 2);
+    text += report::wrapped(sentence, kWidthOfTradeoff, 0, 2);
   }
   add_ends(text, tradeoff);
   return text;
@@ -212,7 +212,7 @@ std::string invariance_text(const Tradeoff& tradeoff) {
                               : std::string(name_of(row.measurement.end)),
                    difference ? difference->worst : row.measurement.why});
   }
-  std::string text = table.to_string(kWidth);
+  std::string text = table.to_string(kWidthOfTradeoff);
   add_ends(text, tradeoff);
   return text;
 }

@@ -120,30 +120,16 @@ comparison::RunLimits ComparisonOptions::limits() const {
   return limits;
 }
 
-void add_comparison_options(CLI::App& command, ComparisonOptions& options,
-                            const std::string& usual_kernels) {
-  command
-      .add_option(
-          "SCENE", options.scenes,
-          "Scenes of 'gnomon generate' as NAME[:parameter=value,...], files, folders of them, "
-          "or\ngenerators of campaigns")
-      ->required()
-      ->type_name("FAMILY|SCENE...");
+void add_run_options(CLI::App& command, ComparisonOptions& options,
+                     const std::string& usual_kernels, const std::string& usual_systems) {
   repeatable(command.add_option("--algorithm", options.algorithms,
                                 "A system with its options (repeatable; gnomon systems lists "
-                                "them); absent or all:\nevery one that takes the scene's lights"))
+                                "them), or all; absent:\n" +
+                                    usual_systems))
       ->type_name("A");
   repeatable(command.add_option("--kernel", options.kernels,
                                 "A kernel (repeatable), or all; " + usual_kernels + " if absent"))
       ->type_name("K");
-  repeatable(command.add_option("--size", options.sizes,
-                                "Polygons of a family's scene, at most (repeatable); absent: the "
-                                "family's default"))
-      ->check(CLI::PositiveNumber)
-      ->type_name("N");
-  command.add_option("--seed", options.seed, "Seed of what is random")
-      ->type_name("N")
-      ->capture_default_str();
   command
       .add_option("--certify-up-to", options.certify_up_to,
                   "Scenes of at most so many polygons are judged by the oracle")
@@ -161,11 +147,31 @@ void add_comparison_options(CLI::App& command, ComparisonOptions& options,
   command.add_option("--memory", options.megabytes, "Megabytes for one run; 0: no limit")
       ->type_name("M")
       ->capture_default_str();
-  command.add_flag("--commands", options.commands, "Print the command that repeats each row");
   command.add_option("--json", options.json, "Write the rows as JSON; - for standard output alone")
       ->type_name("FILE");
   command.add_option("--csv", options.csv, "Write the rows as CSV; - for standard output alone")
       ->type_name("FILE");
+}
+
+void add_comparison_options(CLI::App& command, ComparisonOptions& options,
+                            const std::string& usual_kernels) {
+  command
+      .add_option(
+          "SCENE", options.scenes,
+          "Scenes of 'gnomon generate' as NAME[:parameter=value,...], files, folders of them, "
+          "or\ngenerators of campaigns")
+      ->required()
+      ->type_name("FAMILY|SCENE...");
+  repeatable(command.add_option("--size", options.sizes,
+                                "Polygons of a family's scene, at most (repeatable); absent: the "
+                                "family's default"))
+      ->check(CLI::PositiveNumber)
+      ->type_name("N");
+  command.add_option("--seed", options.seed, "Seed of what is random")
+      ->type_name("N")
+      ->capture_default_str();
+  add_run_options(command, options, usual_kernels, "every one that takes the scene's lights");
+  command.add_flag("--commands", options.commands, "Print the command that repeats each row");
 }
 
 }  // namespace gnomon::cli

@@ -35,7 +35,9 @@ struct ComparisonOptions {
 /// The kernels that were built.
 std::vector<std::string> all_kernels();
 
-/// `usual_kernels`: in words, for the help.
+/// All but the scenes. `usual_kernels`, `usual_systems`: in words, for the help.
+void add_run_options(CLI::App& command, ComparisonOptions& options,
+                     const std::string& usual_kernels, const std::string& usual_systems);
 void add_comparison_options(CLI::App& command, ComparisonOptions& options,
                             const std::string& usual_kernels);
 
