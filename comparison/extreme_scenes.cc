@@ -166,7 +166,7 @@ Scene near_lamp(int k) {
 
 Scene low_lamp(int k) {
   Draft draft = houses();
-  draft.lamp({0.7, -11.3, std::ldexp(8, -k)});
+  draft.lamp({0.7, -11.3, std::ldexp(9, -k)});
   return draft.take();
 }
 
@@ -294,9 +294,8 @@ Scene bits(int k) {
 
 Scene area_light(int k) {
   Draft draft = houses();
-  const double size = std::ldexp(1, k), z = 13.9;
-  draft.panel(
-      {{0.7, -5.3, z}, {0.7, -5.3 + size, z}, {0.7 + size, -5.3 + size, z}, {0.7 + size, -5.3, z}});
+  const double size = std::ldexp(1, k), z = 13.9;  // at 0, where doubles have room for it
+  draft.panel({{0, 0, z}, {0, size, z}, {size, size, z}, {size, 0, z}});
   return draft.take();
 }
 
@@ -308,17 +307,17 @@ constexpr std::array<ExtremeAxis, 18> kAxes = {{
     {"near-parallel", "planes that cross at an angle of", "2^-k", 0, 60, 3, near_parallel},
     {"far-lamp", "a lamp away by", "30 * 2^k", 0, 1000, 50, far_lamp},
     {"near-lamp", "lamps away from a roof and an edge by", "24 * 2^-k", 0, 50, 3, near_lamp},
-    {"low-lamp", "a lamp over the floor's plane by", "8 * 2^-k", 0, 60, 3, low_lamp},
+    {"low-lamp", "a lamp over the floor's plane by", "9 * 2^-k", 0, 60, 3, low_lamp},
     {"grazing-sun", "a sun over the plane of floor and walls by", "2^-k", 0, 60, 3, grazing_sun},
     {"gap", "a plate over floor and roof by", "2^-k", 0, 60, 3, gap},
-    {"rotation", "turns of the scene, in doubles", "k", 0, 12, 1, rotated},
+    {"rotation", "turns of the scene, in doubles", "k", 0, 12, 1, rotated, false},
     {"detail", "boxes of a size of", "2^-k", 0, 48, 3, detail},
     {"tiles", "plates of one plane, as many as", "2^k", 0, 11, 1, tiles},
     {"nested", "boxes in each other, as many as", "k", 1, 24, 2, nested},
     {"fan", "triangles that meet in one point, as many as", "2^k", 1, 9, 1, fan},
     {"lights", "lamps", "k", 1, 33, 8, many_lights},
-    {"bits", "bits of a coordinate behind the point", "k", 1, 1000, 111, bits},
-    {"area-light", "an area light of a size of", "2^k", -60, 20, 5, area_light},
+    {"bits", "bits of a coordinate behind the point", "k", 1, 1000, 111, bits, false},
+    {"area-light", "an area light of a size of", "2^k", -60, 20, 5, area_light, false},
 }};
 
 }  // namespace
@@ -333,7 +332,7 @@ const ExtremeAxis* axis_by_name(std::string_view name) {
 Scene extreme_scene(const ExtremeAxis& axis, int step, bool sheared) {
   Scene scene = axis.make(step);
   scene.name = extreme_name(axis, step, sheared);
-  if (!sheared) return scene;
+  if (!sheared || !axis.shears) return scene;
   const auto shear = [](Position& p) {
     // x + z / 8, y + x / 4, z + y / 16: doubles as far as the scene's are short enough.
     const double x = p[0].nearest(), y = p[1].nearest(), z = p[2].nearest();

@@ -25,6 +25,7 @@ struct ExtremeAxis {
   int first = 0, last = 0;   // steps
   int stride = 1;            // between the steps that are tried if nobody says otherwise
   Scene (*make)(int step) = nullptr;
+  bool shears = true;  // else it has no sheared form, and is what it is
 };
 
 /// All axes there are.
