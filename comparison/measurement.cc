@@ -80,6 +80,7 @@ std::string request_text(const RunRequest& request) {
     json.member("has_thickness", request.thickness.has_value());
     json.member("thickness", request.thickness.value_or(0));
     json.member("change", request.change);
+    json.member("points", request.points);
     json.member("repeat", request.repeat);
     json.member("certify_up_to", request.certify_up_to);
   });
@@ -102,6 +103,7 @@ Expected<RunRequest> parse_request(std::string_view text) {
   members.read("has_thickness", has_thickness);
   members.read("thickness", thickness);
   members.read("change", request.change);
+  members.read("points", request.points);
   members.read("repeat", request.repeat);
   members.read("certify_up_to", request.certify_up_to);
   if (members.error()) return tl::unexpected(*members.error());
@@ -118,6 +120,8 @@ std::string measurement_text(const Measurement& measurement) {
     json.member("polygons", measurement.polygons);
     json.member("parts", measurement.parts);
     json.member("lights", measurement.lights);
+    json.member("position_bits", measurement.position_bits);
+    json.member("direction_bits", measurement.direction_bits);
     json.member("fragments", measurement.fragments);
     json.member("nodes", measurement.nodes);
     json.member("seconds", measurement.seconds);
@@ -169,6 +173,8 @@ Expected<Measurement> parse_measurement(std::string_view text) {
   members.read("polygons", measurement.polygons);
   members.read("parts", measurement.parts);
   members.read("lights", measurement.lights);
+  members.read("position_bits", measurement.position_bits);
+  members.read("direction_bits", measurement.direction_bits);
   members.read("fragments", measurement.fragments);
   members.read("nodes", measurement.nodes);
   members.read("seconds", measurement.seconds);

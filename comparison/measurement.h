@@ -30,6 +30,7 @@ struct RunRequest {
   std::uint64_t certify_up_to = 0;    // polygons of scenes that are judged
   std::optional<double> thickness{};  // of planes; else the kernel's own
   std::string change{};               // of scene_change.h: also what it changes; empty: none
+  bool points = false;                // what has more polygons is judged by exact points
   friend bool operator==(const RunRequest&, const RunRequest&) = default;
 };
 
@@ -80,13 +81,14 @@ struct Measurement {
   RunEnd end = RunEnd::kMeasured;
   std::string why;  // in words, of every other end; also why it was not judged
   std::uint64_t polygons = 0, parts = 0, lights = 0;
-  std::uint64_t fragments = 0, nodes = 0;  // nodes of trees, cells
-  WorkCounts work;                         // of all lights
-  double seconds = 0;                      // CPU time of one thread, the median
-  std::uint64_t runs = 0;                  // of which that is the median
-  std::uint64_t peak_bytes = 0;            // resident, of the process, before it was judged
-  std::string checksum;                    // answer_checksum.h
-  bool exact = false;                      // of an exact kernel: the same for every right answer
+  std::uint64_t position_bits = 0, direction_bits = 0;  // of the scene's grid
+  std::uint64_t fragments = 0, nodes = 0;               // nodes of trees, cells
+  WorkCounts work;                                      // of all lights
+  double seconds = 0;                                   // CPU time of one thread, the median
+  std::uint64_t runs = 0;                               // of which that is the median
+  std::uint64_t peak_bytes = 0;  // resident, of the process, before it was judged
+  std::string checksum;          // answer_checksum.h
+  bool exact = false;            // of an exact kernel: the same for every right answer
   std::optional<Judgement> judgement;
   std::optional<Difference> difference;  // where a change was asked for
   DecidedBy decided_by{};                // of kernel plane: which stage decided how often

@@ -57,7 +57,7 @@ class Run {
   Measurement operator()() {
     if (!read() || !prepare_scene() || !time()) return done_;
     tell();
-    if (!answer() || !change()) return done_;
+    if (!count_stages() || !answer() || !change()) return done_;
     tell();
     judge();
     return done_;
@@ -108,6 +108,8 @@ class Run {
     prepared_ = std::move(*prepared);
     done_.polygons = scene_.polygons.size();
     done_.parts = prepared_.parts.size();
+    done_.position_bits = prepared_.position_bits;
+    done_.direction_bits = prepared_.direction_bits;
     for (std::uint32_t i = 0; i < prepared_.lights.size(); ++i) {
       if (prepared_.lights[i].has_area() == (request_.lights == LightsAsked::kArea)) {
         options_.lights.push_back(i);
@@ -146,18 +148,27 @@ class Run {
     return true;
   }
 
-  bool judged() const { return done_.polygons <= request_.certify_up_to; }
+  bool judged() const { return request_.points || done_.polygons <= request_.certify_up_to; }
+
+  /// Who decides, in a run that is asked for no more than the one that was timed.
+  bool count_stages() {
+    if (!done_.exact) return true;
+    ShadowOptions options = options_;
+    options.output.stage_counts = true;
+    const auto result = compute_shadows(prepared_, options);
+    if (!result) return stop(result.error());
+    done_.decided_by = {result->stages.identity, result->stages.filter};
+    std::ranges::copy(result->stages.by_width(), done_.decided_by.begin() + 2);
+    return true;
+  }
 
   bool answer() {
     ShadowOptions options = options_;
     options.output.exact_fractions = done_.exact;
     options.output.exact_points = judged();
-    options.output.stage_counts = done_.exact;
     auto result = compute_shadows(prepared_, options);
     if (!result) return stop(result.error());
     result_ = std::move(*result);
-    done_.decided_by = {result_.stages.identity, result_.stages.filter};
-    std::ranges::copy(result_.stages.by_width(), done_.decided_by.begin() + 2);
     done_.checksum = done_.exact ? exact_checksum(result_) : rounded_checksum(result_);
     return true;
   }
@@ -187,6 +198,7 @@ class Run {
     oracle::CertifyOptions options;
     options.lights = options_.lights;
     options.threads = 1;
+    if (done_.polygons > request_.certify_up_to) options.most_pairs = 0;
     const auto report = oracle::certify(truth, claims, options);
     if (!report) {
       done_.why = "not judged: " + report.error().what;

@@ -2,6 +2,7 @@
 #include "comparison/tradeoff.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -115,7 +116,9 @@ Expected<std::vector<Planned>> tradeoff_runs(const TradeoffPlan& plan) {
                                  [&](const Light& light) { return light.has_area() == area; })) {
           continue;
         }
+        if (plan.only && *plan.only != lights) continue;
         RunRequest request;
+        request.points = plan.points;
         request.scene = source.name();
         request.size = size;
         request.seed = plan.seed;
@@ -134,7 +137,14 @@ Expected<Tradeoff> find_tradeoff(const TradeoffPlan& plan, const RunProgram& pro
   const auto all = tradeoff_runs(plan);
   if (!all) return tl::unexpected(all.error());
   Tradeoff tradeoff;
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
   for (const auto& [request, polygons] : *all) {
+    const double spent = std::chrono::duration<double>(Clock::now() - start).count();
+    if (plan.budget && spent > *plan.budget) {
+      tradeoff.out_of_time = true;
+      break;
+    }
     if (control.progress) control.progress(request, tradeoff.rows.size(), all->size());
     std::optional<Measurement> before = log.find(request);
     const bool is_new = !before;

@@ -24,6 +24,9 @@ struct TradeoffPlan {
   std::vector<double> thicknesses;
   std::vector<std::string> changes;  // of scene_change.h; empty: the scenes as they are
   std::uint64_t seed = 1, repeat = 0, certify_up_to = kCertifyUpTo;
+  bool points = false;              // RunRequest::points
+  std::optional<LightsAsked> only;  // else every kind that a scene has
+  std::optional<double> budget;     // seconds of the clock, after which nothing more is begun
   RunLimits limits;
 };
 
@@ -61,8 +64,8 @@ struct ThicknessScore {
 
 struct Tradeoff {
   std::vector<TradeoffRow> rows;
-  bool interrupted = false;                 // rows that were not reached are missing
-  std::vector<std::string> contradictions;  // as of comparisons
+  bool interrupted = false, out_of_time = false;  // rows that were not reached are missing
+  std::vector<std::string> contradictions;        // as of comparisons
 };
 
 /// The runs of a plan: by scene, size, lights, method, kernel, thickness and change. A scene with

@@ -70,6 +70,7 @@ int run(int argc, char** argv) {
   add_compare_command(app, action);
   add_tradeoff_command(app, action);
   add_extremes_command(app, action);
+  add_advise_command(app, action);
   add_systems_command(app, action);
   add_generate_command(app, action);
   add_convert_command(app, action);

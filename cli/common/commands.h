@@ -18,6 +18,7 @@ void add_info_command(CLI::App& app, Action& action);
 void add_systems_command(CLI::App& app, Action& action);
 void add_generate_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
+void add_advise_command(CLI::App& app, Action& action);
 void add_extremes_command(CLI::App& app, Action& action);
 void add_tradeoff_command(CLI::App& app, Action& action);
 void add_measure_command(CLI::App& app, Action& action);
