@@ -27,6 +27,20 @@ TargetPiece front_of(const TargetPiece& piece, const HalfSpace& half_space, doub
   return front;
 }
 
+namespace {
+
+/// Whether all of the piece is outside of one of the half-spaces, moved by what `shift` says.
+template <class Shift>
+bool misses(const TargetPiece& piece, std::span<const HalfSpace> cone, const Shift& shift) {
+  return std::ranges::any_of(cone, [&](const HalfSpace& half_space) {
+    const double least = shift(half_space);
+    return std::ranges::all_of(
+        piece, [&](const TargetPoint& point) { return half_space.at(point) <= least; });
+  });
+}
+
+}  // namespace
+
 void take_away(std::vector<TargetPiece>& pieces, std::span<const HalfSpace> cone, Leaves leaves) {
   const auto shift = [&](const HalfSpace& half_space) {
     return leaves == Leaves::kNearest ? 0
@@ -35,12 +49,7 @@ void take_away(std::vector<TargetPiece>& pieces, std::span<const HalfSpace> cone
   };
   std::vector<TargetPiece> left;
   for (TargetPiece& piece : pieces) {
-    const bool misses = std::ranges::any_of(cone, [&](const HalfSpace& half_space) {
-      const double least = shift(half_space);
-      return std::ranges::all_of(
-          piece, [&](const TargetPoint& point) { return half_space.at(point) <= least; });
-    });
-    if (misses) {
+    if (misses(piece, cone, shift)) {
       left.push_back(std::move(piece));
       continue;
     }
@@ -58,7 +67,9 @@ void take_away(std::vector<TargetPiece>& pieces, std::span<const HalfSpace> cone
 }
 
 bool may_reach(std::span<const TargetPiece> pieces, std::span<const HalfSpace> cone) {
+  const auto shift = [](const HalfSpace& half_space) { return -half_space.margin; };
   for (const TargetPiece& piece : pieces) {
+    if (misses(piece, cone, shift)) continue;
     TargetPiece rest = piece;
     for (const HalfSpace& half_space : cone) {
       rest = front_of(rest, half_space, -half_space.margin);
