@@ -20,8 +20,8 @@ struct ExtrasOptions {
   bool counts = false, centroids = false, groups = false, sky = false;
   std::string up;
   std::vector<std::pair<std::string, std::string>> view_factors;
-  double tolerance = 2e-2;
-  std::uint64_t most_cells = 20000;
+  double tolerance = 5e-2;
+  std::uint64_t most_cells = 2000;
 
   /// What is asked for has a meaning without lights.
   bool works_without_light() const { return sky || !view_factors.empty(); }

@@ -128,8 +128,11 @@ TEST(FormFactor, PlateBetween) {
   EXPECT_NEAR(none.unobstructed, parallel(1, 1, 1), 1e-11);
   // A wall on the middle line between floor and ceiling: half of what crosses the middle is lost,
   // so what is left is what each half exchanges with the half above it.
+  FormFactorOptions options;
+  options.tolerance = 2e-2;
+  options.most_cells = 20000;
   const FormFactor wall =
-      factor(scene_with({{0.5, -9, -1}, {0.5, 9, -1}, {0.5, 9, 2}, {0.5, -9, 2}}), 0, 1);
+      factor(scene_with({{0.5, -9, -1}, {0.5, 9, -1}, {0.5, 9, 2}, {0.5, -9, 2}}), 0, 1, options);
   const double half = parallel(0.5, 1, 1);
   EXPECT_LE(wall.lower, half);
   EXPECT_GE(wall.upper, half);
@@ -153,6 +156,7 @@ TEST(SkyFactor, OpenBox) {
   const PreparedScene box = open_box(a, b, c);
   FormFactorOptions options;
   options.tolerance = 5e-2;
+  options.most_cells = 20000;
   const FormFactor floor = sky(box, 0, Side::kFront, options);
   const double truth = parallel(a, b, c);
   EXPECT_LE(floor.lower, truth);
@@ -199,6 +203,7 @@ TEST(SkyFactor, BoundsHoldOfLooseAndTightTolerances) {
   for (const double tolerance : {0.5, 0.1, 0.03}) {
     FormFactorOptions options;
     options.tolerance = tolerance;
+    options.most_cells = 20000;
     const FormFactor found = sky(scene, 0, Side::kFront, options);
     EXPECT_TRUE(found.within_tolerance) << tolerance << " " << found.upper - found.lower;
     EXPECT_GE(found.upper + 1e-12, lower);
@@ -248,6 +253,7 @@ TEST(FormFactor, AgainstIllumination) {
   const PreparedScene scene = with_polygon.build();
   FormFactorOptions options;
   options.tolerance = 4e-2;
+  options.most_cells = 20000;
   const FormFactor found = factor(scene, 0, 5, options);
   const double truth = by_illumination(with_light.build(), 0, {0, 0, 0}, {4, 0, 0}, {0, 3, 0}, 40);
   EXPECT_TRUE(found.within_tolerance) << found.upper - found.lower;

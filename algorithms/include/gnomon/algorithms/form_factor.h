@@ -27,8 +27,8 @@
 namespace gnomon {
 
 struct FormFactorOptions {
-  double tolerance = 2e-2;           // of upper - lower
-  std::uint64_t most_cells = 20000;  // of one side; then the bounds are what they are
+  double tolerance = 5e-2;          // of upper - lower
+  std::uint64_t most_cells = 2000;  // of one side; then the bounds are what they are
   std::array<double, 3> up{0, 0, 1};
   const std::atomic<bool>* interrupted = nullptr;
 };
