@@ -4,13 +4,18 @@
 #ifndef GNOMON_ALGORITHMS_SECTORS_BY_SECTORS_H
 #define GNOMON_ALGORITHMS_SECTORS_BY_SECTORS_H
 
+#include <vector>
+
 #include "algorithms/partition/run_task.h"
+#include "gnomon/algorithms/caster_counts.h"
 
 namespace gnomon {
 
 template <class Kernel>
 struct BySectors {
   static Expected<ShadowResult> run(const RunTask& task);
+  /// In place of classes, how many casters there are before each part (caster_counts.h).
+  static Expected<std::vector<CasterCounts>> count(const RunTask& task);
 };
 
 }  // namespace gnomon

@@ -31,6 +31,7 @@ void SectorTree<Space>::join(Range children) {
 
 template <SectorSpaceModel Space>
 void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
+  if (context_->leaf_method == LeafMethod::kCount) return put_counted(loop, state);
   if (!fragment_stays(space_, view(loop), context_->rules)) return;
   if (++output_.piece_count % kPieceBatch == 0 &&
       context_->pieces.fetch_add(kPieceBatch, std::memory_order_relaxed) + kPieceBatch >

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -65,6 +66,8 @@ class SectorRun {
   /// `progress` gets the share of the work that is done, from one thread at a time.
   RunOutcome run(const std::function<void(double)>& progress);
   LightResult finish();
+  /// What there is in place of classes where casters are counted.
+  CasterCounts count_shares();
   StageCounts stage_counts() const { return stages_; }
 
  private:
@@ -274,6 +277,7 @@ RunOutcome SectorRun<Space>::run(const std::function<void(double)>& progress) {
   // A part with one class and caster is put out as it came in (1989, sec. 6).
   for (std::uint32_t i = 0; i < states_.size(); ++i) {
     if (!receives_.empty() && receives_[i] == 0) states_[i] = kUndecided;
+    if (leaf_method_ == LeafMethod::kCount) continue;  // count_shares() has them
     if (states_[i] != kMixed && states_[i] != kUndecided) planner.emit_root(i);
   }
   outputs_.back() = std::move(planner.output());
@@ -362,6 +366,32 @@ LightResult SectorRun<Space>::finish() {
   return std::move(result_);
 }
 
+template <SectorSpaceModel Space>
+CasterCounts SectorRun<Space>::count_shares() {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, FractionSum> sums;  // by part and count
+  for (SectorOutput& output : outputs_) {
+    for (SectorOutput::Counted& piece : output.counted) {
+      sums[{piece.part, piece.count}].add(std::move(piece.share));
+    }
+  }
+  CasterCounts result{result_.light, {}};
+  for (const auto& [key, sum] : sums) {
+    CasterCount& share = result.shares.emplace_back();
+    share.part = key.first;
+    share.count = key.second;
+    share.share = sum.interval(Space::kExact);
+    if (options_.output.exact_fractions) share.exact = sum.exact();
+  }
+  for (std::uint32_t i = 0; i < states_.size(); ++i) {
+    if (states_[i] == kMixed || states_[i] == kUndecided) continue;
+    result.shares.push_back({facing_.parts[i], states_[i], {1, 1}, 1});
+  }
+  std::ranges::sort(result.shares, [](const CasterCount& a, const CasterCount& b) {
+    return std::pair(a.part, a.count) < std::pair(b.part, b.count);
+  });
+  return result;
+}
+
 /// A size of leaves and tasks by which everything is one leaf.
 inline constexpr std::uint32_t kOneCell = std::numeric_limits<std::int32_t>::max();
 
@@ -406,7 +436,43 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
   return result;
 }
 
-/// The same on as many threads as asked for.
+/// How many casters every light has before each part.
+template <SectorSpaceModel Space>
+Expected<std::vector<CasterCounts>> count_by_sectors_here(const RunTask& task) {
+  const PreparedScene& scene = task.scene;
+  const KernelOptions kernel_options = task.options.kernel.options();
+  const RunOptions run_options = run_options_of(task.options);
+  typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
+  std::vector<CasterCounts> result;
+  for (const std::uint32_t light : task.lights) {
+    Space space(scene_space, scene.lights[light].point, kernel_options);
+    FacingParts facing(scene, space, task.rules);
+    SectorRun<Space> run(scene, run_options, task.rules, scene_space, light, std::move(space),
+                         std::move(facing), LeafMethod::kCount, Cover::kPartition);
+    std::function<void(double)> progress;
+    if (task.options.control.progress) {
+      progress = [&](double share) {
+        task.options.control.progress((static_cast<double>(result.size()) + share) /
+                                      static_cast<double>(task.lights.size()));
+      };
+    }
+    const RunOutcome outcome = run.run(progress);
+    if (outcome != RunOutcome::kDone) return stopped_by(outcome, task.options);
+    result.push_back(run.count_shares());
+  }
+  return result;
+}
+
+template <class Kernel>
+Expected<std::vector<CasterCounts>> BySectors<Kernel>::count(const RunTask& task) {
+  tbb::task_arena arena(thread_count(task.options.tuning.jobs));
+  return arena.execute([&] {
+    return with_light_space<Kernel>(
+        false, [&]<class Space>() { return count_by_sectors_here<Space>(task); });
+  });
+}
+
+/// Classes and shares, on as many threads as asked for.
 template <class Kernel>
 Expected<ShadowResult> BySectors<Kernel>::run(const RunTask& task) {
   tbb::task_arena arena(thread_count(task.options.tuning.jobs));

@@ -61,13 +61,20 @@ struct SectorOutput {
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<mpq_class, 3>> exact_points;
   std::vector<std::pair<std::uint32_t, mpq_class>> exact_lit;  // on request: part, lit fraction
+  /// Of a piece behind `count` casters, its share of the part (LeafMethod::kCount).
+  struct Counted {
+    std::uint32_t part, count;
+    Fraction share;
+  };
+  std::vector<Counted> counted;
   std::uint64_t piece_count = 0, nodes = 0, vanished = 0;
   WorkCounts work;
 };
 
 /// What is done in a leaf of the tree: the nearer casters subtracted from each receiver (sectors),
-/// or polygons clipped by each other in lists (two-pass).
-enum class LeafMethod : std::uint8_t { kSubtract, kTwoPass };
+/// polygons clipped by each other in lists (two-pass), or the nearer casters counted over each
+/// receiver. Then a SectorState is such a number.
+enum class LeafMethod : std::uint8_t { kSubtract, kTwoPass, kCount };
 
 /// SectorContext is what all threads share. Only its atomics change.
 struct SectorContext {
@@ -172,6 +179,13 @@ class SectorTree {
     bool located = false;
     ChartBox box;
   };
+  /// A piece of a receiver, and how many casters have been found to hide it.
+  struct CountedPiece {
+    LoopRange loop;
+    std::uint32_t count = 0;
+    bool located = false;
+    ChartBox box;
+  };
   enum class Relation : std::uint8_t { kNone, kBehind, kCrossing };
 
   void enter(SectorCell cell, Range items, bool located);
@@ -207,6 +221,10 @@ class SectorTree {
   void subtract_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters,
                         bool nearest_first, const LightChart* chart);
   void clip_lists(std::uint32_t begin, std::uint32_t end);
+  void planes_between(const SectorItem& receiver, const SectorItem& caster, Relation how);
+  void count_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters,
+                     const LightChart* chart);
+  void put_counted(const LoopRange& loop, std::uint32_t count);
   void join(Range children);
   void emit(const LoopRange& loop, SectorState state);
   void emit_area(const LoopRange& loop, bool lit);
@@ -232,6 +250,7 @@ class SectorTree {
   std::vector<SectorItem> front_items_;
   std::vector<std::uint32_t> order_;
   std::vector<LitPiece> lit_, still_lit_;
+  std::vector<CountedPiece> counted_, next_counted_;
   std::vector<PlaneRef> caster_planes_;
   std::vector<ListPiece> pieces_;
   std::vector<ClippedPiece> clipped_;

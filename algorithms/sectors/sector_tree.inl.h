@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "algorithms/partition/kd_tree.h"
+#include "algorithms/sectors/counting_leaf.h"
 #include "algorithms/sectors/float_filters.h"
 #include "algorithms/sectors/join.h"
 #include "algorithms/sectors/sector_tree.h"

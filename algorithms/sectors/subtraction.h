@@ -119,6 +119,10 @@ void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end, const Light
   for (std::uint32_t i = begin; i < end; ++i) {
     if (context_->scene.parts[items_[i].part].casts) order_.push_back(i);
   }
+  if (context_->leaf_method == LeafMethod::kCount) {
+    for (std::uint32_t i = begin; i < end && !stopped(); ++i) count_casters(i, order_, chart);
+    return;
+  }
   // The largest casters go first, so that little is left for the others to cut. Where there are
   // very many small ones, the nearest go first: most pairs are then skipped.
   const auto area = [](const ChartBox& box) {
@@ -149,6 +153,22 @@ void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end, const Light
   }
 }
 
+/// The planes of a caster, in whose common front the receiver lies behind it: caster_planes_.
+template <SectorSpaceModel Space>
+void SectorTree<Space>::planes_between(const SectorItem& receiver, const SectorItem& caster,
+                                       Relation how) {
+  caster_planes_.clear();
+  for (std::uint32_t i = 0; i < caster.count; ++i) {
+    const PlaneRef edge = loops_.edge(caster.first + i);
+    if (!is_cell_plane(edge)) caster_planes_.push_back(edge);
+  }
+  if (how != Relation::kCrossing) return;
+  const auto& parts = context_->scene.parts;
+  // Behind the caster.
+  caster_planes_.push_back(
+      -depth_cut(space_, context_->facing, parts[receiver.part].plane, parts[caster.part].plane));
+}
+
 template <SectorSpaceModel Space>
 void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
                                          std::span<const std::uint32_t> casters, bool nearest_first,
@@ -168,17 +188,7 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
     if (c == receiver || !caster.overlaps(item)) continue;
     const Relation how = relation(item, caster);
     if (how == Relation::kNone) continue;
-    caster_planes_.clear();
-    for (std::uint32_t i = 0; i < caster.count; ++i) {
-      const PlaneRef edge = loops_.edge(caster.first + i);
-      if (!is_cell_plane(edge)) caster_planes_.push_back(edge);
-    }
-    if (how == Relation::kCrossing) {
-      const auto& parts = context_->scene.parts;
-      // Behind the caster.
-      caster_planes_.push_back(
-          -depth_cut(space_, context_->facing, parts[item.part].plane, parts[caster.part].plane));
-    }
+    planes_between(item, caster, how);
     still_lit_.clear();
     for (LitPiece& piece : lit_) {
       if (chart != nullptr && !piece.located) {

@@ -81,7 +81,8 @@ Expected<fuzz::Shard> parse_shard(const std::string& text) {
 bool asked_to_fail(const fuzz::Failure& failure, const std::vector<std::string>& fail_on) {
   return std::ranges::any_of(fail_on, [&](const std::string& what) {
     return what == "any" || what == failure.subject || what == fuzz::id_of(failure.property) ||
-           what == failure.disagreement || what == failure.signature();
+           what == failure.disagreement || what == failure.cause ||
+           what == failure.short_signature() || what == failure.signature();
   });
 }
 

@@ -2,11 +2,14 @@
 // gnomon shadows: classify a scene on one kernel and write the result.
 #include "gnomon/algorithms/shadows.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "cli/commands/extras.h"
 #include "cli/commands/illuminate.h"
 #include "cli/commands/share_output.h"
 #include "cli/common/algorithm_choice.h"
@@ -42,6 +45,7 @@ struct ShadowsOptions {
   double deep_umbra_tolerance = 1e-3;
   bool stats = false;
   IlluminateOptions illuminate;
+  ExtrasOptions extras;
   std::string output, shares;
 
   /// Whether anyone asks for the lights after the table of shares.
@@ -50,11 +54,14 @@ struct ShadowsOptions {
 
 /// Options that say what the result file holds.
 std::vector<std::pair<const char*, bool>> result_options(const ShadowsOptions& options) {
-  return {{"--fragments", options.fragments},     {"--exact-fractions", options.exact_fractions},
-          {"--exact-loops", options.exact_loops}, {"--combined", options.combined},
-          {"--deep-umbra", options.deep_umbra},   {"--lit-only", options.lit_only},
-          {"--shadow-only", options.shadow_only}, {"--penumbra-only", options.penumbra_only},
-          {"--umbra-only", options.umbra_only}};
+  std::vector<std::pair<const char*, bool>> all{
+      {"--fragments", options.fragments},     {"--exact-fractions", options.exact_fractions},
+      {"--exact-loops", options.exact_loops}, {"--combined", options.combined},
+      {"--deep-umbra", options.deep_umbra},   {"--lit-only", options.lit_only},
+      {"--shadow-only", options.shadow_only}, {"--penumbra-only", options.penumbra_only},
+      {"--umbra-only", options.umbra_only}};
+  std::ranges::move(options.extras.given(), std::back_inserter(all));
+  return all;
 }
 
 Expected<void> check_pieces(const ShadowsOptions& options) {
@@ -174,8 +181,8 @@ Expected<std::vector<std::vector<DeepUmbraBounds>>> deep_umbra_of(const ShadowsO
 }
 
 Expected<void> write_result(const ShadowsOptions& options, const LoadedScene& loaded,
-                            const AlgorithmChoice& algorithm, const ShadowResult& result,
-                            PhaseTimes& times) {
+                            const AlgorithmChoice& algorithm, const ShadowOptions& shadows,
+                            const ShadowResult& result, PhaseTimes& times) {
   Stopwatch stopwatch;
   report::ResultJsonOptions json;
   json.geometry_digest = geometry_digest(loaded.scene);
@@ -193,6 +200,9 @@ Expected<void> write_result(const ShadowsOptions& options, const LoadedScene& lo
   auto deep_umbra = deep_umbra_of(options, loaded, result);
   if (!deep_umbra) return tl::unexpected(std::move(deep_umbra.error()));
   json.deep_umbra = std::move(*deep_umbra);
+  const auto extras = find_extras(options.extras, loaded, shadows);
+  if (!extras) return tl::unexpected(extras.error());
+  json.extras = &*extras;
   times.shadows += stopwatch.lap();
   auto output = Output::open(options.output);
   if (!output) return tl::unexpected(std::move(output.error()));
@@ -207,7 +217,8 @@ Expected<void> write_result(const ShadowsOptions& options, const LoadedScene& lo
 bool asks_for_shares_alone(const ShadowsOptions& options, const KernelChoice& kernel) {
   return options.algorithm == kAutomaticName && kernel_info(kernel.kernel).exact &&
          !options.fragments && !options.exact_loops && !options.exact_fractions &&
-         !options.combined && !options.deep_umbra && !options.illuminate.illuminate;
+         !options.combined && !options.deep_umbra && !options.extras.centroids &&
+         !options.illuminate.illuminate;
 }
 
 int run_shadows(const ShadowsOptions& options) {
@@ -218,6 +229,7 @@ int run_shadows(const ShadowsOptions& options) {
                           {"--fragments", options.fragments, &Method::makes_fragments},
                           {"--exact-loops", options.exact_loops, &Method::makes_fragments},
                           {"--illuminate", options.illuminate.illuminate, &Method::makes_fragments},
+                          {"--centroids", options.extras.centroids, &Method::makes_fragments},
                           {"--no-merge", options.no_merge, &Method::leaves_out_steps},
                           {"--no-prefix", options.no_prefix, &Method::leaves_out_steps}});
   if (!algorithm) return report_error(algorithm.error());
@@ -234,7 +246,7 @@ int run_shadows(const ShadowsOptions& options) {
     return report_error(checked.error());
   }
   const ThreadLimit threads(options.scene.jobs);
-  auto loaded = load_scene(options.scene, true);
+  auto loaded = load_scene(options.scene, !options.extras.works_without_light());
   if (!loaded) return report_error(loaded.error());
   ProgressBar progress("shadows");
   ShadowOptions shadow_options = shadow_options_of(options, *loaded, *kernel, *algorithm);
@@ -244,15 +256,19 @@ int run_shadows(const ShadowsOptions& options) {
       !done) {
     return report_error(done.error());
   }
+  if (auto done = ask_for_extras(options.extras, *loaded, shadow_options); !done) {
+    return report_error(done.error());
+  }
   if (options.illuminate.illuminate && options.illuminate.mesh.empty() && !options.stats) {
     return report_usage("--illuminate writes nothing by itself", "--mesh FILE, or --stats");
   }
   PhaseTimes times;
-  const auto result = classify(options, *loaded, std::move(shadow_options), times);
+  const auto result = classify(options, *loaded, shadow_options, times);
   progress.clear();
   if (!result) return report_error(result.error());
   if (options.shares.empty() || !options.output.empty()) {
-    if (auto done = write_result(options, *loaded, *algorithm, *result, times); !done) {
+    if (auto done = write_result(options, *loaded, *algorithm, shadow_options, *result, times);
+        !done) {
       return report_error(done.error());
     }
   }
@@ -321,6 +337,7 @@ void add_shadows_command(CLI::App& app, Action& action) {
   for (std::size_t i = 0; i < only.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) only[i]->excludes(only[j]);
   }
+  add_extras_options(command, options->extras);
   command.add_flag("--no-merge", options->no_merge,
                    "Leave sibling fragments as the tree cut them (svbsp)");
   command.add_flag("--no-prefix", options->no_prefix,

@@ -47,6 +47,7 @@ struct ShrinkCommand {
   std::string time;
   std::string output;
   std::string findings;
+  bool free_range = false;
 };
 
 /// Tried in this order where no subject is named.
@@ -174,6 +175,8 @@ class ShrinkRun {
 
     fuzz::ShrinkOptions shrinking;
     shrinking.interrupted = &interrupted();
+    shrinking.free_range = options_.free_range;
+    shrinking.range_of = &origin_;
     if (!options_.time.empty()) shrinking.seconds = duration_seconds(options_.time);
     SizeLine line;
     std::optional<Error> unwritten;
@@ -296,8 +299,8 @@ void add_shrink_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<ShrinkCommand>();
   CLI::App& command = *app.add_subcommand("shrink", "The smallest scene that still fails alike");
   command.footer(
-      "Alike: the same property, the same class of disagreement, the same subject. Without "
-      "--kernel\n"
+      "Alike: the same property, the same class of disagreement, the same subject, the same cause\n"
+      "(near-coplanar, grazing, far, ...). Without --kernel\n"
       "and --candidate-command the rounded kernels are tried, then the exact ones, and the first\n"
       "failure is shrunk. With -o FILE the best scene so far is always in FILE, and the same "
       "command\n"
@@ -311,6 +314,8 @@ void add_shrink_command(CLI::App& app, Action& action) {
       .add_option("--class", options->disagreement,
                   "Only failures of this class, such as misclassified, uncovered, refused")
       ->type_name("CLASS");
+  command.add_flag("--free-range", options->free_range,
+                   "Coordinates may leave the range that the scene has on each axis");
   command.add_option("--seed", options->seed, "Of the metamorphic relation that is tried")
       ->type_name("N")
       ->capture_default_str();

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fuzz/check/cause.h"
 #include "fuzz/check/judged_scene.h"
 #include "fuzz/mistakes/compute.h"
 #include "fuzz/moves/metamorphic.h"
@@ -313,7 +314,7 @@ class SceneCheck {
         oracle::check_witnesses(scene_, *prepared_, candidate, options);
     for (const oracle::WitnessFinding& finding : checked.findings) {
       add({Property::kClaims, name, "false claim", finding.light, finding.polygon, finding.text,
-           width, share});
+           width, share, cause_of(scene_, *prepared_, finding.light, finding.polygon, {})});
     }
   }
 
@@ -332,6 +333,8 @@ class SceneCheck {
       failure.polygon = report.worst->polygon;
       const std::string& place = report.worst->text;
       if (!place.empty() && place != report.reason) failure.text += "; " + place;
+      failure.cause =
+          cause_of(scene_, *prepared_, failure.light, failure.polygon, report.worst->caster);
     }
     for (const std::string& problem : report.problems) failure.text += "; " + problem;
     failure.width = totals.width.upper;

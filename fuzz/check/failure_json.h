@@ -23,6 +23,7 @@ inline void write_failure_members(report::JsonWriter& json, const Failure& failu
   json.member("text", failure.text);
   json.member("width", failure.width);
   json.member("share", failure.share);
+  if (!failure.cause.empty()) json.member("cause", failure.cause);
 }
 
 /// What write_failure_members() wrote; errors are the reader's.
@@ -40,6 +41,7 @@ inline Failure read_failure(JsonMembers& members) {
   members.read("width", width);
   failure.width = width.value_or(std::numeric_limits<double>::infinity());
   members.read("share", failure.share);
+  members.read_if_there("cause", failure.cause);
   if (const auto known = property_by_id(property)) {
     failure.property = *known;
   } else {

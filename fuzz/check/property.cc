@@ -42,6 +42,10 @@ std::optional<Property> property_by_id(std::string_view id) {
 }
 
 std::string Failure::signature() const {
+  return short_signature() + (cause.empty() ? "" : ":" + cause);
+}
+
+std::string Failure::short_signature() const {
   return std::string(id_of(property)) + ':' + disagreement + ':' + subject;
 }
 

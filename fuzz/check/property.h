@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What must hold of every scene, and what is said where it does not. A failure is told apart by its
-// property, its subject and its class: shrinking keeps all three, campaigns count by them.
+// property, its subject, its class and its cause: shrinking keeps all four, campaigns count by
+// them.
 #ifndef GNOMON_FUZZ_CHECK_PROPERTY_H
 #define GNOMON_FUZZ_CHECK_PROPERTY_H
 
@@ -46,14 +47,19 @@ struct Failure {
   std::string text;            // one sentence
   double width = 0;            // of the widest region of error, scene units; 0: none
   double share = 0;            // of a polygon's area that is wrong, 0..1
+  std::string cause = {};      // what it comes from (cause.h); empty: unknown
 
-  /// The same property, subject and class: what a smaller scene has to show.
+  /// The same property, subject, class and, if known of both, cause: what a smaller scene has to
+  /// show.
   bool alike(const Failure& other) const {
     return property == other.property && subject == other.subject &&
-           disagreement == other.disagreement;
+           disagreement == other.disagreement &&
+           (cause == other.cause || cause.empty() || other.cause.empty());
   }
-  /// "PROPERTY:CLASS:SUBJECT".
+  /// "PROPERTY:CLASS:SUBJECT", and ":CAUSE" if it is known.
   std::string signature() const;
+  /// The same without the cause.
+  std::string short_signature() const;
 };
 
 /// What a check of one scene found, and what it did.

@@ -3,6 +3,9 @@
 // flags at their defaults and coordinates of few bits, by a fixed list of steps, the most rewarding
 // first, round after round until no step of the list helps.
 //
+// Coordinates stay within the range that those of the first scene have, and 0, axis by axis, unless
+// asked otherwise: a skylight does not become a needle a million units long.
+//
 // Guarantees: the result fails (as far as the caller's predicate is a function of the scene); every
 // scene kept is smaller than the one before (SceneSize, compared from its first member to its
 // last), so that it ends; equal input gives equal output. There is no other state than the best
@@ -64,6 +67,8 @@ struct ShrinkOptions {
   const std::atomic<bool>* interrupted = nullptr;       // checked before every try
   std::uint64_t most_tries = 0;                         // 0: as many as it takes
   double seconds = 0;                                   // wall clock; 0: as long as it takes
+  bool free_range = false;                              // coordinates may leave the first's range
+  const Scene* range_of = nullptr;  // whose range that is, if it is another scene's
 };
 
 /// One kind of step, over all rounds.

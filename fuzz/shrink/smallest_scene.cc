@@ -57,7 +57,11 @@ SceneSize size_of(const Scene& scene) {
 }
 
 SmallestScene::SmallestScene(Scene scene, const StillFails& fails, const ShrinkOptions& options)
-    : fails_(fails), options_(options), start_(Clock::now()), best_(std::move(scene)) {
+    : fails_(fails),
+      options_(options),
+      start_(Clock::now()),
+      best_(std::move(scene)),
+      range_(options.range_of != nullptr ? *options.range_of : best_) {
   for (const std::string_view name :
        {"moves", "tidying", "polygons", "lights", "holes", "corners", "flags", "vertices", "scene",
         "axes", "values", "points", "coordinates", "names"}) {
@@ -74,10 +78,14 @@ bool SmallestScene::out_of_time() const {
   return std::chrono::duration<double>(Clock::now() - start_).count() >= options_.seconds;
 }
 
+bool SmallestScene::is_in_range(const Scene& scene) const {
+  return options_.free_range || range_.holds(scene);
+}
+
 bool SmallestScene::attempt(Scene candidate, bool any_size) {
   if (stopped_) return false;
   SceneSize size = size_unprepared(candidate);
-  if (!any_size && !(size < size_)) return false;
+  if (!any_size && !(size < size_ && is_in_range(candidate))) return false;
   const auto text = scene_to_text(candidate, SceneFormat::kJson);
   if (!text) return false;  // a decimal of too many digits
   if (!tried_.insert(text_hash(text->text)).second) {
@@ -103,6 +111,7 @@ bool SmallestScene::attempt(Scene candidate, bool any_size) {
     ++pass_->accepted;
     best_ = std::move(candidate);
     size_ = size;
+    if (any_size) range_ = CoordinateRange(best_);
   }
   if (options_.progress) {
     options_.progress({best_, size_, pass_->name, result_.tries, result_.accepted, improved});

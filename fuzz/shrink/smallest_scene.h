@@ -11,6 +11,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "fuzz/shrink/coordinate_range.h"
 #include "fuzz/shrink/shrink.h"
 
 namespace gnomon::fuzz {
@@ -45,6 +46,7 @@ class SmallestScene {
  private:
   using Clock = std::chrono::steady_clock;
   bool out_of_time() const;
+  bool is_in_range(const Scene& scene) const;
 
   const StillFails& fails_;
   const ShrinkOptions& options_;
@@ -54,6 +56,7 @@ class SmallestScene {
   ShrinkResult result_;
   ShrinkPass* pass_ = nullptr;
   std::unordered_set<std::uint64_t> tried_;
+  CoordinateRange range_;
   bool stopped_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "report/json/extras_json.h"
 #include "report/json/json_writer.h"
 #include "report/sides/part_area.h"
 #include "report/sides/polygon_sides.h"
@@ -27,7 +28,11 @@ class ResultWriter {
         result_(result),
         options_(options),
         areas_(prepared),
-        weights_(prepared) {}
+        weights_(prepared) {
+    if (options.extras == nullptr) return;
+    extras_.emplace(json_, scene, prepared, *options.extras, areas_, weights_,
+                    options.exact_fractions);
+  }
 
   void write() {
     json_.begin_object();
@@ -47,6 +52,7 @@ class ResultWriter {
     json_.end_array();
     if (options_.combined) write_combined();
     if (options_.overlay) write_overlay();
+    if (extras_) extras_->write_result();
     write_findings();
     json_.end_object();
     json_.finish();
@@ -177,6 +183,7 @@ class ResultWriter {
       write_sides(light);
     }
     json_.end_array();
+    if (extras_) extras_->write_light(light);
     json_.end_object();
   }
 
@@ -242,6 +249,9 @@ class ResultWriter {
       json_.member("lower", deep.lower);
       json_.member("upper", deep.upper);
       json_.end_object();
+    }
+    if (extras_) {
+      extras_->write_side(light, static_cast<std::size_t>(&light - result_.lights.data()), side);
     }
     if (side.reason != ShadowReason::kNone) json_.member("reason", name_of(side.reason));
     if (has_parts) write_parts(side);
@@ -421,6 +431,7 @@ class ResultWriter {
   const ResultJsonOptions& options_;
   PolygonAreas areas_;
   PartWeights weights_;
+  std::optional<ExtrasWriter> extras_;
   std::vector<std::string> findings_;
 };
 

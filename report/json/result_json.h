@@ -20,6 +20,8 @@
 
 namespace gnomon::report {
 
+struct ResultExtras;  // extras_json.h
+
 struct ResultJsonOptions {
   std::string geometry_digest;   // "sha256:..."
   bool fragments = false;        // loops of nearest doubles; needs LightResult::points
@@ -36,6 +38,8 @@ struct ResultJsonOptions {
   /// Of the same result and with exact shares if exact_fractions, where someone has them already;
   /// else they are computed polygon by polygon.
   const SidesByLight* sides = nullptr;
+  /// What else was asked for; null: nothing. Needs exact_fractions where these are to be exact.
+  const ResultExtras* extras = nullptr;
   /// Once true, polygons are left off: what has been written is then no result.
   const std::atomic<bool>* interrupted = nullptr;
 };

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The Wavefront OBJ reader: `v` and `f`, with continued lines and indices relative to the last
-// vertex. Whatever else a file holds has no surface and is passed over; elements that draw
-// something are counted in a warning.
+// vertex, and the groups and objects that faces are in (`g`, `o`). Whatever else a file holds has
+// no surface and is passed over; elements that draw something are counted in a warning.
 #include <algorithm>
 #include <array>
+#include <unordered_map>
 
+#include "gnomon/scene/groups.h"
 #include "scene/base/text_file.h"
 #include "scene/files/mesh_text.h"
 #include "scene/files/readers.h"
@@ -75,6 +77,47 @@ Expected<void> read_face(Tokens& tokens, MeshBuilder& mesh, const Token& keyword
   return mesh.end_face(keyword.offset);
 }
 
+/// The groups and objects of a file: `g` puts the faces that follow into all groups that it names,
+/// `o` into one object. Group and object of one name are one group.
+class NamedGroups {
+ public:
+  void read_names(Tokens& tokens, bool object) {
+    auto& current = object ? object_ : groups_;
+    current.clear();
+    // Without a name, g goes back to the group named so.
+    while (const auto name = tokens.in_line()) current.push_back(index_of(name->text));
+    if (current.empty() && !object) current.push_back(index_of("default"));
+  }
+  void add_face(std::uint32_t face) {
+    for (const auto* current : {&object_, &groups_}) {
+      for (const std::size_t group : *current) {
+        std::vector<std::uint32_t>& faces = all_[group].polygons;
+        if (faces.empty() || faces.back() != face) faces.push_back(face);
+      }
+    }
+  }
+  void write(Scene& scene) {
+    std::erase_if(all_, [](const PolygonGroup& group) { return group.polygons.empty(); });
+    if (!all_.empty()) set_polygon_groups(scene, all_);
+  }
+
+ private:
+  std::size_t index_of(std::string_view text) {
+    std::string name(text);
+    if (!check_is_utf8(name, {})) {  // a group's name is
+      std::ranges::replace_if(
+          name, [](char c) { return static_cast<signed char>(c) < 0; }, '?');
+    }
+    const auto [place, is_new] = index_.try_emplace(name, all_.size());
+    if (is_new) all_.push_back({name, {}});
+    return place->second;
+  }
+
+  std::vector<PolygonGroup> all_;  // in the order of their names in the file
+  std::unordered_map<std::string, std::size_t> index_;
+  std::vector<std::size_t> object_, groups_;  // those of the faces that come
+};
+
 /// Faces may name vertices that come later. Too many at worst, where a line that begins with v goes
 /// on with another.
 std::uint64_t count_vertex_lines(std::string_view text) {
@@ -121,6 +164,7 @@ Expected<ReadResult> read_obj(const std::string& text, const std::string& file,
                                     {"p", "point elements (p)"},
                                     {"curv", "curves (curv)"},
                                     {"surf", "free-form surfaces (surf)"}}};
+  NamedGroups groups;
   Tokens tokens(text, byte_order_mark(text), Tokens::Continuation::kBackslash);
   do {
     const auto keyword = tokens.in_line();
@@ -130,6 +174,9 @@ Expected<ReadResult> read_obj(const std::string& text, const std::string& file,
       done = read_vertex(tokens, mesh, *keyword);
     } else if (keyword->text == "f") {
       done = read_face(tokens, mesh, *keyword);
+      if (done) groups.add_face(static_cast<std::uint32_t>(mesh.face_count() - 1));
+    } else if (keyword->text == "g" || keyword->text == "o") {
+      groups.read_names(tokens, keyword->text == "o");
     } else {
       for (Drawn& drawn : passed_over) {
         if (drawn.keyword == keyword->text) ++drawn.count;
@@ -143,7 +190,9 @@ Expected<ReadResult> read_obj(const std::string& text, const std::string& file,
   for (const Drawn& drawn : passed_over) {
     if (drawn.count != 0) mesh.warn(std::to_string(drawn.count) + " " + drawn.name + " ignored");
   }
-  return mesh.finish();
+  auto result = mesh.finish();
+  if (result) groups.write(result->scene);
+  return result;
 }
 
 }  // namespace gnomon

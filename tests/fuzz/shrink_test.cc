@@ -16,6 +16,7 @@
 #include "fuzz/check/check.h"
 #include "fuzz/generate/area_families.h"
 #include "fuzz/generate/families.h"
+#include "fuzz/shrink/coordinate_range.h"
 #include "fuzz/shrink/still_fails.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
@@ -131,12 +132,30 @@ TEST(Shrink, WhatNeedsAllDigitsKeepsThem) {
   };
   const std::size_t bits = most_bits(scene);
   ASSERT_GE(bits, 8u);
-  const ShrinkResult result = shrink(scene, [&](const Scene& tried) {
+  const auto fails = [&](const Scene& tried) {
     return !tried.polygons.empty() && most_bits(tried) >= bits;
-  });
+  };
+  ShrinkOptions options;
+  options.free_range = true;
+  const ShrinkResult result = shrink(scene, fails, options);
   EXPECT_TRUE(result.locally_minimal);
   EXPECT_EQ(result.after.polygons, 1u);
   EXPECT_LE(result.after.bits, bits + 4) << text_of(result.scene);
+  // In the range of the scene the digits stand behind the point, which costs more.
+  const ShrinkResult within = shrink(scene, fails);
+  EXPECT_TRUE(within.locally_minimal);
+  EXPECT_EQ(within.after.polygons, 1u);
+  EXPECT_TRUE(CoordinateRange(scene).holds(within.scene)) << text_of(within.scene);
+}
+
+TEST(Shrink, TheRangeIsThatOfEachAxisAndZero) {
+  Scene scene = made("figure-6");
+  const CoordinateRange range(scene);
+  EXPECT_TRUE(range.holds(scene));
+  scene.vertices[0] = {Number(0.0), Number(0.0), Number(0.0)};
+  EXPECT_TRUE(range.holds(scene));
+  scene.vertices[0][1] = Number(1e6);
+  EXPECT_FALSE(range.holds(scene));
 }
 
 TEST(Shrink, SimplerScenesComeFirst) {

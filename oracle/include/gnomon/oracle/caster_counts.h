@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Area by number of casters, the oracle's way: the shadows of all casters on one receiver
+// (point_regions.h) in one exact overlay, whose winding numbers are the counts. No tree, no cell,
+// no piece cut by another.
+//
+// Exactness: exact. Cost: the square of the casters that reach the receiver.
+#ifndef GNOMON_ORACLE_CASTER_COUNTS_H
+#define GNOMON_ORACLE_CASTER_COUNTS_H
+
+#include <gmpxx.h>
+
+#include <cstdint>
+#include <map>
+
+#include "gnomon/oracle/point_regions.h"
+#include "gnomon/scene/prepare.h"
+
+namespace gnomon::oracle {
+
+/// By number of casters between it and the light, the share of the part's area; shares of 0 are
+/// left out, the others add up to 1. Empty if the part has no side that faces the light, or if the
+/// overlay contradicts itself (a bug). `regions`: of the same scene.
+std::map<std::uint32_t, mpq_class> caster_counts(const PreparedScene& scene,
+                                                 const PointRegions& regions, std::uint32_t part);
+
+}  // namespace gnomon::oracle
+
+#endif  // GNOMON_ORACLE_CASTER_COUNTS_H
