@@ -75,6 +75,17 @@ Expected<void> read_face(Tokens& tokens, MeshBuilder& mesh, const Token& keyword
   return mesh.end_face(keyword.offset);
 }
 
+/// A line that cannot be used is passed over where that was asked for.
+bool skip(MeshBuilder& mesh, const Token& keyword, const Error& why) {
+  if (!mesh.skips_bad()) return false;
+  if (keyword.text == "v") {
+    mesh.add_bad_vertex(why);
+    return true;
+  }
+  mesh.spoil_face(why);
+  return mesh.end_face(keyword.offset).has_value();
+}
+
 /// Faces may name vertices that come later. Too many at worst, where a line that begins with v goes
 /// on with another.
 std::uint64_t count_vertex_lines(std::string_view text) {
@@ -135,7 +146,9 @@ Expected<ReadResult> read_obj(const std::string& text, const std::string& file,
         if (drawn.keyword == keyword->text) ++drawn.count;
       }
     }
-    if (!done) return tl::unexpected(std::move(done.error()));
+    if (!done && !skip(mesh, *keyword, done.error())) {
+      return tl::unexpected(std::move(done.error()));
+    }
   } while (tokens.next_line());
   if (mesh.vertex_count() == 0 && mesh.face_count() == 0) {
     return mesh.error(ErrorCode::kFormat, "no vertex and no face", "an OBJ file: v and f lines", 0);
