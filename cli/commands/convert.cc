@@ -33,7 +33,7 @@ int run_convert(const ConvertOptions& options) {
   }
   const auto scene = read_scene_with_lights(options.scene);
   if (!scene) return report_error(scene.error());
-  const auto written = scene_to_text(*scene, *format);
+  const auto written = scene_to_text(scene->scene, *format);
   if (!written) return report_error(written.error());
   for (const std::string& warning : written->warnings) warn(options.target + ": " + warning);
   if (auto done = write_output(options.target, written->text); !done) {

@@ -68,6 +68,7 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"model", {"base"}},
         {"geometry", {"base"}},
         {"prepare", {"base", "geometry"}},
+        {"intent", {"base", "geometry"}},
         {"json", {"base"}},
         {"files", {"base", "json"}},
         {"generate", {"base"}}}},
