@@ -69,6 +69,7 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"geometry", {"base"}},
         {"prepare", {"base", "geometry"}},
         {"intent", {"base", "geometry"}},
+        {"repair", {"base", "intent"}},
         {"json", {"base"}},
         {"files", {"base", "json"}},
         {"generate", {"base"}}}},
