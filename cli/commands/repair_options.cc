@@ -69,6 +69,7 @@ Expected<void> snap(Scene& scene, const std::string& typed, const std::string& t
     tell(target,
          "the numbers are decimals now, since doubles cannot hold all points of the planes");
   }
+  if (!report->settled) warn(target + ": something still moves; another --snap goes on");
   if (!report->folding.empty()) {
     warn(target + ": " + counted_as(report->folding.size(), "polygon", "polygons") +
          " would fold and stayed as it was: " + examples(report->folding));

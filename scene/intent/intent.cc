@@ -194,7 +194,7 @@ class Facing {
       return std::ranges::any_of(light.points, [&](const Vector& point) {
         const Vector to_light = light.is_directional ? point : point - origin;
         constexpr long double kSure = 1e-12L;
-        return dot_of(area, to_light) > -kSure * size * length_of(to_light);
+        return !(dot_of(area, to_light) < -kSure * size * length_of(to_light));
       });
     });
   }
@@ -205,11 +205,17 @@ class Facing {
     std::vector<Vector> points;
   };
 
+  /// As long as its greatest component, which is 1.
   static Vector direction_of(const LightPoint& light) {
-    const auto& to_light = light.nearest;
-    const double size =
-        std::max({std::abs(to_light[0]), std::abs(to_light[1]), std::abs(to_light[2])});
-    return {to_light[0] / size, to_light[1] / size, to_light[2] / size};
+    mpz_class greatest = 0;
+    for (const mpz_class& component : light.grid)
+      greatest = std::max(greatest, mpz_class(abs(component)));
+    const auto at = [&](std::size_t k) {
+      mpq_class share(light.grid[k], greatest);
+      share.canonicalize();
+      return static_cast<long double>(share.get_d());
+    };
+    return {at(0), at(1), at(2)};
   }
 
   const PreparedScene& prepared_;
@@ -286,9 +292,16 @@ Intent find_intent(const Scene& scene, const PreparedScene& prepared,
   constexpr double kNearShare = 1e-5;
   Intent intent;
   const LocalPoints points(prepared);
-  intent.near = options.near > 0 ? options.near : kNearShare * median_diameter(prepared, points);
+  intent.near = options.near;
   intent.is_partial = prepared.parts.size() > options.most_parts;
   measure_box(prepared, intent);
+  // Beyond the range of doubles there is nothing to measure with.
+  const double step = prepared.geometry.step.get_d();
+  if (!std::isfinite(intent.diagonal) || !std::isfinite(step) || step == 0) {
+    intent.is_partial = true;
+    return intent;
+  }
+  if (intent.near <= 0) intent.near = kNearShare * median_diameter(prepared, points);
   find_bent(prepared, points, intent);
   if (intent.is_partial) return intent;
   const std::vector<scene_detail::Box> boxes =

@@ -106,7 +106,7 @@ class NearPlanes {
     long double distance = 0;
     for (const Vector& point : overlap) {
       const long double at = dot_of(plane.normal, point - plane.point);
-      if (std::abs(at) > near_) return;
+      if (!(std::abs(at) <= near_)) return;
       if (std::abs(at) > std::abs(distance)) distance = at;
     }
     // Neighbours overlap by slivers where an edge is not quite the other's.
@@ -115,7 +115,7 @@ class NearPlanes {
       longest = std::max(longest, length_of(point - overlap[0]));
     }
     const long double area = area_of(overlap);
-    if (area <= 4 * near_ * longest) return;
+    if (!(area > 4 * near_ * longest)) return;
     constexpr long double kDegrees = 180 / std::numbers::pi_v<long double>;
     const long double sine = length_of(cross_of(own.normal, plane.normal));
     pairs.push_back({part.polygon, scene_.parts[large].polygon, static_cast<double>(distance),

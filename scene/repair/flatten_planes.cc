@@ -13,8 +13,19 @@ namespace {
 /// Polygons that are to lie in one plane.
 using Group = std::vector<std::uint32_t>;
 
-std::vector<Group> groups_of(std::size_t polygons, const std::vector<NearlyCoplanarPair>& pairs,
+/// The plane of the polygon when the round began, if it has one.
+std::optional<PlaneId> plane_id(const PreparedScene& prepared, std::uint32_t polygon) {
+  const std::uint32_t first = prepared.first_part[polygon], last = prepared.first_part[polygon + 1];
+  for (std::uint32_t p = first; p < last; ++p) {
+    if (prepared.parts[p].plane != prepared.parts[first].plane) return std::nullopt;
+  }
+  return first == last ? std::nullopt : std::optional(prepared.parts[first].plane);
+}
+
+std::vector<Group> groups_of(const PreparedScene& prepared,
+                             const std::vector<NearlyCoplanarPair>& pairs,
                              const std::vector<std::uint32_t>& bent) {
+  const std::size_t polygons = prepared.first_part.size() - 1;
   std::vector<std::uint32_t> parent(polygons);
   std::iota(parent.begin(), parent.end(), 0u);
   const auto first = [&](std::uint32_t polygon) {
@@ -26,6 +37,14 @@ std::vector<Group> groups_of(std::size_t polygons, const std::vector<NearlyCopla
   for (const NearlyCoplanarPair& pair : pairs) {
     taken[pair.polygon] = taken[pair.other] = 1;
     const std::uint32_t a = first(pair.polygon), b = first(pair.other);
+    parent[std::max(a, b)] = std::min(a, b);
+  }
+  // Those that are in one plane already stay in one.
+  std::map<PlaneId, std::uint32_t> first_in_plane;
+  for (std::uint32_t p = 0; p < polygons; ++p) {
+    const auto plane = taken[p] != 0 ? plane_id(prepared, p) : std::nullopt;
+    if (!plane) continue;
+    const std::uint32_t a = first(p), b = first(first_in_plane.emplace(*plane, p).first->second);
     parent[std::max(a, b)] = std::min(a, b);
   }
   std::map<std::uint32_t, Group> groups;
@@ -40,7 +59,12 @@ std::vector<Group> groups_of(std::size_t polygons, const std::vector<NearlyCopla
 class Flattening {
  public:
   Flattening(SnapRound& round, const mpq_class& distance, const std::set<std::uint32_t>& pinned)
-      : round_(round), distance_(distance), pinned_(pinned) {}
+      : round_(round), distance_(distance), pinned_(pinned) {
+    const PreparedScene& prepared = round.prepared();
+    for (std::uint32_t p = 0; p + 1 < prepared.first_part.size(); ++p) {
+      if (const auto plane = plane_id(prepared, p)) ++polygons_in_[*plane];
+    }
+  }
 
   /// Whether anything moved.
   bool flatten(const Group& group) {
@@ -116,6 +140,7 @@ class Flattening {
       // Who stays is in the way of the others: its plane has to be kept.
       if (group.size() < members.size()) continue;
       for (auto& [vertex, to] : moves) round_.move(vertex, std::move(to));
+      if (!moves.empty()) moved_.insert(group.begin(), group.end());
       return !moves.empty();
     }
   }
@@ -144,8 +169,7 @@ class Flattening {
     for (const std::uint32_t polygon : round_.polygons_at(vertex)) {
       const std::vector<VertexId> outline = round_.outline(polygon);
       around.insert(around.end(), outline.begin(), outline.end());
-      // A triangle is planar wherever its corners are.
-      if (members.contains(polygon) || outline.size() < 4) continue;
+      if (members.contains(polygon) || is_free_triangle(polygon, outline.size())) continue;
       auto other = round_.plane_of(polygon);
       if (!other) continue;
       if (std::ranges::none_of(planes,
@@ -169,9 +193,18 @@ class Flattening {
     return to;
   }
 
+  /// A triangle is planar wherever its corners are, and free if nobody else is in its plane.
+  bool is_free_triangle(std::uint32_t polygon, std::size_t corners) const {
+    if (corners > 3 || moved_.contains(polygon)) return false;
+    const auto plane = plane_id(round_.prepared(), polygon);
+    return !plane || polygons_in_.at(*plane) == 1;
+  }
+
   SnapRound& round_;
   const mpq_class& distance_;
   const std::set<std::uint32_t>& pinned_;
+  std::map<PlaneId, std::size_t> polygons_in_;  // when the round began
+  std::set<std::uint32_t> moved_;               // polygons that were brought to a plane
 };
 
 }  // namespace
@@ -184,8 +217,7 @@ std::size_t flatten_planes(SnapRound& round, const mpq_class& distance,
   for (const BentPolygon& polygon : intent.bent) bent.push_back(polygon.polygon);
   Flattening flattening(round, distance, pinned);
   std::size_t planes = 0;
-  for (const Group& group :
-       groups_of(round.scene().polygons.size(), intent.nearly_coplanar, bent)) {
+  for (const Group& group : groups_of(round.prepared(), intent.nearly_coplanar, bent)) {
     planes += flattening.flatten(group) ? 1 : 0;
   }
   return planes;

@@ -41,7 +41,9 @@ class Snapping {
       if (*moved) continue;
       moved = flatten();
       if (!moved) return tl::unexpected(std::move(moved.error()));
-      if (!*moved) break;
+      if (*moved) continue;
+      report_.settled = true;
+      break;
     }
     return finish();
   }

@@ -92,6 +92,18 @@ TEST(Snap, KeepsThePlanesOfNeighbours) {
   EXPECT_EQ(b.scene().vertices[8][0], Number(2.0));
 }
 
+TEST(Snap, ComesToAnEnd) {
+  // Triangles between two planes, each near both and free to turn.
+  Builder b;
+  b.polygon(square(0, 0, 10, 0)).polygon(square(0, 0, 9, 0x1p-10));
+  b.polygon({{1, 1, 0x1p-11}, {4, 1, 0x1p-11}, {1, 4, 0x1p-11}});
+  b.polygon({{4, 1, 0x1p-11}, {4, 4, 0x1p-12}, {1, 4, 0x1p-11}});
+  const SnapReport report = snapped(b.scene(), mpq_class(1, 1000));
+  EXPECT_TRUE(report.settled);
+  EXPECT_LT(report.rounds, 5u);
+  EXPECT_EQ(planes(b.scene()), 1u);
+}
+
 TEST(Snap, NothingFolds) {
   // A strip narrower than the distance stays as it is.
   Builder b;

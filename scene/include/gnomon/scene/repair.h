@@ -16,15 +16,16 @@
 namespace gnomon {
 
 struct SnapReport {
-  std::size_t rounds = 0;           // until nothing moved
-  std::size_t merged_vertices = 0;  // positions that are no more
-  std::size_t moved_vertices = 0;   // positions that were used and are elsewhere
-  std::size_t planes = 0;           // made one out of several
-  double largest_movement = 0;      // scene units
+  std::size_t rounds = 0;            // until nothing moved
+  bool settled = false;              // nothing moves any more; false after very many rounds
+  std::size_t merged_vertices = 0;   // positions that are no more
+  std::size_t moved_vertices = 0;    // positions that were used and are elsewhere
+  std::size_t planes = 0;            // made one out of several
+  double largest_movement = 0;       // scene units
   std::vector<std::string> folding;  // ids of polygons that would fold: their vertices stayed
-  std::size_t pairs_left = 0;        // still all but in one plane, since no decimal numbers would do
-  std::size_t bent_left = 0;         // the same of polygons that are bent
-  bool became_decimal = false;       // the scene was of doubles, which could not hold the result
+  std::size_t pairs_left = 0;   // still all but in one plane, since no decimal numbers would do
+  std::size_t bent_left = 0;    // the same of polygons that are bent
+  bool became_decimal = false;  // the scene was of doubles, which could not hold the result
 };
 
 /// Vertices within `distance` of each other become one, the first of them; polygons that overlap
@@ -34,12 +35,13 @@ struct SnapReport {
 Expected<SnapReport> snap_scene(Scene& scene, const mpq_class& distance);
 
 struct ParentReport {
-  std::vector<std::string> windows, walls;  // ids: the loop of each window is now a hole of its wall
-  std::vector<std::string> left;            // lie in a polygon, and overlap what is there
+  std::vector<std::string> windows,
+      walls;                      // ids: the loop of each window is now a hole of its wall
+  std::vector<std::string> left;  // lie in a polygon, and overlap what is there
 };
 
-/// Polygons that lie exactly in another one of their plane, and look where it looks, become holes of
-/// the smallest such. Errors: those of prepare().
+/// Polygons that lie exactly in another one of their plane, and look where it looks, become holes
+/// of the smallest such. Errors: those of prepare().
 Expected<ParentReport> make_holes_of_windows(Scene& scene);
 
 struct OrientReport {
