@@ -73,12 +73,14 @@ class Flattening {
       if (round_.plane_of(polygon)) planar.emplace_back(-area_of(polygon), polygon);
     }
     std::ranges::sort(planar);
-    // The largest that is planar tells the plane. If nothing can come to it, it stays and so does
-    // who lies in it already, and the next may gather the rest: so nobody goes back and forth.
+    // The largest that is planar tells the plane. If nothing can come to it, all that lie in its
+    // plane stay there if they are several, and the next may gather the rest. So nobody goes back
+    // and forth: polygons join others in a plane, or leave them for one with a larger polygon.
     Group rest = group;
     for (const auto& [area, host] : planar) {
       const RationalPlane plane = *round_.plane_of(host);
       if (move_to(plane, rest)) return true;
+      if (is_alone(host)) continue;
       std::erase_if(rest, [&](std::uint32_t polygon) {
         const auto own = round_.plane_of(polygon);
         return own && own->is_same_as(plane);
@@ -195,7 +197,11 @@ class Flattening {
 
   /// A triangle is planar wherever its corners are, and free if nobody else is in its plane.
   bool is_free_triangle(std::uint32_t polygon, std::size_t corners) const {
-    if (corners > 3 || moved_.contains(polygon)) return false;
+    return corners <= 3 && is_alone(polygon);
+  }
+  /// Nobody else lies in its plane.
+  bool is_alone(std::uint32_t polygon) const {
+    if (moved_.contains(polygon)) return false;
     const auto plane = plane_id(round_.prepared(), polygon);
     return !plane || polygons_in_.at(*plane) == 1;
   }
