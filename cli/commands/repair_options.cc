@@ -78,7 +78,7 @@ Expected<void> snap(Scene& scene, const std::string& typed, const std::string& t
     warn(target + ": " + counted_as(report->pairs_left, "pair", "pairs") +
          " of polygons within that distance of one plane and " +
          counted_as(report->bent_left, "bent polygon", "bent polygons") +
-         " stayed as they were: no decimal numbers keep what else they share");
+         " stayed as they were: no decimal numbers keep the planes of what they share");
   }
   note_change(scene, change("--snap", [&](report::JsonWriter& json) {
                 json.member("distance", typed);

@@ -116,8 +116,9 @@ std::string point_of(const PreparedScene& prepared, VertexId vertex) {
 void nearly_equal_lines(Lines& lines, const IntentWords& words, const PreparedScene& prepared,
                         const Intent& intent) {
   if (!intent.nearly_coplanar.empty()) {
-    lines.heading(counted_as(intent.nearly_coplanar.size(), "pair", "pairs") +
-                  " of polygons overlap all but in one plane (convert --snap):");
+    lines.heading(counted_as(intent.nearly_coplanar.size(), "pair of polygons overlaps",
+                             "pairs of polygons overlap") +
+                  " all but in one plane (convert --snap):");
     lines.list(intent.nearly_coplanar, [&](const NearlyCoplanarPair& pair) {
       return words.pair(pair) + ", angle " + rounded(pair.angle, kDigits) + " degrees, overlap " +
              rounded(pair.overlap);
@@ -233,11 +234,12 @@ std::string intent_warning(const Scene& scene, const Intent& intent) {
   std::string text;
   const auto add = [&](const std::string& clause) { text += (text.empty() ? "" : "; ") + clause; };
   if (const auto& pairs = intent.nearly_coplanar; !pairs.empty()) {
-    add(counted_as(pairs.size(), "pair", "pairs") + " of polygons overlap all but in one plane (" +
-        words.pair(pairs[0]) + ")");
+    add(counted_as(pairs.size(), "pair of polygons overlaps", "pairs of polygons overlap") +
+        " all but in one plane (" + words.pair(pairs[0]) + ")");
   }
   if (const auto& pairs = intent.near_vertices; !pairs.empty()) {
-    add(counted_as(pairs.size(), "pair", "pairs") + " of vertices all but coincide");
+    add(counted_as(pairs.size(), "pair of vertices all but coincides",
+                   "pairs of vertices all but coincide"));
   }
   if (!intent.bent.empty()) {
     const auto most = std::ranges::max_element(intent.bent, {}, &BentPolygon::distance);
