@@ -295,6 +295,7 @@ int run_certify(const CertifyCommandOptions& options) {
   const ThreadLimit threads(options.scene.jobs);
   auto loaded = load_scene(options.scene, true);
   if (!loaded) return report_error(loaded.error());
+  warn_of_intent(*loaded);
   drop_repeats(*algorithms, *loaded);
   const auto kernels = chosen_kernels(options, loaded->prepared.parts.size());
   if (!kernels) return report_error(kernels.error());

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// gnomon convert: a scene in another format, with the same values.
+// gnomon convert: a scene in another format, with the same values, or put right first where it does
+// not say what was meant.
 #include <memory>
 
+#include "cli/commands/repair_options.h"
 #include "cli/common/commands.h"
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
@@ -15,6 +17,7 @@ namespace {
 
 struct ConvertOptions {
   SceneOptions scene;
+  RepairOptions repair;
   std::string target;
   std::string format;
 };
@@ -31,9 +34,12 @@ int run_convert(const ConvertOptions& options) {
                         "an extension " + shown_scene_extensions() + ", or --format",
                         options.target);
   }
-  const auto scene = read_scene_with_lights(options.scene);
+  auto scene = read_scene_with_lights(options.scene);
   if (!scene) return report_error(scene.error());
-  const auto written = scene_to_text(*scene, *format);
+  if (auto done = repair(*scene, options.scene, options.repair, options.target); !done) {
+    return report_error(done.error());
+  }
+  const auto written = scene_to_text(scene->scene, *format);
   if (!written) return report_error(written.error());
   for (const std::string& warning : written->warnings) warn(options.target + ": " + warning);
   if (auto done = write_output(options.target, written->text); !done) {
@@ -46,14 +52,18 @@ int run_convert(const ConvertOptions& options) {
 
 void add_convert_command(CLI::App& app, Action& action) {
   auto options = std::make_shared<ConvertOptions>();
-  CLI::App& command = *app.add_subcommand("convert", "Write a scene in another format");
+  CLI::App& command =
+      *app.add_subcommand("convert", "Write a scene in another format, or repaired");
   command.footer(
       "The format of OUT is that of its extension. What it cannot hold (holes, ids, lights, flags) "
       "is\n"
-      "named in warnings.\n\n"
+      "named in warnings. Repairs are exact; what was changed is said, and written into "
+      "\"extra\".\n"
+      "\n"
       "Examples:\n"
       "  gnomon convert house.obj house.json --sun=1,2,3\n"
-      "  gnomon convert house.json house.ply --format ply-binary");
+      "  gnomon convert house.json house.ply --format ply-binary\n"
+      "  gnomon convert model.json meant.json --snap 1e-6 --parent --orient");
   add_scene_options(command, options->scene);
   command.remove_option(command.get_option("--light"));
   command.add_option("OUT", options->target, "File to write; - is standard output")
@@ -62,6 +72,7 @@ void add_convert_command(CLI::App& app, Action& action) {
   command.add_option("--format", options->format, "Format of OUT, whatever its name")
       ->check(CLI::IsMember(format_names()))
       ->type_name(CLI::detail::join(format_names(), "|"));
+  add_repair_options(command, options->repair);
   command.callback([options, &action] { action = [options] { return run_convert(*options); }; });
 }
 

@@ -248,6 +248,7 @@ int run_shadows(const ShadowsOptions& options) {
   const ThreadLimit threads(options.scene.jobs);
   auto loaded = load_scene(options.scene, !options.extras.works_without_light());
   if (!loaded) return report_error(loaded.error());
+  warn_of_intent(*loaded);
   ProgressBar progress("shadows");
   ShadowOptions shadow_options = shadow_options_of(options, *loaded, *kernel, *algorithm);
   shadow_options.control.progress = progress.callback();

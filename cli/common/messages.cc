@@ -34,6 +34,8 @@ ExitStatus report_usage(std::string what, std::string expected, std::string file
   return report_error(error);
 }
 
+void say(std::string_view text) { print_line("gnomon: " + std::string(text)); }
+
 void warn(std::string_view text) {
   static std::set<std::string, std::less<>> said;
   if (said.emplace(text).second) print_line("gnomon: warning: " + std::string(text));

@@ -15,6 +15,8 @@ namespace gnomon::cli {
 ExitStatus report_error(const Error& error);
 /// The same for a wrong option or argument.
 ExitStatus report_usage(std::string what, std::string expected = {}, std::string file = {});
+/// "gnomon: ...": what was done, where nobody would see it otherwise.
+void say(std::string_view text);
 /// "gnomon: warning: ...", once for each text.
 void warn(std::string_view text);
 

@@ -10,6 +10,8 @@
 #include "cli/common/messages.h"
 #include "gnomon/scene/light_arguments.h"
 #include "gnomon/scene/read.h"
+#include "report/facts/intent_text.h"
+#include "report/facts/scene_facts.h"
 
 namespace gnomon::cli {
 
@@ -17,6 +19,24 @@ namespace {
 
 void print_warnings(const std::string& file, const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) warn(file + ": " + warning);
+}
+
+/// "FILE: 2 of 9 polygons left out: 4 in line 17 (why); ...", with three examples.
+std::string left_out_text(const ReadResult& read) {
+  constexpr std::size_t kMost = 3;
+  const std::size_t count = read.left_out.size();
+  std::string text = read.scene.file + ": " + std::to_string(count) + " of " +
+                     std::to_string(count + read.scene.polygons.size()) +
+                     (count + read.scene.polygons.size() == 1 ? " polygon" : " polygons") +
+                     " left out: ";
+  for (std::size_t i = 0; i < std::min(count, kMost); ++i) {
+    if (i > 0) text += "; ";
+    text += report::left_out_polygon(read.left_out[i]);
+  }
+  if (count > kMost) {
+    text += "; and " + std::to_string(count - kMost) + " more ('gnomon info --all' lists them)";
+  }
+  return text;
 }
 
 std::string listed_ids(const Scene& scene) {
@@ -60,6 +80,11 @@ CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options) {
   repeatable(
       command.add_option("--light", options.lights, "Only the light with this id (repeatable)"))
       ->type_name("ID");
+  command.add_flag("--two-sided", options.two_sided,
+                   "Both sides of all polygons receive and cast, whatever the file says");
+  command.add_flag("--skip-bad", options.skip_bad,
+                   "Leave out polygons that cannot be used (they cross themselves, name no vertex\n"
+                   "or too few, have a coordinate that is no number), and name them");
   add_jobs_option(command, options.jobs);
   return scene;
 }
@@ -70,14 +95,25 @@ std::optional<NumberMeaning> numbers_asked(const std::string& numbers) {
   return std::nullopt;
 }
 
-Expected<Scene> read_scene_with_lights(const SceneOptions& options) {
+ReadOptions read_options(const SceneOptions& options) {
+  ReadOptions result;
+  result.numbers = numbers_asked(options.numbers);
+  result.skip_bad = options.skip_bad;
+  return result;
+}
+
+Expected<SceneAsRead> read_scene_with_lights(const SceneOptions& options) {
   prefer_a_heap_in_large_pages();
-  ReadOptions read_options;
-  read_options.numbers = numbers_asked(options.numbers);
-  auto read = read_scene(options.scene, read_options);
+  auto read = read_scene(options.scene, read_options(options));
   if (!read) return tl::unexpected(read.error());
   print_warnings(read->scene.file, read->warnings);
-  Scene scene = std::move(read->scene);
+  if (!read->left_out.empty()) warn(left_out_text(*read));
+  SceneAsRead result{std::move(read->scene), std::move(read->left_out)};
+  Scene& scene = result.scene;
+  if (options.two_sided) {
+    scene.two_sided = true;
+    for (Polygon& polygon : scene.polygons) polygon.two_sided.reset();
+  }
   if (!options.lights_file.empty()) {
     ReadOptions light_options;
     light_options.numbers = scene.numbers;
@@ -94,7 +130,7 @@ Expected<Scene> read_scene_with_lights(const SceneOptions& options) {
   if (auto added = add_lights(scene, std::move(*lights)); !added) {
     return tl::unexpected(added.error());
   }
-  return scene;
+  return result;
 }
 
 Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) {
@@ -102,10 +138,14 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) 
   Stopwatch stopwatch;
   auto scene = read_scene_with_lights(options);
   if (!scene) return tl::unexpected(scene.error());
-  loaded.scene = std::move(*scene);
+  loaded.scene = std::move(scene->scene);
+  loaded.left_out = std::move(scene->left_out);
   loaded.reading = stopwatch.lap();
   auto prepared = prepare(loaded.scene);
-  if (!prepared) return tl::unexpected(prepared.error());
+  if (!prepared) {
+    return tl::unexpected(
+        with_line_of_polygon(std::move(prepared.error()), options.scene, read_options(options)));
+  }
   loaded.prepared = std::move(*prepared);
   loaded.preparation = stopwatch.lap();
   if (interrupted()) return fail(ErrorCode::kInterrupted, "interrupted");
@@ -132,6 +172,16 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) 
                 "one in the scene, or --point=x,y,z, --sun=x,y,z or --area=x,y,z:x,y,z:...");
   }
   return loaded;
+}
+
+void warn_of_intent(const LoadedScene& loaded) {
+  // The diagnosis takes about as long as preparation does, and a large scene is read, prepared and
+  // classified in less than ten times that.
+  constexpr std::size_t kMostParts = 10'000;
+  const Intent intent =
+      find_intent(loaded.scene, loaded.prepared, {.near = 0, .most_parts = kMostParts});
+  const std::string text = report::intent_warning(loaded.scene, intent);
+  if (!text.empty()) warn(loaded.scene.file + ": " + text);
 }
 
 }  // namespace gnomon::cli

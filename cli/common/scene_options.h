@@ -11,6 +11,7 @@
 #include "cli/common/stopwatch.h"
 #include "gnomon/kernel/error.h"
 #include "gnomon/scene/prepare.h"
+#include "gnomon/scene/read.h"
 #include "gnomon/scene/scene.h"
 
 namespace gnomon::cli {
@@ -22,6 +23,8 @@ struct SceneOptions {
   std::string lights_file;
   std::vector<std::string> lights;  // ids; empty: all
   unsigned jobs = 0;                // threads; 0: one a processor
+  bool two_sided = false;           // all polygons, whatever the file says
+  bool skip_bad = false;            // polygons that cannot be used are left out
 };
 
 /// Also --jobs, since preparation takes all processors. The option of the scene's file is returned:
@@ -30,8 +33,15 @@ CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options);
 /// --numbers alone, for commands that take no lights.
 void add_numbers_option(CLI::App& command, std::string& numbers);
 
+/// A scene as read, and what was left out of it.
+struct SceneAsRead {
+  Scene scene;
+  std::vector<LeftOutPolygon> left_out;
+};
+
 struct LoadedScene {
   Scene scene;
+  std::vector<LeftOutPolygon> left_out;
   PreparedScene prepared;
   std::vector<std::uint32_t> lights;  // asked for, in file order: indices into both scenes' lights
   Seconds reading, preparation;
@@ -41,11 +51,18 @@ struct LoadedScene {
 std::optional<NumberMeaning> numbers_asked(const std::string& numbers);
 
 /// Reads the scene and adds the command line's lights; prints warnings.
-Expected<Scene> read_scene_with_lights(const SceneOptions& options);
+Expected<SceneAsRead> read_scene_with_lights(const SceneOptions& options);
+
+/// The options for reading that were asked for.
+ReadOptions read_options(const SceneOptions& options);
 
 /// The same, prepared and with the lights chosen. Errors: those of reading and preparing; kUsage
 /// for an unknown --light, and for a scene that is left without any light if `needs_light`.
 Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light);
+
+/// One warning if the scene perhaps does not mean what its numbers say (gnomon/scene/intent.h). Of
+/// a large scene only what costs next to nothing is looked at: `gnomon info` looks at everything.
+void warn_of_intent(const LoadedScene& loaded);
 
 }  // namespace gnomon::cli
 

@@ -88,7 +88,7 @@ void count_edges(const PreparedScene& prepared, SceneFacts& facts) {
 
 }  // namespace
 
-SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared) {
+SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared, double near) {
   SceneFacts facts;
   facts.name = scene.name;
   facts.file = scene.file;
@@ -131,6 +131,7 @@ SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared) {
   facts.position_bits = prepared.position_bits;
   facts.direction_bits = prepared.direction_bits;
 
+  facts.intent = find_intent(scene, prepared, {.near = near});
   for (const PreparedLight& light : prepared.lights) {
     const Light& source = scene.lights[light.light];
     LightFacts& one = facts.lights.emplace_back();

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "gnomon/kernel/precision_plan.h"
+#include "gnomon/scene/intent.h"
 #include "gnomon/scene/prepare.h"
+#include "gnomon/scene/read.h"
 #include "gnomon/scene/scene.h"
 #include "report/sides/polygon_sides.h"
 #include "report/text/text_sink.h"
@@ -49,18 +51,26 @@ struct SceneFacts {
   unsigned position_bits = 0, direction_bits = 0;
   bool has_directional = false, has_point = false, has_area = false;
   std::vector<LightFacts> lights;
+  std::vector<LeftOutPolygon> left_out;  // when the scene was read
+  Intent intent;
 };
 
-SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared);
+/// `near`: scene units, or 0 (intent.h).
+SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared, double near = 0);
+
+/// "ID in line 7 (why)".
+std::string left_out_polygon(const LeftOutPolygon& polygon);
 
 /// What was done to a polygon: "zero area: dropped", "not planar: triangulated", ...
 std::string_view repair_name(Repair repair);
 std::string_view light_type_name(LightType type);
 
 /// For people, at most 100 columns; all notes if `all_notes`, else the first few of each kind.
-std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_notes);
+std::string facts_text(const Scene& scene, const PreparedScene& prepared, const SceneFacts& facts,
+                       bool all_notes);
 /// For programs: stable.
-void write_facts_json(TextSink& sink, const Scene& scene, const SceneFacts& facts);
+void write_facts_json(TextSink& sink, const Scene& scene, const PreparedScene& prepared,
+                      const SceneFacts& facts);
 
 }  // namespace gnomon::report
 

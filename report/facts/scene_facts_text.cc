@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "report/facts/intent_text.h"
 #include "report/facts/scene_facts.h"
 #include "report/json/json_writer.h"
 #include "report/text/number_text.h"
@@ -101,6 +102,29 @@ std::string notes_text(const Scene& scene, const SceneFacts& facts, bool all_not
   return text;
 }
 
+std::string left_out_text(const SceneFacts& facts, bool all) {
+  constexpr std::size_t kMost = 3;
+  std::string text;
+  for (std::size_t i = 0; i < facts.left_out.size(); ++i) {
+    if (!all && i == kMost) return text + "  ... (--all lists every one)\n";
+    text += wrapped(left_out_polygon(facts.left_out[i]), kWidth, 2, 6);
+  }
+  return text;
+}
+
+void write_left_out(JsonWriter& json, const SceneFacts& facts) {
+  json.key("left_out");
+  json.begin_array();
+  for (const LeftOutPolygon& polygon : facts.left_out) {
+    json.begin_object(JsonLayout::kInline);
+    json.member("polygon", polygon.id);
+    json.member("line", polygon.why.where.line);
+    json.member("why", polygon.why.what);
+    json.end_object();
+  }
+  json.end_array();
+}
+
 void write_plan(JsonWriter& json, const char* name, std::span<const PredicateBits> plan) {
   json.key(name);
   json.begin_array();
@@ -125,7 +149,20 @@ void write_point(JsonWriter& json, const char* name, const std::array<double, 3>
 
 }  // namespace
 
-std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_notes) {
+std::string left_out_polygon(const LeftOutPolygon& polygon) {
+  // The polygon has been named already.
+  std::string_view why = polygon.why.what;
+  const std::string name = "polygon '" + polygon.id + "': ";
+  if (why.starts_with(name)) why.remove_prefix(name.size());
+  std::string text = polygon.id;
+  if (polygon.why.where.line != 0) {
+    text += " in line " + std::to_string(polygon.why.where.line);
+  }
+  return text + " (" + std::string(why) + ")";
+}
+
+std::string facts_text(const Scene& scene, const PreparedScene& prepared, const SceneFacts& facts,
+                       bool all_notes) {
   std::string text;
   text += entry("scene", (facts.name.empty() ? "(no name)" : facts.name) + ", from " + facts.file);
   text += entry("geometry", facts.geometry_digest);
@@ -159,6 +196,10 @@ std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_not
   if (!facts.repairs.empty()) {
     text += "\nmade convex and planar\n" + notes_text(scene, facts, all_notes);
   }
+  if (!facts.left_out.empty()) {
+    text += "\nleft out: " + plural(facts.left_out.size(), "polygon", "polygons") + "\n" +
+            left_out_text(facts, all_notes);
+  }
   text += "\nlights\n";
   if (facts.lights.empty()) text += "  none\n";
   for (const LightFacts& light : facts.lights) {
@@ -170,6 +211,7 @@ std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_not
     }
     text += wrapped(line, kWidth, 2, 6);
   }
+  text += intent_text(scene, prepared, facts.intent, all_notes);
   text += "\nprecision plan: what the exact stage of `plane` needs here\n";
   std::vector<std::string> plans;
   if (facts.has_point || facts.lights.empty()) {
@@ -191,7 +233,8 @@ std::string facts_text(const Scene& scene, const SceneFacts& facts, bool all_not
   return text;
 }
 
-void write_facts_json(TextSink& sink, const Scene& scene, const SceneFacts& facts) {
+void write_facts_json(TextSink& sink, const Scene& scene, const PreparedScene& prepared,
+                      const SceneFacts& facts) {
   JsonWriter json(sink);
   json.begin_object();
   json.member("format", "gnomon-info");
@@ -230,6 +273,7 @@ void write_facts_json(TextSink& sink, const Scene& scene, const SceneFacts& fact
     json.end_object();
   }
   json.end_array();
+  write_left_out(json, facts);
   json.key("lights");
   json.begin_array();
   for (const LightFacts& light : facts.lights) {
@@ -248,6 +292,7 @@ void write_facts_json(TextSink& sink, const Scene& scene, const SceneFacts& fact
     json.end_object();
   }
   json.end_array();
+  write_intent_json(json, scene, prepared, facts.intent);
   write_plan(json, "point_light_plan", light_plan(facts, false));
   write_plan(json, "directional_light_plan", light_plan(facts, true));
   const unsigned b = facts.position_bits;

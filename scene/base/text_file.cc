@@ -73,22 +73,29 @@ Expected<std::string> read_file(const std::filesystem::path& path) {
   }
 }
 
-ErrorPlace place_in_text(std::string file, std::string_view text, std::size_t offset,
-                         std::string pointer) {
-  offset = std::min(offset, text.size());
-  ErrorPlace place{std::move(file), 1, 1, std::move(pointer)};
-  std::size_t line_start = byte_order_mark(text);
-  if (offset < line_start) offset = line_start;
-  for (;;) {
-    const std::size_t end = text.find('\n', line_start);
-    if (end == std::string_view::npos || end >= offset) break;
-    ++place.line;
-    line_start = end + 1;
+ErrorPlace PlacesInText::at(std::string file, std::size_t offset, std::string pointer) {
+  const std::size_t first = byte_order_mark(text_);
+  offset = std::max(std::min(offset, text_.size()), first);
+  if (line_ == 0 || offset < line_start_) {
+    line_ = 1;
+    line_start_ = first;
   }
-  for (std::size_t at = line_start; at < offset; ++at) {
-    if ((static_cast<unsigned char>(text[at]) & 0xC0u) != 0x80u) ++place.column;
+  for (;;) {
+    const std::size_t end = text_.find('\n', line_start_);
+    if (end == std::string_view::npos || end >= offset) break;
+    ++line_;
+    line_start_ = end + 1;
+  }
+  ErrorPlace place{std::move(file), line_, 1, std::move(pointer)};
+  for (std::size_t at = line_start_; at < offset; ++at) {
+    if ((static_cast<unsigned char>(text_[at]) & 0xC0u) != 0x80u) ++place.column;
   }
   return place;
+}
+
+ErrorPlace place_in_text(std::string file, std::string_view text, std::size_t offset,
+                         std::string pointer) {
+  return PlacesInText(text).at(std::move(file), offset, std::move(pointer));
 }
 
 std::string quoted_text(std::string_view text) {

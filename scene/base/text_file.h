@@ -5,6 +5,7 @@
 #define GNOMON_SCENE_BASE_TEXT_FILE_H
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -20,6 +21,19 @@ std::string shown_name(const std::filesystem::path& path);
 /// is no PLY is not read to its end, since no text format goes on from there. Errors: kFile
 /// (absent, unreadable, a directory), kLimit (an endless stream).
 Expected<std::string> read_file(const std::filesystem::path& path);
+
+/// Lines and columns of many bytes of one text, as place_in_text() has them. Cheap as long as
+/// offsets grow: all together cost as much as the last.
+class PlacesInText {
+ public:
+  explicit PlacesInText(std::string_view text) : text_(text) {}
+  ErrorPlace at(std::string file, std::size_t offset, std::string pointer = {});
+
+ private:
+  std::string_view text_;
+  std::uint64_t line_ = 0;  // 0: none yet
+  std::size_t line_start_ = 0;
+};
 
 /// Line and column of a byte offset, both from 1; a column counts characters (UTF-8), and a byte
 /// order mark is none. Cost: O(offset).

@@ -84,6 +84,26 @@ Expected<std::vector<PolygonGroup>> polygon_groups(const Scene& scene) {
   return groups;
 }
 
+void remove_from_groups(Scene& scene, std::span<const std::string> ids) {
+  if (scene.extra.find("\"groups\"") == std::string::npos) return;
+  rapidjson::Document extra;
+  extra.Parse<kJsonFlags>(scene.extra.data(), scene.extra.size());
+  if (extra.HasParseError() || !extra.IsObject()) return;
+  const auto named = extra.FindMember(kGroups.data());
+  if (named == extra.MemberEnd() || !named->value.IsObject()) return;
+  for (auto& member : named->value.GetObject()) {
+    if (!member.value.IsArray()) continue;
+    for (auto* id = member.value.Begin(); id != member.value.End();) {
+      const bool gone = id->IsString() && std::ranges::find(ids, view(*id)) != ids.end();
+      id = gone ? member.value.Erase(id) : id + 1;
+    }
+  }
+  rapidjson::StringBuffer buffer;
+  rapidjson::Writer<rapidjson::StringBuffer> writer(buffer);
+  extra.Accept(writer);
+  scene.extra.assign(buffer.GetString(), buffer.GetSize());
+}
+
 void set_polygon_groups(Scene& scene, std::span<const PolygonGroup> groups) {
   rapidjson::StringBuffer buffer;
   rapidjson::Writer<rapidjson::StringBuffer> writer(buffer);

@@ -252,6 +252,7 @@ bool SceneHandler::StartObject() {
       return true;
     case JsonState::kPolygons:
       scene_.polygons.emplace_back();
+      polygon_offsets_.push_back(position());
       state_ = JsonState::kPolygon;
       break;
     case JsonState::kLights:
@@ -399,6 +400,11 @@ bool SceneHandler::number(std::string_view text, Number& result) {
   any_number_ = true;
   bool underflow = false;
   auto parsed = Number::parse(text, scene_.numbers, &underflow);
+  if (!parsed && skip_bad_ && state_ == JsonState::kVertex) {
+    bad_vertices_.emplace(static_cast<VertexId>(scene_.vertices.size()), parsed.error().what);
+    result = Number();
+    return true;
+  }
   if (!parsed) {
     return stop_here(parsed.error().code, parsed.error().what, parsed.error().expected);
   }
@@ -426,19 +432,25 @@ bool SceneHandler::index(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || text[0] == '-') {
     if (text[0] == '-' || error == std::errc::result_out_of_range) {
-      return stop_here(ErrorCode::kIndex,
-                       "index " + std::string(text.substr(0, 40)) + " is not that of a vertex",
-                       "an index from 0");
+      return bad_index(text, "an index from 0");
     }
     return stop_here(ErrorCode::kFormat, quoted_text(text) + " is not an integer",
                      "a vertex index");
   }
   if (error != std::errc{} || value > kMostVertices) {
-    return stop_here(ErrorCode::kIndex,
-                     "index " + std::string(text.substr(0, 40)) + " is not that of a vertex",
-                     "an index of a vertex");
+    return bad_index(text, "an index of a vertex");
   }
   indices_.push_back(static_cast<VertexId>(value));
+  return true;
+}
+
+bool SceneHandler::bad_index(std::string_view text, std::string expected) {
+  const std::string what = "index " + std::string(text.substr(0, 40)) + " is not that of a vertex";
+  if (!skip_bad_) return stop_here(ErrorCode::kIndex, what, std::move(expected));
+  problems_.push_back(
+      {static_cast<std::uint32_t>(scene_.polygons.size() - 1),
+       Error{ErrorCode::kIndex, ErrorPlace{file_, 0, 0, {}}, what, std::move(expected)}});
+  indices_.push_back(0);
   return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include <rapidjson/reader.h>
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "gnomon/scene/scene.h"
+#include "gnomon/scene/unusable.h"
 #include "scene/base/text_file.h"
 #include "scene/files/readers.h"
 #include "scene/json/json_text.h"
@@ -117,6 +119,14 @@ class SceneHandler : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, Scen
     scene_.file = file;
   }
 
+  /// From here on polygons and vertices that cannot be used are no error, but listed.
+  void skip_bad() { skip_bad_ = true; }
+  std::vector<PolygonProblem>& problems() { return problems_; }
+  /// Why the coordinates of a vertex are no numbers.
+  const std::map<VertexId, std::string>& bad_vertices() const { return bad_vertices_; }
+  /// The byte at which each polygon begins.
+  std::vector<std::uint64_t>& polygon_offsets() { return polygon_offsets_; }
+
   Scene& scene() { return scene_; }
   std::optional<Error>& error() { return error_; }
   const UnderflowCount& underflow() const { return underflow_; }
@@ -179,6 +189,7 @@ class SceneHandler : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, Scen
 
   bool coordinate(std::string_view text);
   bool index(std::string_view text);
+  bool bad_index(std::string_view text, std::string expected);
   bool number(std::string_view text, Number& result);
   bool end_coordinates();
   bool end_polygon();
@@ -207,6 +218,10 @@ class SceneHandler : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, Scen
   Position current_;
   std::size_t coordinate_count_ = 0;
   std::vector<VertexId> indices_;
+  bool skip_bad_ = false;
+  std::vector<PolygonProblem> problems_;
+  std::map<VertexId, std::string> bad_vertices_;
+  std::vector<std::uint64_t> polygon_offsets_;
   JsonState outside_extra_ = JsonState::kScene;
   std::size_t extra_depth_ = 0, extra_begin_ = 0;
 };

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <utility>
 
-#include "scene/base/text_file.h"
+#include "scene/files/left_out.h"
 
 namespace gnomon {
 
@@ -68,7 +68,11 @@ std::optional<std::int64_t> to_integer(std::string_view text) {
 }
 
 MeshBuilder::MeshBuilder(std::string_view text, const std::string& file, const ReadOptions& options)
-    : text_(text), file_(file) {
+    : text_(text),
+      file_(file),
+      places_(text),
+      skip_bad_(options.skip_bad),
+      wants_offsets_(options.polygon_offsets || options.skip_bad) {
   scene_.numbers = options.numbers.value_or(NumberMeaning::kDouble);
   scene_.file = file;
   scene_.name = name_from_file(file);
@@ -80,7 +84,7 @@ tl::unexpected<Error> MeshBuilder::error(ErrorCode code, std::string what, std::
     return fail(code, std::move(what) + " (byte " + std::to_string(offset) + ")",
                 std::move(expected), ErrorPlace{file_, 0, 0, {}});
   }
-  return fail(code, std::move(what), std::move(expected), place_in_text(file_, text_, offset));
+  return fail(code, std::move(what), std::move(expected), places_.at(file_, offset));
 }
 
 Expected<Number> MeshBuilder::number(const Token& token) {
@@ -106,7 +110,10 @@ tl::unexpected<Error> MeshBuilder::index_error(std::int64_t index, std::uint64_t
 Expected<void> MeshBuilder::add_index(std::int64_t index, std::size_t offset) {
   if (index < 0 || index > kMostVertices ||
       static_cast<std::uint64_t>(index) >= expected_vertices_) {
-    return index_error(index, expected_vertices_, offset);
+    auto error = index_error(index, expected_vertices_, offset);
+    if (!skip_bad_) return error;
+    spoil_face(std::move(error.value()));
+    return {};
   }
   if (index > greatest_index_) {
     greatest_index_ = index;
@@ -118,12 +125,20 @@ Expected<void> MeshBuilder::add_index(std::int64_t index, std::size_t offset) {
 
 Expected<void> MeshBuilder::end_face(std::size_t offset) {
   constexpr std::size_t kFewest = 3;
-  if (indices_.size() < kFewest) {
-    return error(ErrorCode::kFormat,
-                 "a face of " + std::to_string(indices_.size()) +
-                     (indices_.size() == 1 ? " vertex" : " vertices"),
-                 "at least 3 vertices", offset);
+  if (indices_.size() < kFewest && !face_error_) {
+    auto too_few = error(ErrorCode::kFormat,
+                         "a face of " + std::to_string(indices_.size()) +
+                             (indices_.size() == 1 ? " vertex" : " vertices"),
+                         "at least 3 vertices", offset);
+    if (!skip_bad_) return too_few;
+    spoil_face(std::move(too_few.value()));
   }
+  if (face_error_) {
+    problems_.push_back(
+        {static_cast<std::uint32_t>(scene_.polygons.size()), *std::exchange(face_error_, {})});
+    indices_.clear();
+  }
+  if (wants_offsets_) offsets_.push_back(offset);
   Polygon& polygon = scene_.polygons.emplace_back();
   polygon.id = std::to_string(scene_.polygons.size() - 1);
   polygon.loop.assign(indices_.begin(), indices_.end());
@@ -131,12 +146,45 @@ Expected<void> MeshBuilder::end_face(std::size_t offset) {
   return {};
 }
 
+void MeshBuilder::add_bad_vertex(const Error& why) {
+  bad_vertices_.emplace(static_cast<VertexId>(vertex_count()), why.what);
+  add_vertex({});
+}
+
+void MeshBuilder::spoil_face(Error why) {
+  if (!face_error_) face_error_ = std::move(why);
+}
+
+void MeshBuilder::find_bad_indices() {
+  const auto count = static_cast<std::int64_t>(vertex_count());
+  if (greatest_index_ < count && bad_vertices_.empty()) return;
+  for (std::size_t i = 0; i < scene_.polygons.size(); ++i) {
+    for (const VertexId vertex : scene_.polygons[i].loop) {
+      const auto bad = bad_vertices_.find(vertex);
+      if (vertex < count && bad == bad_vertices_.end()) continue;
+      auto problem =
+          vertex < count
+              ? error(ErrorCode::kNumber,
+                      "vertex " + std::to_string(vertex + first_index_) + ": " + bad->second,
+                      "finite numbers", offsets_[i])
+              : index_error(vertex, vertex_count(), offsets_[i]);
+      problems_.push_back({static_cast<std::uint32_t>(i), std::move(problem.value())});
+      break;
+    }
+  }
+}
+
 Expected<ReadResult> MeshBuilder::finish() {
-  if (greatest_index_ >= static_cast<std::int64_t>(vertex_count())) {
+  if (skip_bad_) {
+    find_bad_indices();
+  } else if (greatest_index_ >= static_cast<std::int64_t>(vertex_count())) {
     return index_error(greatest_index_, vertex_count(), greatest_offset_);
   }
-  if (scene_.polygons.empty()) warn("the scene has no polygons");
-  ReadResult result{std::move(scene_), std::move(warnings_)};
+  // Bytes of binary data are no lines.
+  if (is_binary_) offsets_.clear();
+  ReadResult result{std::move(scene_), std::move(warnings_), {}, std::move(offsets_)};
+  leave_out(result, std::move(problems_));
+  if (result.scene.polygons.empty()) result.warnings.emplace_back("the scene has no polygons");
   underflow_.report(text_, result.warnings);
   return result;
 }

@@ -6,12 +6,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "gnomon/scene/read.h"
+#include "gnomon/scene/unusable.h"
+#include "scene/base/text_file.h"
 #include "scene/files/readers.h"
 
 namespace gnomon {
@@ -58,6 +61,12 @@ class MeshBuilder {
 
   Expected<Number> number(const Token& token);
   void add_vertex(Position position) { scene_.vertices.push_back(std::move(position)); }
+  /// Are polygons that cannot be used left out? Then the next two stand for an error.
+  bool skips_bad() const { return skip_bad_; }
+  /// Adds a vertex that no polygon can use.
+  void add_bad_vertex(const Error& why);
+  /// The face under construction cannot be used.
+  void spoil_face(Error why);
   std::size_t vertex_count() const { return scene_.vertices.size(); }
   std::size_t face_count() const { return scene_.polygons.size(); }
 
@@ -74,16 +83,23 @@ class MeshBuilder {
   Expected<ReadResult> finish();
 
  private:
+  void find_bad_indices();
   tl::unexpected<Error> index_error(std::int64_t index, std::uint64_t count,
                                     std::size_t offset) const;
 
   std::string_view text_;
   const std::string& file_;
+  mutable PlacesInText places_;
   Scene scene_;
   std::vector<std::string> warnings_;
   UnderflowCount underflow_;
   bool is_binary_ = false;
+  bool skip_bad_, wants_offsets_;
   std::vector<VertexId> indices_;
+  std::optional<Error> face_error_;  // of the face under construction
+  std::vector<PolygonProblem> problems_;
+  std::map<VertexId, std::string> bad_vertices_;  // and why
+  std::vector<std::uint64_t> offsets_;            // of faces
   std::int64_t first_index_ = 0;
   std::uint64_t expected_vertices_ = 0;
   std::int64_t greatest_index_ = -1;

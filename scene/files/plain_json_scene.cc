@@ -388,7 +388,7 @@ std::optional<ReadResult> read_plain_json(TextWindow& window, const std::string&
   if (options.lights_only) return std::nullopt;
   PlainScene plain(window, options);
   if (!plain.read()) return std::nullopt;
-  ReadResult result{std::move(plain.scene()), {}};
+  ReadResult result{std::move(plain.scene()), {}, {}, {}};
   result.scene.file = file;
   if (!plain.has_name()) result.scene.name = name_from_file(file);
   if (result.scene.polygons.empty()) result.warnings.emplace_back("the scene has no polygons");

@@ -2,13 +2,17 @@
 #include "gnomon/scene/read.h"
 
 #include <algorithm>
+#include <charconv>
 #include <new>
 
 #include "scene/base/text_file.h"
 #include "scene/base/text_window.h"
+#include "scene/files/foreign_formats.h"
 #include "scene/files/formats.h"
+#include "scene/files/left_out.h"
 #include "scene/files/plain_json_scene.h"
 #include "scene/files/readers.h"
+#include "scene/json/json_text.h"
 
 namespace gnomon {
 
@@ -34,8 +38,10 @@ void UnderflowCount::report(std::string_view text, std::vector<std::string>& war
                      std::to_string(place.line) + ", column " + std::to_string(place.column));
 }
 
-Expected<ReadResult> parse_scene(std::string text, const std::string& file,
-                                 const ReadOptions& options) {
+namespace {
+
+Expected<ReadResult> parse_known_format(const std::string& text, const std::string& file,
+                                        const ReadOptions& options) {
   std::optional<SceneFormat> format = options.format;
   if (!format && file == "<stdin>") format = SceneFormat::kJson;
   if (!format) format = format_by_extension(file);
@@ -59,12 +65,10 @@ Expected<ReadResult> parse_scene(std::string text, const std::string& file,
   }
 }
 
-namespace {
-
 /// A scene in plain JSON, without its text in memory.
 std::optional<ReadResult> read_plain_file(const std::filesystem::path& path,
                                           const ReadOptions& options) {
-  if (path == "-") return std::nullopt;
+  if (path == "-" || options.skip_bad || options.polygon_offsets) return std::nullopt;
   const auto format = options.format ? options.format : format_by_extension(path);
   if (format != SceneFormat::kJson) return std::nullopt;
   auto window = TextWindow::of_file(path);
@@ -73,6 +77,28 @@ std::optional<ReadResult> read_plain_file(const std::filesystem::path& path,
 }
 
 }  // namespace
+
+Expected<ReadResult> parse_scene(std::string text, const std::string& file,
+                                 const ReadOptions& options) {
+  auto result = parse_known_format(text, file, options);
+  if (result) {
+    if (!options.skip_bad || options.lights_only) return result;
+    if (auto done = leave_out_unusable(*result, text); !done) {
+      return tl::unexpected(std::move(done.error()));
+    }
+    return result;
+  }
+  const ErrorCode code = result.error().code;
+  if (code != ErrorCode::kSyntax && code != ErrorCode::kFormat) return result;
+  // An OFF or PLY file is one, whatever words it holds; JSON is of many formats.
+  const auto own = format_by_content(text);
+  if (own && *own != SceneFormat::kJson && *own != SceneFormat::kObj) return result;
+  const auto foreign = foreign_format(text);
+  if (!foreign) return result;
+  return fail(ErrorCode::kFormat, "this is " + std::string(*foreign) + ", which is not read here",
+              shown_format_titles() + "; JSON is a scene of gnomon's own",
+              ErrorPlace{file, 0, 0, {}});
+}
 
 Expected<ReadResult> read_scene(const std::filesystem::path& path, const ReadOptions& options) {
   Expected<std::string> text;
@@ -85,6 +111,30 @@ Expected<ReadResult> read_scene(const std::filesystem::path& path, const ReadOpt
   }
   if (!text) return tl::unexpected(std::move(text.error()));
   return parse_scene(*std::move(text), shown_name(path), options);
+}
+
+Error with_line_of_polygon(Error error, const std::filesystem::path& path,
+                           const ReadOptions& options) {
+  constexpr std::string_view kList = "/polygons/";
+  const std::string_view pointer = error.where.pointer;
+  if (path == "-" || error.where.line != 0 || !pointer.starts_with(kList)) return error;
+  std::size_t index = 0;
+  const char* const digits = pointer.data() + kList.size();
+  const auto [end, failure] = std::from_chars(digits, pointer.data() + pointer.size(), index);
+  if (failure != std::errc{}) return error;
+  auto text = read_file(path);
+  if (!text) return error;
+  ReadOptions with_offsets = options;
+  with_offsets.polygon_offsets = true;
+  const auto again = parse_known_format(*text, shown_name(path), with_offsets);
+  if (!again || index >= again->polygon_offsets.size()) return error;
+  const bool is_json = text->starts_with('{') || first_word_on(*text).starts_with("{");
+  // In JSON the pointer goes on to the loop or the hole.
+  const std::size_t offset =
+      is_json ? locate_pointer(*text, error.where.pointer) : again->polygon_offsets[index];
+  error.where = place_in_text(error.where.file, *text, offset,
+                              is_json ? std::move(error.where.pointer) : std::string());
+  return error;
 }
 
 }  // namespace gnomon

@@ -96,7 +96,21 @@ class NamedGroups {
       }
     }
   }
+  /// Faces are called by their numbers; some of them may have been left out.
   void write(Scene& scene) {
+    if (all_.empty()) return;
+    std::unordered_map<std::string_view, std::uint32_t> polygons;
+    for (std::uint32_t i = 0; i < scene.polygons.size(); ++i) {
+      polygons.emplace(scene.polygons[i].id, i);
+    }
+    for (PolygonGroup& group : all_) {
+      std::vector<std::uint32_t> kept;
+      for (const std::uint32_t face : group.polygons) {
+        const auto found = polygons.find(std::to_string(face));
+        if (found != polygons.end()) kept.push_back(found->second);
+      }
+      group.polygons = std::move(kept);
+    }
     std::erase_if(all_, [](const PolygonGroup& group) { return group.polygons.empty(); });
     if (!all_.empty()) set_polygon_groups(scene, all_);
   }
@@ -117,6 +131,17 @@ class NamedGroups {
   std::unordered_map<std::string, std::size_t> index_;
   std::vector<std::size_t> object_, groups_;  // those of the faces that come
 };
+
+/// A line that cannot be used is passed over where that was asked for.
+bool skip(MeshBuilder& mesh, const Token& keyword, const Error& why) {
+  if (!mesh.skips_bad()) return false;
+  if (keyword.text == "v") {
+    mesh.add_bad_vertex(why);
+    return true;
+  }
+  mesh.spoil_face(why);
+  return mesh.end_face(keyword.offset).has_value();
+}
 
 /// Faces may name vertices that come later. Too many at worst, where a line that begins with v goes
 /// on with another.
@@ -182,7 +207,9 @@ Expected<ReadResult> read_obj(const std::string& text, const std::string& file,
         if (drawn.keyword == keyword->text) ++drawn.count;
       }
     }
-    if (!done) return tl::unexpected(std::move(done.error()));
+    if (!done && !skip(mesh, *keyword, done.error())) {
+      return tl::unexpected(std::move(done.error()));
+    }
   } while (tokens.next_line());
   if (mesh.vertex_count() == 0 && mesh.face_count() == 0) {
     return mesh.error(ErrorCode::kFormat, "no vertex and no face", "an OBJ file: v and f lines", 0);

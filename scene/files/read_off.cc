@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The OFF reader (ascii): OFF with the prefixes ST, C and N, whose further values of a vertex are
-// passed over like the colours of a face. One vertex and one face a line, as every writer has it.
+// passed over like the colours of a face. Values may be separated by any white space. What is a
+// colour only the ends of lines tell, so that a file is read in the first layout that it fits.
 #include "scene/base/text_file.h"
 #include "scene/files/mesh_text.h"
 #include "scene/files/readers.h"
@@ -9,10 +10,18 @@ namespace gnomon {
 
 namespace {
 
+enum class Layout : std::uint8_t {
+  kLines,    // a vertex or a face a line, as nearly every writer has it
+  kWrapped,  // each begins a line, and may go on over others
+  kFree,     // any white space; no colours
+};
+
 class OffReader {
  public:
-  OffReader(std::string_view text, const std::string& file, const ReadOptions& options)
+  OffReader(std::string_view text, const std::string& file, const ReadOptions& options,
+            Layout layout)
       : text_(text),
+        layout_(layout),
         mesh_(text, file, options),
         tokens_(text, byte_order_mark(text), Tokens::Continuation::kNone) {}
 
@@ -24,7 +33,7 @@ class OffReader {
     for (std::int64_t i = 0; i < faces_; ++i) {
       if (auto done = face(i); !done) return tl::unexpected(std::move(done.error()));
     }
-    tokens_.next_line();  // behind the colour of the last face
+    if (layout_ != Layout::kFree) tokens_.next_line();  // behind the colour of the last face
     if (const auto token = tokens_.anywhere()) {
       return mesh_.error(ErrorCode::kFormat, quoted_text(token->text) + " after the last face",
                          "the end of the file: the counts in line 1 or 2 say so", token->offset);
@@ -68,8 +77,13 @@ class OffReader {
     if (!room_for(faces_, kLeastFaceBytes)) {
       return too_many("faces", faces_, rest / kLeastFaceBytes, faces_offset_);
     }
-    // The number of edges is optional and says nothing.
-    if (const auto edges = tokens_.in_line(); edges && !to_integer(edges->text)) {
+    if (layout_ == Layout::kFree && has_more_values_) {
+      return mesh_.error(ErrorCode::kFormat, "vertices with further values, not a line each",
+                         "a vertex a line", word->offset);
+    }
+    // The number of edges is optional where a line ends, and says nothing.
+    const auto edges = layout_ == Layout::kFree ? tokens_.anywhere() : tokens_.in_line();
+    if (edges && !to_integer(edges->text)) {
       return mesh_.error(ErrorCode::kSyntax, quoted_text(edges->text) + " is not a number of edges",
                          "an integer", edges->offset);
     }
@@ -103,9 +117,10 @@ class OffReader {
   }
 
   Expected<void> vertex(std::int64_t index) {
-    auto token = first_of_next_line();
+    auto token = first_of_next();
     if (!token) return ends_early("vertex " + std::to_string(index) + " is missing");
     Position position;
+    std::optional<Error> bad;
     const std::size_t line = token->offset;
     for (std::size_t axis = 0; axis < position.size(); ++axis) {
       if (!token) {
@@ -115,21 +130,30 @@ class OffReader {
                            "three coordinates", line);
       }
       auto value = mesh_.number(*token);
-      if (!value) return tl::unexpected(std::move(value.error()));
-      position[axis] = *std::move(value);
-      token = tokens_.in_line();
+      if (!value && !mesh_.skips_bad()) return tl::unexpected(std::move(value.error()));
+      if (value) {
+        position[axis] = *std::move(value);
+      } else {
+        bad = std::move(value.error());
+      }
+      if (axis + 1 < position.size()) token = next();
     }
-    if (token && !has_more_values_) {
+    if (layout_ != Layout::kFree) token = tokens_.in_line();
+    if (layout_ != Layout::kFree && token && !has_more_values_) {
       return mesh_.error(ErrorCode::kFormat,
                          quoted_text(token->text) + " after the coordinates of a vertex",
                          "the end of the line", token->offset);
     }
-    mesh_.add_vertex(std::move(position));
+    if (bad) {
+      mesh_.add_bad_vertex(*bad);
+    } else {
+      mesh_.add_vertex(std::move(position));
+    }
     return {};
   }
 
   Expected<void> face(std::int64_t index) {
-    auto token = first_of_next_line();
+    auto token = first_of_next();
     if (!token) return ends_early("face " + std::to_string(index) + " is missing");
     const std::size_t line = token->offset;
     const auto count = to_integer(token->text);
@@ -139,7 +163,7 @@ class OffReader {
                          token->offset);
     }
     for (std::int64_t k = 0; k < *count; ++k) {
-      token = tokens_.in_line();
+      token = next();
       if (!token) {
         return mesh_.error(
             ErrorCode::kFormat,
@@ -156,12 +180,16 @@ class OffReader {
     return mesh_.end_face(line);  // what follows on the line is a colour
   }
 
-  std::optional<Token> first_of_next_line() {
-    tokens_.next_line();
+  std::optional<Token> first_of_next() {
+    if (layout_ != Layout::kFree) tokens_.next_line();
     return tokens_.anywhere();
+  }
+  std::optional<Token> next() {
+    return layout_ == Layout::kLines ? tokens_.in_line() : tokens_.anywhere();
   }
 
   std::string_view text_;
+  Layout layout_;
   MeshBuilder mesh_;
   Tokens tokens_;
   std::int64_t vertices_ = 0, faces_ = 0;
@@ -186,7 +214,14 @@ Expected<ReadResult> read_off(const std::string& text, const std::string& file,
   if (auto readable = check_is_text(text, file); !readable) {
     return tl::unexpected(std::move(readable.error()));
   }
-  return OffReader(text, file, options).read();
+  auto by_lines = OffReader(text, file, options, Layout::kLines).read();
+  if (by_lines) return by_lines;
+  auto wrapped = OffReader(text, file, options, Layout::kWrapped).read();
+  if (wrapped) return wrapped;
+  if (auto free = OffReader(text, file, options, Layout::kFree).read()) return free;
+  // A file that only goes on over lines is good but for the index or number that was found there.
+  const ErrorCode code = wrapped.error().code;
+  return code == ErrorCode::kIndex || code == ErrorCode::kNumber ? wrapped : by_lines;
 }
 
 }  // namespace gnomon

@@ -193,6 +193,7 @@ class PlyReader {
     element_name_ = "vertex";
     for (element_index_ = 0; element_index_ < element.count; ++element_index_) {
       Position position;
+      std::optional<Error> bad;
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         const auto axis =
             static_cast<std::size_t>(std::find(axes.begin(), axes.end(), i) - axes.begin());
@@ -201,10 +202,19 @@ class PlyReader {
           continue;
         }
         auto value = number(element.properties[i].type);
-        if (!value) return tl::unexpected(std::move(value.error()));
-        position[axis] = *std::move(value);
+        if (value) {
+          position[axis] = *std::move(value);
+        } else if (mesh_.skips_bad() && value.error().code == ErrorCode::kNumber) {
+          bad = std::move(value.error());
+        } else {
+          return tl::unexpected(std::move(value.error()));
+        }
       }
-      mesh_.add_vertex(std::move(position));
+      if (bad) {
+        mesh_.add_bad_vertex(*bad);
+      } else {
+        mesh_.add_vertex(std::move(position));
+      }
     }
     return {};
   }

@@ -64,13 +64,8 @@ Expected<void> check_ids(const Scene& scene, const std::vector<Element>& element
   return {};
 }
 
-Expected<void> check_loop(const Scene& scene, const std::vector<VertexId>& loop,
-                          const std::function<std::string()>& pointer) {
-  if (loop.size() < kFewestLoopVertices) {
-    return offence(scene, ErrorCode::kFormat,
-                   "a loop of " + std::to_string(loop.size()) + " vertices", "at least 3 vertices",
-                   pointer());
-  }
+Expected<void> check_indices(const Scene& scene, const std::vector<VertexId>& loop,
+                             const std::function<std::string()>& pointer) {
   for (std::size_t k = 0; k < loop.size(); ++k) {
     if (loop[k] < scene.vertices.size()) continue;
     const std::string bound = scene.vertices.empty()
@@ -125,11 +120,17 @@ Expected<void> validate_scene(const Scene& scene) {
   if (auto ids = check_ids(scene, scene.polygons, "/polygons"); !ids) return ids;
   for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
     const Polygon& polygon = scene.polygons[i];
-    auto loop =
-        check_loop(scene, polygon.loop, [&] { return "/polygons/" + std::to_string(i) + "/loop"; });
+    const auto pointer = [&] { return "/polygons/" + std::to_string(i) + "/loop"; };
+    if (polygon.loop.size() < kFewestLoopVertices) {
+      return offence(scene, ErrorCode::kFormat,
+                     "a loop of " + std::to_string(polygon.loop.size()) + " vertices",
+                     "at least 3 vertices", pointer());
+    }
+    auto loop = check_indices(scene, polygon.loop, pointer);
     if (!loop) return loop;
+    // A hole of two vertices or none has no area, and preparation drops it.
     for (std::size_t h = 0; h < polygon.holes.size(); ++h) {
-      auto hole = check_loop(scene, polygon.holes[h], [&] {
+      auto hole = check_indices(scene, polygon.holes[h], [&] {
         return "/polygons/" + std::to_string(i) + "/holes/" + std::to_string(h);
       });
       if (!hole) return hole;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "gnomon/kernel/sign.h"
@@ -13,6 +15,31 @@
 namespace gnomon::scene_detail {
 
 using Ring = std::vector<std::uint32_t>;
+
+inline std::size_t after(const Ring& ring, std::size_t i) {
+  return i + 1 == ring.size() ? 0 : i + 1;
+}
+inline std::size_t before(const Ring& ring, std::size_t i) {
+  return i == 0 ? ring.size() - 1 : i - 1;
+}
+
+using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
+
+/// The edges of a ring, without those that it runs along there and back: a hair or a bridge bounds
+/// nothing. An edge that it runs along oftener one way than the other stays as often as that.
+inline std::multiset<DirectedEdge> edges_without_hairs(const Ring& ring) {
+  std::multiset<DirectedEdge> edges;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const DirectedEdge edge{ring[i], ring[after(ring, i)]};
+    const auto back = edges.find({edge.second, edge.first});
+    if (back != edges.end()) {
+      edges.erase(back);
+    } else {
+      edges.insert(edge);
+    }
+  }
+  return edges;
+}
 
 template <class Int>
 class Chart {
@@ -85,28 +112,34 @@ class Chart {
 
   /// The middle of (a, b), which is not on the ring, is inside it.
   bool middle_is_inside(const Ring& ring, std::uint32_t a, std::uint32_t b) const {
-    const Int mx = x(a) + x(b), my = y(a) + y(b);  // doubled
     bool inside = false;
     for (std::size_t i = 0; i < ring.size(); ++i) {
-      const std::uint32_t p = ring[i], q = ring[i + 1 == ring.size() ? 0 : i + 1];
-      const Int px = 2 * x(p), py = 2 * y(p), qx = 2 * x(q), qy = 2 * y(q);
-      if ((py > my) == (qy > my)) continue;
-      const Int side = (qx - px) * (my - py) - (qy - py) * (mx - px);
-      if ((side > 0) == (qy > py)) inside = !inside;
+      if (passes_middle(ring[i], ring[after(ring, i)], a, b)) inside = !inside;
+    }
+    return inside;
+  }
+  /// The same of a ring that is given by its edges without hairs, on which the middle may lie.
+  bool middle_is_inside(const std::multiset<DirectedEdge>& ring, std::uint32_t a,
+                        std::uint32_t b) const {
+    bool inside = false;
+    for (const auto& [p, q] : ring) {
+      if (passes_middle(p, q, a, b)) inside = !inside;
     }
     return inside;
   }
 
  private:
+  /// A ray along x from the middle of (a, b), which is not on the edge (p, q), meets that edge.
+  bool passes_middle(std::uint32_t p, std::uint32_t q, std::uint32_t a, std::uint32_t b) const {
+    const Int mx = x(a) + x(b), my = y(a) + y(b);  // doubled
+    const Int px = 2 * x(p), py = 2 * y(p), qx = 2 * x(q), qy = 2 * y(q);
+    if ((py > my) == (qy > my)) return false;
+    const Int side = (qx - px) * (my - py) - (qy - py) * (mx - px);
+    return (side > 0) == (qy > py);
+  }
+
   const CutInput<Int>& input_;
 };
-
-inline std::size_t after(const Ring& ring, std::size_t i) {
-  return i + 1 == ring.size() ? 0 : i + 1;
-}
-inline std::size_t before(const Ring& ring, std::size_t i) {
-  return i == 0 ? ring.size() - 1 : i - 1;
-}
 
 }  // namespace gnomon::scene_detail
 

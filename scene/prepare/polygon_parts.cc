@@ -26,7 +26,7 @@ struct Run {
   std::vector<Part> parts;
   std::vector<PlaneKey<Int>> keys;  // of parts
   std::vector<PreparationNote> notes;
-  std::optional<Error> error;  // that of the first polygon that has one; later ones are left out
+  std::vector<PolygonProblem> problems;  // in order
 };
 
 /// Makes the parts of polygons first .. last - 1.
@@ -36,13 +36,15 @@ class RunMaker {
   RunMaker(const Scene& scene, const PreparedScene& prepared)
       : scene_(scene), prepared_(prepared), grid_(prepared.geometry.grid) {}
 
-  Run<Int> make(std::size_t first, std::size_t last) {
+  /// Stops at the first polygon that has an error unless all errors are wanted.
+  Run<Int> make(std::size_t first, std::size_t last, bool all_errors) {
     run_.parts.reserve(last - first);
     run_.keys.reserve(last - first);
     run_.loop_vertices.reserve(4 * (last - first));
-    for (std::size_t p = first; p < last && !run_.error; ++p) {
+    for (std::size_t p = first; p < last && (all_errors || run_.problems.empty()); ++p) {
       look_ahead(p, last);
-      run_.error = add_polygon(static_cast<std::uint32_t>(p));
+      const auto polygon = static_cast<std::uint32_t>(p);
+      if (auto error = add_polygon(polygon)) run_.problems.push_back({polygon, *std::move(error)});
     }
     return std::move(run_);
   }
@@ -415,10 +417,10 @@ std::optional<Error> make_parts(const Scene& scene, PreparedScene& out) {
   {
     std::vector<Run<Int>> runs =
         map_pieces(polygons, kPieceOfPolygons, [&](std::size_t first, std::size_t last) {
-          return RunMaker<Int>(scene, out).make(first, last);
+          return RunMaker<Int>(scene, out).make(first, last, false);
         });
     for (Run<Int>& run : runs) {
-      if (run.error) return std::move(run.error);
+      if (!run.problems.empty()) return std::move(run.problems.front().error);
     }
     join(runs, polygons, out);
     number_planes(runs, out);
@@ -427,9 +429,26 @@ std::optional<Error> make_parts(const Scene& scene, PreparedScene& out) {
   return std::nullopt;
 }
 
+template <class Int>
+std::vector<PolygonProblem> find_problems(const Scene& scene, const PreparedScene& out) {
+  std::vector<PolygonProblem> all;
+  for (Run<Int>&run : map_pieces(scene.polygons.size(), kPieceOfPolygons,
+                                 [&](std::size_t first, std::size_t last) {
+                                   return RunMaker<Int>(scene, out).make(first, last, true);
+                                 })) {
+    std::move(run.problems.begin(), run.problems.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
 template std::optional<Error> make_parts<std::int64_t>(const Scene&, PreparedScene&);
+template std::vector<PolygonProblem> find_problems<std::int64_t>(const Scene&,
+                                                                 const PreparedScene&);
 template std::optional<Error> make_parts<Int128>(const Scene&, PreparedScene&);
+template std::vector<PolygonProblem> find_problems<Int128>(const Scene&, const PreparedScene&);
 template std::optional<Error> make_parts<Int256>(const Scene&, PreparedScene&);
+template std::vector<PolygonProblem> find_problems<Int256>(const Scene&, const PreparedScene&);
 template std::optional<Error> make_parts<mpz_class>(const Scene&, PreparedScene&);
+template std::vector<PolygonProblem> find_problems<mpz_class>(const Scene&, const PreparedScene&);
 
 }  // namespace gnomon::scene_detail

@@ -136,52 +136,73 @@ void weld(const Scene& scene, std::span<const Position* const> inputs, ExactGrid
   }
 }
 
-}  // namespace
+/// Calls f with an integer type that holds every determinant of the scene. Int256 takes coordinates
+/// of up to 128 bits.
+template <class F>
+auto with_integers(const PreparedScene& out, std::size_t most_corners, const F& f) {
+  const unsigned bits = scene_detail::bits_needed(out.geometry.grid.bits(), most_corners);
+  if (bits <= 64) return f(std::int64_t{});
+  if (bits <= 128) return f(scene_detail::Int128{});
+  if (bits <= 256) return f(scene_detail::Int256{});
+  return f(mpz_class{});
+}
 
-Expected<PreparedScene> prepare(const Scene& scene) {
-  std::size_t most_corners = 0;
-  PreparedScene out;
-  {
-    std::vector<const Position*> points;
-    {
-      std::vector<std::uint8_t> used(scene.vertices.size());
-      const Expected<std::size_t> corners = mark_used(scene, used);
-      if (!corners) return tl::unexpected(corners.error());
-      most_corners = *corners;
-      std::size_t most = scene.vertices.size();
-      for (const Light& light : scene.lights) most += light.is_point() ? 1 : light.loop.size();
-      scene_detail::reserve_in_large_pages(points, most);
-      for (std::size_t v = 0; v < used.size(); ++v) {
-        if (used[v] != 0) points.push_back(&scene.vertices[v]);
-      }
+/// Positions on their grid, and the lights if they are wanted.
+Expected<std::size_t> prepare_positions(const Scene& scene, bool with_lights, PreparedScene& out) {
+  std::vector<const Position*> points;
+  std::vector<std::uint8_t> used(scene.vertices.size());
+  const Expected<std::size_t> corners = mark_used(scene, used);
+  if (!corners) return corners;
+  std::size_t most = scene.vertices.size();
+  for (const Light& light : scene.lights) most += light.is_point() ? 1 : light.loop.size();
+  scene_detail::reserve_in_large_pages(points, most);
+  for (std::size_t v = 0; v < used.size(); ++v) {
+    if (used[v] != 0) points.push_back(&scene.vertices[v]);
+  }
+  used = {};
+  const std::size_t inputs = points.size();
+  for (const Light& light : scene.lights) {
+    if (!with_lights) break;
+    if (light.is_point()) points.push_back(&light.position);
+    if (light.has_area()) {
+      for (const Position& position : light.loop) points.push_back(&position);
     }
-    const std::size_t inputs = points.size();
-    for (const Light& light : scene.lights) {
-      if (light.is_point()) points.push_back(&light.position);
-      if (light.has_area()) {
-        for (const Position& position : light.loop) points.push_back(&position);
-      }
-    }
-    ExactGrid grid = make_grid(points);
-    out.position_bits = grid.bits;
-    out.geometry.step = grid.step;
-    out.geometry.origin = grid.origin;
+  }
+  ExactGrid grid = make_grid(points);
+  out.position_bits = grid.bits;
+  out.geometry.step = grid.step;
+  out.geometry.origin = grid.origin;
+  if (with_lights) {
     if (auto error = scene_detail::prepare_lights(scene, grid, inputs, out)) {
       return tl::unexpected(std::move(*error));
     }
-    scene_detail::reserve_in_large_pages(out.vertex_of_input, scene.vertices.size());
-    out.vertex_of_input.assign(scene.vertices.size(), PreparedScene::kUnused);
-    weld(scene, std::span(points).first(inputs), grid, out);
   }
+  scene_detail::reserve_in_large_pages(out.vertex_of_input, scene.vertices.size());
+  out.vertex_of_input.assign(scene.vertices.size(), PreparedScene::kUnused);
+  weld(scene, std::span(points).first(inputs), grid, out);
+  return corners;
+}
 
-  // The smallest integers that hold every determinant. Int256 takes coordinates of up to 128 bits.
-  const unsigned bits = scene_detail::bits_needed(out.geometry.grid.bits(), most_corners);
-  auto error = bits <= 64    ? scene_detail::make_parts<std::int64_t>(scene, out)
-               : bits <= 128 ? scene_detail::make_parts<scene_detail::Int128>(scene, out)
-               : bits <= 256 ? scene_detail::make_parts<scene_detail::Int256>(scene, out)
-                             : scene_detail::make_parts<mpz_class>(scene, out);
+}  // namespace
+
+Expected<PreparedScene> prepare(const Scene& scene) {
+  PreparedScene out;
+  const Expected<std::size_t> most_corners = prepare_positions(scene, true, out);
+  if (!most_corners) return tl::unexpected(most_corners.error());
+  auto error = with_integers(out, *most_corners, [&]<class Int>(const Int&) {
+    return scene_detail::make_parts<Int>(scene, out);
+  });
   if (error) return tl::unexpected(std::move(*error));
   return out;
+}
+
+Expected<std::vector<PolygonProblem>> unusable_polygons(const Scene& scene) {
+  PreparedScene out;
+  const Expected<std::size_t> most_corners = prepare_positions(scene, false, out);
+  if (!most_corners) return tl::unexpected(most_corners.error());
+  return with_integers(out, *most_corners, [&]<class Int>(const Int&) {
+    return scene_detail::find_problems<Int>(scene, out);
+  });
 }
 
 }  // namespace gnomon

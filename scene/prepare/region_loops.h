@@ -87,8 +87,6 @@ class RegionTracer {
   }
 
  private:
-  using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
-
   CutProblem overlap(const Ring& ring) const {
     return {0,
             fmt::format(
@@ -111,9 +109,7 @@ class RegionTracer {
 
   std::optional<CutProblem> cancel() {
     for (std::size_t r = 0; r < rings_.size(); ++r) {
-      const Ring& ring = rings_[r];
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const DirectedEdge edge{ring[i], ring[after(ring, i)]};
+      for (const DirectedEdge& edge : edges_without_hairs(rings_[r])) {
         if (edges_.erase({edge.second, edge.first}) == 1) continue;
         if (!edges_.insert(edge).second) {
           return CutProblem{r, fmt::format("runs along the edge {}-{} twice",

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -172,26 +171,21 @@ class RingCheck {
   }
 
   std::optional<CutProblem> check_containment() const {
-    using DirectedEdges = std::set<std::pair<std::uint32_t, std::uint32_t>>;
     const auto& rings = input_.rings;
-    std::vector<DirectedEdges> edges(
-        rings.size());  // holes run clockwise here, the loop the other way
-    for (std::size_t r = 0; r < rings.size(); ++r) {
-      for (std::size_t i = 0; i < rings[r].size(); ++i) {
-        edges[r].insert({rings[r][i], rings[r][after(rings[r], i)]});
-      }
-    }
+    // Holes run clockwise here, the loop the other way.
+    std::vector<std::multiset<DirectedEdge>> edges;
+    for (const Ring& ring : rings) edges.push_back(edges_without_hairs(ring));
     for (std::size_t r = 1; r < rings.size(); ++r) {
       for (const auto& [a, b] : edges[r]) {
         // On the loop a hole's edge runs against it if the hole is inside.
         const bool leaves = edges[0].contains({a, b}) || (!edges[0].contains({b, a}) &&
-                                                          !chart_.middle_is_inside(rings[0], a, b));
+                                                          !chart_.middle_is_inside(edges[0], a, b));
         if (leaves) return CutProblem{r, "leaves the loop at edge " + edge_name(a, b)};
         for (std::size_t s = 1; s < rings.size(); ++s) {
           if (s == r) continue;
           const bool overlaps =
               edges[s].contains({a, b}) ||
-              (!edges[s].contains({b, a}) && chart_.middle_is_inside(rings[s], a, b));
+              (!edges[s].contains({b, a}) && chart_.middle_is_inside(edges[s], a, b));
           if (overlaps) {
             return CutProblem{r,
                               fmt::format("overlaps hole {} at edge {}", s - 1, edge_name(a, b))};

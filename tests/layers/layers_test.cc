@@ -68,6 +68,8 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"model", {"base"}},
         {"geometry", {"base"}},
         {"prepare", {"base", "geometry"}},
+        {"intent", {"base", "geometry"}},
+        {"repair", {"base", "intent"}},
         {"json", {"base"}},
         {"files", {"base", "json"}},
         {"generate", {"base"}}}},

@@ -161,6 +161,28 @@ TEST(ReadOff, CountsBeyondTheFile) {
             "7:1: the file ends too early: face 1 is missing");
 }
 
+TEST(ReadOff, AnyWhiteSpace) {
+  for (const char* text : {"OFF\n4 1 0\n0 0 0\n1 0\n0\n1\n1 0\n0 1 0\n4 0 1\n2\n3\n",
+                           "OFF 4 1 0  0 0 0  1 0 0  1 1 0  0 1 0  4 0 1 2 3",
+                           "OFF\n4\n1\n0\n0 0 0 1 0 0\n1 1 0 0 1 0\n4 0 1 2 3\n",
+                           "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1\n2 3 255 0 0\n"}) {
+    const Scene scene = scene_of(text, "m.off");
+    ASSERT_EQ(scene.vertices.size(), 4u) << text;
+    EXPECT_EQ(scene.vertices[2][1], Number(1.0)) << text;
+    ASSERT_EQ(scene.polygons.size(), 1u) << text;
+    EXPECT_THAT(scene.polygons[0].loop, ElementsAre(0, 1, 2, 3)) << text;
+  }
+  // Two faces on one line, without colours; and a face that goes on, with an index that is wrong.
+  EXPECT_EQ(scene_of("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2 3 0 2 3\n", "m.off")
+                .polygons.size(),
+            2u);
+  EXPECT_EQ(error_of("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1\n2 3\n3 0 1\n7\n", "m.off"),
+            "10:1: index 7 is not that of a vertex");
+  // Colours of vertices that the first word does not announce are no vertices.
+  EXPECT_EQ(error_of("OFF\n3 1 0\n0 0 0 1 0 0\n1 0 0 1 0 0\n0 1 0 1 0 0\n3 0 1 2\n", "m.off"),
+            "3:7: '1' after the coordinates of a vertex");
+}
+
 TEST(ReadOff, Malformed) {
   EXPECT_EQ(error_of("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0 \n3 0 1 2 \n", "m.off"),
             "4:1: vertex 1 has 2 numbers");

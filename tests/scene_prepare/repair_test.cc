@@ -177,6 +177,39 @@ TEST(Holes, OfBothOrientations) {
   }
 }
 
+TEST(Holes, WithHairs) {
+  // The hole runs along the border, and partly back on it.
+  const Loop hair{{12, 9, 0}, {12, 3, 0}, {9, 3, 0}, {12, 5, 0}, {12, 6, 0}, {9, 9, 0}};
+  for (const Loop& hole : {hair, reversed(hair)})
+    EXPECT_GE(sound(kSquare, {hole}).parts.size(), 2u);
+  // As a loop, and inside.
+  EXPECT_EQ(sound(hair).parts.size(), 2u);
+  Loop inside = hair;
+  for (Triple& point : inside) point[0] -= 2;
+  EXPECT_GE(sound(kSquare, {inside}).parts.size(), 4u);
+  // Two holes with one hair between them, and holes along the bridge of a keyhole.
+  EXPECT_GE(sound(kSquare, {{{2, 2, 0}, {4, 2, 0}, {4, 5, 0}, {4, 4, 0}, {2, 4, 0}},
+                            {{4, 4, 0}, {6, 4, 0}, {6, 8, 0}, {4, 8, 0}}})
+                .parts.size(),
+            3u);
+  Builder b;
+  b.polygon(
+      {{0, 0, 0}, {12, 0, 0}, {12, 12, 0}, {0, 12, 0}, {4, 4, 0}, {4, 8, 0}, {8, 8, 0}, {8, 4, 0}},
+      {{{0, 0, 0}, {4, 4, 0}, {4, 2, 0}}});
+  b.scene().polygons[0].loop = {0, 1, 2, 3, 0, 4, 5, 6, 7, 4};
+  EXPECT_GE(sound(b, b.scene()).parts.size(), 4u);
+}
+
+TEST(Holes, OfFewVerticesAreDropped) {
+  for (const Loop& hole : {Loop{{3, 3, 0}, {5, 5, 0}}, Loop{{3, 3, 0}}, Loop{},
+                           Loop{{3, 3, 0}, {5, 5, 0}, {4, 4, 0}}, Loop{{0, 0, 0}, {24, 0, 0}}}) {
+    const auto p = sound(kSquare, {hole});
+    EXPECT_EQ(p.parts.size(), 1u);
+    ASSERT_EQ(p.notes.size(), 1u);
+    EXPECT_EQ(p.notes[0].detail, "hole 0 has no area and is dropped");
+  }
+}
+
 TEST(Holes, Many) {
   std::vector<Loop> holes;
   for (int i = 0; i < 36; ++i) {

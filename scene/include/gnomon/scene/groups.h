@@ -26,6 +26,9 @@ struct PolygonGroup {
 /// scene's file and the JSON pointer.
 Expected<std::vector<PolygonGroup>> polygon_groups(const Scene& scene);
 
+/// Takes polygons that were left out of a scene out of its groups, too.
+void remove_from_groups(Scene& scene, std::span<const std::string> ids);
+
 /// Writes groups as the scene's `extra`. Requires: it has none yet.
 void set_polygon_groups(Scene& scene, std::span<const PolygonGroup> groups);
 

@@ -10,6 +10,7 @@
 #ifndef GNOMON_SCENE_READ_H
 #define GNOMON_SCENE_READ_H
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,12 +26,24 @@ struct ReadOptions {
   std::optional<NumberMeaning> numbers;  // overrides the file; meshes are doubles otherwise
   std::optional<SceneFormat> format;     // instead of extension and content
   bool lights_only = false;              // a JSON file that holds lights and no geometry
+  /// Polygons that cannot be used are left out and listed: those with fewer than three vertices,
+  /// with an index of no vertex, with a coordinate that is no finite number, and those that
+  /// prepare() refuses. What remains keeps its ids.
+  bool skip_bad = false;
+  bool polygon_offsets = false;  // ReadResult::polygon_offsets are wanted
+};
+
+struct LeftOutPolygon {
+  std::string id;
+  Error why;  // with line and column, where the file has lines
 };
 
 struct ReadResult {
   Scene scene;
   std::vector<std::string>
       warnings;  // underflow, ignored elements: one line each, without file name
+  std::vector<LeftOutPolygon> left_out;        // in order of the file
+  std::vector<std::uint64_t> polygon_offsets;  // the byte at which each polygon begins
 };
 
 /// Reads a file, `-` being standard input (JSON unless told otherwise). The format is
@@ -42,6 +55,12 @@ Expected<ReadResult> read_scene(const std::filesystem::path& path, const ReadOpt
 /// name of a scene that has none.
 Expected<ReadResult> parse_scene(std::string text, const std::string& file,
                                  const ReadOptions& options = {});
+
+/// Adds line and column to an error that names a polygon by its JSON pointer, such as one of
+/// prepare(): reads the scene's file once more. The error stays as it is where that is no use:
+/// standard input, binary PLY, a file that has changed, a place that is known already.
+Error with_line_of_polygon(Error error, const std::filesystem::path& path,
+                           const ReadOptions& options);
 
 }  // namespace gnomon
 
