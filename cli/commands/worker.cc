@@ -21,9 +21,9 @@ struct WorkerCommandOptions {
 };
 
 int run_worker_command(const WorkerCommandOptions& options) {
-  // Its parent decides when it ends.
-  std::signal(SIGINT, SIG_IGN);
-  std::signal(SIGTERM, SIG_DFL);
+  // Its parent decides when it ends, and ends it. What is sent to all processes of a job reaches the
+  // parent too.
+  for (const int order : {SIGINT, SIGTERM, SIGHUP}) std::signal(order, SIG_IGN);
   // One core for each process: there are as many processes as were asked for.
   const ThreadLimit one_thread(1);
   auto worker = worker_options(options.check, {});
