@@ -55,7 +55,7 @@ std::array<Integer, 3> narrow_area_vector(const PreparedScene& scene, const Part
 // Of a polygon's area, as a pair of doubles: a component of an area vector is off by 2^-104 of
 // itself, its square and the sum of three by less than 2^-100, the root of that by half of it and
 // 2^-102. Adding kMostParts parts adds less than 2^-99, the square of the step 2^-100, and each of
-// two products 2^-102. precise_part_area() leaves out less than 2^-159. All this is below 2^-97.
+// two products 2^-102. precise_area() leaves out less than 2^-159. All this is below 2^-97.
 constexpr double kError = 0x1p-96;
 constexpr std::uint32_t kMostParts = 16;
 /// Never 0: a pair that has underflowed decides nothing.
@@ -93,25 +93,6 @@ DoubleDouble doubled_pair_area(const PreparedScene& scene, const Part& part, boo
   return {NAN, 0};
 }
 
-/// The root of a sum of squares to 160 bits beyond the integer part: the error is far below a
-/// double's. Exact in a plane of constant x, y or z.
-mpq_class precise_part_area(const PreparedScene& scene, const Part& part) {
-  constexpr unsigned kShift = 160;
-  const std::array<mpz_class, 3> doubled = doubled_area_vector(scene, part);
-  mpq_class area;
-  if (std::ranges::count(doubled, 0) == 2) {
-    area = abs(doubled[0] + doubled[1] + doubled[2]);
-    area >>= 1;
-  } else {
-    mpz_class root = squared_length(doubled) << (2 * kShift);
-    mpz_sqrt(root.get_mpz_t(), root.get_mpz_t());
-    area = root;
-    area >>= kShift + 1;
-  }
-  if (scene.geometry.step == 1) return area;
-  return area * scene.geometry.step * scene.geometry.step;
-}
-
 }  // namespace
 
 std::array<mpz_class, 3> doubled_area_vector(const PreparedScene& scene, const Part& part) {
@@ -134,14 +115,33 @@ Interval part_area(const PreparedScene& scene, const Part& part) {
 }
 
 double nearest_area(const PreparedScene& scene, const Part& part) {
-  return nearest_double(precise_part_area(scene, part));
+  return nearest_double(precise_area(scene, part));
+}
+
+// The root of a sum of squares to 160 bits beyond the integer part: the error is far below a
+// double's. Exact in a plane of constant x, y or z.
+mpq_class precise_area(const PreparedScene& scene, const Part& part) {
+  constexpr unsigned kShift = 160;
+  const std::array<mpz_class, 3> doubled = doubled_area_vector(scene, part);
+  mpq_class area;
+  if (std::ranges::count(doubled, 0) == 2) {
+    area = abs(doubled[0] + doubled[1] + doubled[2]);
+    area >>= 1;
+  } else {
+    mpz_class root = squared_length(doubled) << (2 * kShift);
+    mpz_sqrt(root.get_mpz_t(), root.get_mpz_t());
+    area = root;
+    area >>= kShift + 1;
+  }
+  if (scene.geometry.step == 1) return area;
+  return area * scene.geometry.step * scene.geometry.step;
 }
 
 mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon) {
   mpq_class sum = 0;
   for (std::uint32_t part = scene.first_part[polygon]; part < scene.first_part[polygon + 1];
        ++part) {
-    sum += precise_part_area(scene, scene.parts[part]);
+    sum += precise_area(scene, scene.parts[part]);
   }
   return sum;
 }

@@ -21,6 +21,8 @@ std::array<mpz_class, 3> doubled_area_vector(const PreparedScene& scene, const P
 Interval part_area(const PreparedScene& scene, const Part& part);
 /// The double nearest to the part's area, scene units squared.
 double nearest_area(const PreparedScene& scene, const Part& part);
+/// The part's area, to far more digits than a double has.
+mpq_class precise_area(const PreparedScene& scene, const Part& part);
 /// The area of a polygon's parts, to far more digits than a double has.
 mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon);
 
