@@ -3,6 +3,7 @@
 """What share of every polygon is lit, exactly and in few lines: a program to be judged.
 
     gnomon certify --corpus tests/regressions --candidate-command examples/shadows.py
+    gnomon fuzz --candidate-command examples/shadows.py --count 100
 
 Reads a scene (docs/formats.md), writes a result without fragments. It knows point and directional
 lights and convex planar polygons, and rejects everything else: status 3 for what it cannot do,

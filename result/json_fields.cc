@@ -66,7 +66,8 @@ struct Generator {
   }
 };
 
-/// [+-]digits[/digits], a positive denominator.
+}  // namespace
+
 std::optional<mpq_class> parse_rational(std::string_view text) {
   const std::size_t slash = text.find('/');
   std::string_view over = text.substr(0, slash);
@@ -85,8 +86,6 @@ std::optional<mpq_class> parse_rational(std::string_view text) {
   if (text[0] == '-') value = -value;
   return value;
 }
-
-}  // namespace
 
 tl::unexpected<Error> JsonFields::wrong(ErrorCode code, const std::string& pointer,
                                         std::string what, std::string expected) const {
@@ -281,6 +280,37 @@ std::optional<mpq_class> JsonFields::fraction(const Json& polygon, const char* s
   }
   return parse_rational(
       std::string_view(found->value.GetString() + 1, found->value.GetStringLength() - 1));
+}
+
+std::string_view JsonFields::number_text(const Json& value) {
+  if (!value.IsString() || value.GetString()[0] != kNumberMark) return {};
+  return {value.GetString() + 1, value.GetStringLength() - 1};
+}
+
+std::string_view JsonFields::string_text(const Json& value) {
+  if (!value.IsString() || value.GetString()[0] != kStringMark) return {};
+  return {value.GetString() + 1, value.GetStringLength() - 1};
+}
+
+std::string JsonFields::form_of(const Json& value) {
+  constexpr std::size_t kMostText = 40, kMostKeys = 6;
+  if (value.IsNull()) return "null";
+  if (value.IsBool()) return value.GetBool() ? "true" : "false";
+  if (value.IsArray()) return "an array";
+  if (value.IsString()) {
+    const std::string text(value.GetString() + 1, value.GetStringLength() - 1);
+    const std::string start = text.size() > kMostText ? text.substr(0, kMostText) + "..." : text;
+    return value.GetString()[0] == kNumberMark ? "the number " + start
+                                               : "the text \"" + start + '"';
+  }
+  if (value.MemberCount() == 0) return "an empty object";
+  std::string keys;
+  std::size_t count = 0;
+  for (const auto& member : value.GetObject()) {
+    if (++count > kMostKeys) return "an object with " + keys + ", ...";
+    keys += fmt::format("{}\"{}\"", keys.empty() ? "" : ", ", member.name.GetString());
+  }
+  return "an object with " + keys;
 }
 
 }  // namespace gnomon

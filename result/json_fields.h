@@ -21,6 +21,9 @@ namespace gnomon {
 
 using Json = rapidjson::Value;
 
+/// [+-]digits[/digits] with a positive denominator.
+std::optional<mpq_class> parse_rational(std::string_view text);
+
 class JsonFields {
  public:
   JsonFields(std::string file, NumberMeaning numbers) : file_(std::move(file)), numbers_(numbers) {}
@@ -57,6 +60,11 @@ class JsonFields {
   Expected<ClaimedShape> shape(const Json& object, const std::string& pointer) const;
   /// An exact fraction that an entry such as "lit" claims; none if it claims a rounded one.
   std::optional<mpq_class> fraction(const Json& polygon, const char* state) const;
+  /// What a value is, for messages: "null", "an array", "the text \"x\"", "an object with \"x\"".
+  static std::string form_of(const Json& value);
+  /// Its text as written if it is a number, or a string; the other is empty.
+  static std::string_view number_text(const Json& value);
+  static std::string_view string_text(const Json& value);
 
  private:
   tl::unexpected<Error> wrong_place(std::string_view text, std::size_t offset,

@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "result/json_fields.h"
+#include "result/told_shares.h"
 
 namespace gnomon {
 
@@ -17,7 +18,8 @@ namespace {
 
 class Reader {
  public:
-  Reader(const std::string& file, const Scene& scene) : fields_(file, scene.numbers) {
+  Reader(const std::string& file, const Scene& scene, SharesAlone shares)
+      : fields_(file, scene.numbers), shares_(shares) {
     result_.name = file;
   }
 
@@ -38,7 +40,14 @@ class Reader {
   Expected<SharedFragment> shared_fragment(const Json& value, Block block,
                                            const std::string& pointer) const;
 
+  /// Of a polygon without fragments.
+  Expected<void> told_shares(const Json& value, const std::string& pointer,
+                             ClaimedPolygon& polygon) const;
+  /// What a file that is no result is, as far as its first characters tell.
+  Expected<void> check_form(std::string_view text) const;
+
   JsonFields fields_;
+  SharesAlone shares_;
   Claims result_;
 };
 
@@ -92,8 +101,10 @@ Expected<ClaimedPolygon> Reader::polygon(const Json& value, const std::string& p
   const Expected<const Json*> fragments = fields_.list(value, "fragments", false, pointer);
   if (!fragments) return tl::unexpected(fragments.error());
   if (!*fragments) {
-    return fields_.wrong(ErrorCode::kFormat, pointer, "key \"fragments\" is missing",
-                         "a result written with fragments");
+    if (const auto read = told_shares(value, pointer, result); !read) {
+      return tl::unexpected(read.error());
+    }
+    return result;
   }
   for (rapidjson::SizeType i = 0; i < (*fragments)->Size(); ++i) {
     Expected<ClaimedFragment> own =
@@ -103,6 +114,23 @@ Expected<ClaimedPolygon> Reader::polygon(const Json& value, const std::string& p
     result.fragments.push_back(std::move(*own));
   }
   return result;
+}
+
+Expected<void> Reader::told_shares(const Json& value, const std::string& pointer,
+                                   ClaimedPolygon& polygon) const {
+  if (shares_ == SharesAlone::kRefused) {
+    return fields_.wrong(ErrorCode::kFormat, pointer, "key \"fragments\" is missing",
+                         "a result written with fragments");
+  }
+  auto shares = read_told_shares(fields_, value, pointer);
+  if (!shares) return tl::unexpected(shares.error());
+  if (shares->empty()) {
+    return fields_.wrong(ErrorCode::kFormat, pointer,
+                         JsonFields::form_of(value) + " has neither fragments nor shares",
+                         "\"fragments\", or \"lit\", \"shadow\", \"penumbra\" or \"umbra\"");
+  }
+  polygon.told = std::move(*shares);
+  return {};
 }
 
 Expected<void> Reader::terms(const Json& object, const std::string& pointer,
@@ -175,6 +203,9 @@ Expected<ClaimedLight> Reader::light(const Json& value, const ClaimedLight& for_
     if (!own) return tl::unexpected(own.error());
     result.polygons.push_back(std::move(*own));
   }
+  result.shares_alone =
+      !result.polygons.empty() &&
+      std::ranges::none_of(result.polygons, [](const auto& own) { return own.told.empty(); });
   return result;
 }
 
@@ -232,7 +263,26 @@ Expected<std::optional<std::vector<SharedPolygon>>> Reader::shared(const Json& d
   return result;
 }
 
+Expected<void> Reader::check_form(std::string_view text) const {
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  if (start == std::string_view::npos) return {};
+  const std::string_view line = text.substr(start, text.find('\n', start) - start);
+  std::string form;
+  if (line.find("Surface Name") != std::string_view::npos) {
+    form = "a table of surfaces by time (CSV)";
+  } else if (line.starts_with("light,") && line.find("visible") != std::string_view::npos) {
+    form = "a table of samples (CSV)";
+  } else if (line[0] == '<') {
+    form = "XML or HTML";
+  } else if (result_.name.ends_with(".csv") && line[0] != '{') {
+    form = "a table (CSV)";
+  }
+  if (form.empty()) return {};
+  return fields_.wrong(ErrorCode::kFormat, {}, "this is " + form, "a result in JSON, UTF-8");
+}
+
 Expected<Claims> Reader::read(std::string_view text) {
+  if (const auto known = check_form(text); !known) return tl::unexpected(known.error());
   rapidjson::Document document;
   if (const auto parsed = fields_.parse(text, document); !parsed) {
     return tl::unexpected(parsed.error());
@@ -256,23 +306,29 @@ Expected<Claims> Reader::read(std::string_view text) {
   ClaimedLight for_all;
   if (const auto read = terms(document, "", for_all); !read) return tl::unexpected(read.error());
   const bool required = !result_.combined && !result_.overlay;
-  const Expected<const Json*> lights = fields_.list(document, "lights", required, "");
+  if (required && !document.HasMember("lights")) {
+    return fields_.wrong(ErrorCode::kFormat, "", "key \"lights\" is missing",
+                         "a result; this is " + JsonFields::form_of(document));
+  }
+  const Expected<const Json*> lights = fields_.list(document, "lights", false, "");
   if (!lights) return tl::unexpected(lights.error());
   for (rapidjson::SizeType i = 0; *lights && i < (*lights)->Size(); ++i) {
     Expected<ClaimedLight> own = light((**lights)[i], for_all, fmt::format("/lights/{}", i));
     if (!own) return tl::unexpected(own.error());
     result_.lights.push_back(std::move(*own));
   }
+  finish_told_shares(result_.lights);
   return std::move(result_);
 }
 
 }  // namespace
 
-Expected<Claims> parse_claims(std::string_view text, const std::string& file, const Scene& scene) {
-  return Reader(file, scene).read(text);
+Expected<Claims> parse_claims(std::string_view text, const std::string& file, const Scene& scene,
+                              SharesAlone shares) {
+  return Reader(file, scene, shares).read(text);
 }
 
-Expected<Claims> read_claims(const std::string& path, const Scene& scene) {
+Expected<Claims> read_claims(const std::string& path, const Scene& scene, SharesAlone shares) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
     return fail(ErrorCode::kFile, fmt::format("cannot be opened: {}", std::strerror(errno)), {},
@@ -283,7 +339,7 @@ Expected<Claims> read_claims(const std::string& path, const Scene& scene) {
   if (stream.bad()) {
     return fail(ErrorCode::kFile, "cannot be read", {}, ErrorPlace{path, 0, 0, {}});
   }
-  return parse_claims(text, path, scene);
+  return parse_claims(text, path, scene, shares);
 }
 
 }  // namespace gnomon

@@ -38,7 +38,7 @@ struct CertifyCommandOptions {
   std::vector<std::string> kernels;
   std::string algorithm{kAutomaticName};
   std::vector<std::string> candidates;
-  double tolerance = 1e-9;
+  std::optional<double> tolerance;
   std::optional<double> width;
   double thickness = kDefaultThickness;
   double clearance = 0;
@@ -108,7 +108,7 @@ class CertifyRun {
 
   /// False on an interrupt. Errors: those of a candidate's file, and of options out of range.
   Expected<void> run_candidate(const std::string& file) {
-    auto read = read_claims(file, loaded_.scene);
+    auto read = read_claims(file, loaded_.scene, SharesAlone::kTaken);
     if (!read) return tl::unexpected(read.error());
     report::JudgedRun run;
     run.name = file;
@@ -226,7 +226,8 @@ class CertifyRun {
   Expected<void> judge(report::JudgedRun run, Claims candidate,
                        const std::optional<KernelChoice>& explained = std::nullopt) {
     oracle::CertifyOptions certify_options;
-    certify_options.tolerance = options_.tolerance;
+    certify_options.tolerance = options_.tolerance.value_or(certify_options.tolerance);
+    certify_options.share_tolerance = options_.tolerance;
     certify_options.width = options_.width;
     certify_options.strict = options_.strict;
     certify_options.clearance = options_.clearance;
@@ -279,7 +280,7 @@ class CertifyRun {
 int run_corpus(const CertifyCommandOptions& options) {
   CorpusCommandOptions corpus = options.corpus;
   corpus.kernels = options.kernels;
-  corpus.tolerance = options.tolerance;
+  corpus.tolerance = options.tolerance.value_or(corpus.tolerance);
   corpus.jobs = options.scene.jobs;
   corpus.json = options.json;
   return run_certify_corpus(corpus);
@@ -405,7 +406,8 @@ void add_certify_command(CLI::App& app, Action& action) {
       "certify", "Judge kernels, or a foreign result, against the exact answer");
   command.footer(
       "Without --kernel and --candidate, every kernel that suits the size of the scene is run.\n"
-      "Verdicts: identical; within tolerance; failed, with the worst place as a witness.\n\n"
+      "Verdicts: identical; within tolerance; shares agree, of a candidate that tells shares\n"
+      "without fragments; failed, with the worst place as a witness.\n\n"
       "Examples:\n"
       "  gnomon certify room.json\n"
       "  gnomon certify room.json --kernel double --kernel double+identity --explain\n"
@@ -425,7 +427,10 @@ void add_certify_command(CLI::App& app, Action& action) {
                                 "A result file to judge instead (repeatable)"))
       ->type_name("RESULT");
   command
-      .add_option("--tolerance", options->tolerance, "Wrong share of a polygon that is tolerated")
+      .add_option(
+          "--tolerance", options->tolerance,
+          "Wrong share of a polygon that is tolerated; of shares told alone, half a unit of\n"
+          "the last digit unless this is given")
       ->check(not_negative())
       ->type_name("F")
       ->default_str("1e-9");

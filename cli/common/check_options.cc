@@ -69,7 +69,8 @@ void add_check_options(CLI::App& command, CheckCommandOptions& options) {
       ->type_name("ID");
   command
       .add_option("--tolerance", options.tolerance,
-                  "Of rounded and foreign results: fraction of each polygon that may be wrong")
+                  "Of rounded and foreign results: fraction of each polygon that may be wrong; of\n"
+                  "shares told alone, half a unit of the last digit unless this is given")
       ->check(not_negative())
       ->type_name("F")
       ->default_str("1e-9");
@@ -121,7 +122,8 @@ Expected<fuzz::WorkerOptions> worker_options(const CheckCommandOptions& options,
     }
     worker.check.properties.push_back(*property);
   }
-  worker.check.tolerance = options.tolerance;
+  worker.check.tolerance = options.tolerance.value_or(worker.check.tolerance);
+  worker.check.share_tolerance = options.tolerance;
   worker.check.width = options.width;
   worker.check.strict = options.strict;
   worker.check.max_fragments = options.fragments;

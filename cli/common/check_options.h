@@ -16,7 +16,7 @@ namespace gnomon::cli {
 
 struct CheckCommandOptions {
   std::vector<std::string> kernels, commands, properties;
-  double tolerance = 1e-9;
+  std::optional<double> tolerance;
   std::optional<double> width;
   bool strict = false, in_turn = false;
   std::uint64_t fragments = 200'000;

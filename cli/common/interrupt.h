@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ctrl-C and SIGTERM ask the work to stop; a second one stops the program at once. Results
-// are written under another name first, so that no half-written file takes a place.
+// Ctrl-C, SIGTERM and the end of the terminal (SIGHUP) ask the work to stop; a second one stops the
+// program at once. Results are written under another name first, so that no half-written file takes
+// a place.
 #ifndef GNOMON_CLI_COMMON_INTERRUPT_H
 #define GNOMON_CLI_COMMON_INTERRUPT_H
 

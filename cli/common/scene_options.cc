@@ -2,6 +2,9 @@
 #include "cli/common/scene_options.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "cli/common/commands.h"
 #include "cli/common/heap.h"
@@ -12,10 +15,13 @@
 #include "gnomon/scene/read.h"
 #include "report/facts/intent_text.h"
 #include "report/facts/scene_facts.h"
+#include "report/text/number_text.h"
 
 namespace gnomon::cli {
 
 namespace {
+
+constexpr std::size_t kExamples = 3;
 
 void print_warnings(const std::string& file, const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) warn(file + ": " + warning);
@@ -37,6 +43,26 @@ std::string left_out_text(const ReadResult& read) {
     text += "; and " + std::to_string(count - kMost) + " more ('gnomon info --all' lists them)";
   }
   return text;
+}
+
+/// One line for each reason.
+void warn_of_dropped(const LoadedScene& loaded) {
+  std::map<std::string, std::vector<std::uint32_t>> dropped;
+  for (const PreparationNote& note : loaded.prepared.notes) {
+    if (note.repair == Repair::kZeroArea) dropped[note.detail].push_back(note.polygon);
+  }
+  for (const auto& [reason, polygons] : dropped) {
+    std::string ids;
+    for (std::size_t i = 0; i < polygons.size() && i < kExamples; ++i) {
+      ids += (i == 0 ? "" : ", ") + loaded.scene.polygons[polygons[i]].id;
+    }
+    if (polygons.size() > kExamples) ids += ", ...";
+    const std::string what =
+        polygons.size() == 1
+            ? "polygon " + ids + " is dropped: " + reason
+            : report::grouped(polygons.size()) + " polygons are dropped (" + ids + "): " + reason;
+    warn(loaded.scene.file + ": " + what);
+  }
 }
 
 std::string listed_ids(const Scene& scene) {
@@ -149,11 +175,7 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) 
   loaded.prepared = std::move(*prepared);
   loaded.preparation = stopwatch.lap();
   if (interrupted()) return fail(ErrorCode::kInterrupted, "interrupted");
-  for (const PreparationNote& note : loaded.prepared.notes) {
-    if (note.repair != Repair::kZeroArea) continue;
-    warn(loaded.scene.file + ": polygon " + loaded.scene.polygons[note.polygon].id +
-         " is dropped: " + note.detail);
-  }
+  warn_of_dropped(loaded);
 
   const std::vector<Light>& lights = loaded.scene.lights;
   for (const std::string& id : options.lights) {

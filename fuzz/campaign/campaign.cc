@@ -80,6 +80,9 @@ class Campaign {
     WorkerPool::Callbacks callbacks;
     callbacks.next = [&] { return next_request(); };
     callbacks.answered = [&](const Request& request, const WorkerAnswer& answer) {
+      // Whatever ends this program may have ended what was under way before; who goes on with the
+      // campaign does the case again.
+      if (is_interrupted() && !answer.report.failures.empty()) return;
       take(request.index, answer);
     };
     callbacks.tick = [&] {

@@ -23,7 +23,9 @@ struct CheckOptions {
   /// No claims, no files written and read back, a relation on every other scene only; of the exact
   /// subjects the oracle judges the first alone: the others must have the same fractions.
   bool brief = false;
-  double tolerance = 1e-9;      // of rounded and foreign results: fraction of each polygon
+  double tolerance = 1e-9;  // of rounded and foreign results: fraction of each polygon
+  /// Of foreign results that tell shares alone; none: half a unit of the last digit written.
+  std::optional<double> share_tolerance;
   std::optional<double> width;  // scene units; default 1e-9 of the scene's diagonal
   bool strict = false;          // tolerance and width 0
   std::uint64_t seed = 1;       // of the metamorphic relation

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fuzz/check/subject.h"
+#include "gnomon/scene/rational_text.h"
 #include "kernel/signs/nearest_double.h"
 #include "report/sides/part_area.h"
 
@@ -15,7 +16,7 @@ namespace gnomon::fuzz {
 namespace {
 
 std::string text_of(const RecordedShare& share) {
-  return share.exact ? share.exact->get_str() : fmt::format("{}", share.nearest);
+  return share.exact ? text_for_people(*share.exact) : fmt::format("{}", share.nearest);
 }
 
 std::string place_of(const RecordedLight& light, const RecordedSide& side) {
@@ -181,7 +182,8 @@ std::string difference_from_oracle(const oracle::ExactAnswer& answer,
         for (std::size_t k = 0; k < truth.size(); ++k) {
           if (found[k] == truth[k]) continue;
           return fmt::format("{}: {} {}, but the oracle says {}", place_of(light, side),
-                             share_names(light.area)[k], found[k].get_str(), truth[k].get_str());
+                             share_names(light.area)[k], text_for_people(found[k]),
+                             text_for_people(truth[k]));
         }
       }
     }

@@ -144,7 +144,7 @@ class EvidenceSearch {
       return;
     }
     evidence_.foreign_result = result->out;
-    auto read = parse_claims(result->out, "result.json", scene_);
+    auto read = parse_claims(result->out, "result.json", scene_, SharesAlone::kTaken);
     if (read) {
       candidate_ = std::move(*read);
     } else {
@@ -155,6 +155,7 @@ class EvidenceSearch {
   void find_worst_place() {
     oracle::CertifyOptions options;
     options.tolerance = finding_.check.tolerance;
+    options.share_tolerance = finding_.check.share_tolerance;
     options.width = finding_.check.width;
     options.strict = finding_.check.strict || subject_->exact();
     options.most_regions = 1;

@@ -108,6 +108,9 @@ std::string verdict_text(const Finding& finding, const Evidence& evidence) {
   for (const Subject& subject : finding.check.subjects) json.value(name_of(subject));
   json.end_array();
   json.member("tolerance", finding.check.tolerance);
+  if (finding.check.share_tolerance) {
+    json.member("share_tolerance", *finding.check.share_tolerance);
+  }
   json.key("width");
   if (finding.check.width) {
     json.value(*finding.check.width);
@@ -250,6 +253,7 @@ Expected<Finding> parse_verdict(const std::string& text, const std::string& file
   std::vector<std::string> subjects;
   check.read("subjects", subjects);
   check.read("tolerance", finding.check.tolerance);
+  check.read_if_there("share_tolerance", finding.check.share_tolerance);
   check.read("width", finding.check.width);
   check.read("strict", finding.check.strict);
   check.read("seed", finding.check.seed);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "gnomon/scene/rational_text.h"
 #include "report/sides/part_area.h"
 #include "report/sides/polygon_sides.h"
 #include "scene/base/random.h"
@@ -50,8 +51,8 @@ BrokenRelation broken(const Place& place, std::string text) {
 }
 
 std::string classes_text(const Classes& classes) {
-  return fmt::format("lit {}, penumbra {}, umbra {}", classes.lit.get_str(),
-                     classes.penumbra.get_str(), classes.umbra.get_str());
+  return fmt::format("lit {}, penumbra {}, umbra {}", text_for_people(classes.lit),
+                     text_for_people(classes.penumbra), text_for_people(classes.umbra));
 }
 
 Answer answer_of(const Scene& scene, const PreparedScene& prepared, const ShadowResult& result) {
@@ -409,8 +410,9 @@ Outcome split(Subjected& on) {
       sum = same->second;
     }
     if (sum.lit != classes.lit) {
-      return broken(place, fmt::format("lit {}; with polygon {} cut in two {}",
-                                       classes.lit.get_str(), whole.id, sum.lit.get_str()));
+      return broken(
+          place, fmt::format("lit {}; with polygon {} cut in two {}", text_for_people(classes.lit),
+                             whole.id, text_for_people(sum.lit)));
     }
   }
   return Failed{};

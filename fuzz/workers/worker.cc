@@ -165,6 +165,9 @@ WorkerCommand worker_command(std::string program, const WorkerOptions& options) 
     add("--property", std::string(id_of(property)));
   }
   add("--tolerance", report::shortest(options.check.tolerance));
+  if (options.check.share_tolerance) {
+    add("--share-tolerance", report::shortest(*options.check.share_tolerance));
+  }
   if (options.check.width) add("--width", report::shortest(*options.check.width));
   if (options.check.strict) command.arguments.emplace_back("--strict");
   if (options.in_turn) command.arguments.emplace_back("--in-turn");

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fuzz/process/child.h"
+#include "fuzz/process/order_to_end.h"
 #include "gnomon/scene/write.h"
 
 namespace gnomon::fuzz {
@@ -56,6 +57,7 @@ struct WorkerPool::State {
     std::string output_text;     // of a line whose end has not come yet
     std::string error_text, stage;
     std::optional<Request> request;
+    int asked_to_end = 0;  // processes that were, with this request
   };
 
   State(WorkerCommand own_command, double own_seconds, unsigned count)
@@ -86,6 +88,11 @@ struct WorkerPool::State {
     worker.request = callbacks->next();
     if (!worker.request) return;
     ++under_way;
+    worker.asked_to_end = 0;
+    give_request(worker);
+  }
+
+  void give_request(Worker& worker) {
     if (!worker.child.running() && !start(worker)) return;
     worker.stage.clear();
     worker.child.limit_time(seconds);
@@ -141,6 +148,11 @@ struct WorkerPool::State {
   /// The process of a worker has ended; the next request gets a new one.
   void ended(Worker& worker, const ChildEnd& end) {
     if (!worker.request) return end_if_done();
+    // A process that the system kills twice has earned it: by its memory.
+    const bool killed = end.signal == SIGKILL && worker.asked_to_end == 0;
+    if (!end.timed_out && (killed || is_order_to_end(end.signal))) {
+      return begin_again(worker, end.signal);
+    }
     std::string last = worker.error_text;
     while (!last.empty() && last.back() == '\n') last.pop_back();
     if (!last.empty()) last = "; it said: " + last;
@@ -160,6 +172,16 @@ struct WorkerPool::State {
       finish(worker, failed(worker, Property::kCrash, fmt::format("status {}", end.status),
                             fmt::format("ended with status {}{}", end.status, last)));
     }
+  }
+
+  /// Somebody else ended the process, which says nothing about the scene.
+  void begin_again(Worker& worker, int signal) {
+    constexpr int kMostOrders = 20;
+    if (++worker.asked_to_end <= kMostOrders) return give_request(worker);
+    stop_with({ErrorCode::kFile,
+               {},
+               fmt::format("{} is ended by signal {} again and again", command.program, signal),
+               {}});
   }
 
   void end_if_done() {

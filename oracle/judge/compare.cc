@@ -16,6 +16,7 @@
 #include "oracle/judge/cells.h"
 #include "oracle/judge/clearance.h"
 #include "oracle/judge/share_check.h"
+#include "oracle/judge/told_share_check.h"
 
 namespace gnomon::oracle {
 
@@ -121,6 +122,10 @@ class GroupComparison {
                             const ChartPoint& point) const;
   const std::string& id_of(std::uint32_t part) const {
     return answer_.scene().polygons[answer_.prepared().parts[part].polygon].id;
+  }
+  /// A caster as seen from this polygon, which a part of it in another plane may shadow.
+  std::string named(const std::string& caster) const {
+    return caster == result_.polygon ? "another part of it" : "'" + caster + "'";
   }
 
   const ExactAnswer& answer_;
@@ -384,8 +389,12 @@ std::string GroupComparison::describe_shadow(Witness& witness, const std::string
     witness.caster = !claimed.empty()  ? claimed
                      : decision.caster ? id_of(*decision.caster)
                                        : std::string();
+    // What is lit is not so by a part of its own polygon.
+    if (witness.truth == LightState::kLit && witness.caster == result_.polygon) {
+      witness.caster.clear();
+    }
   }
-  return witness.truth == LightState::kShadow ? " behind '" + witness.caster + "'" : std::string();
+  return witness.truth == LightState::kShadow ? " behind " + named(witness.caster) : std::string();
 }
 
 std::string GroupComparison::describe_area(Witness& witness, const std::string& claimed,
@@ -398,7 +407,7 @@ std::string GroupComparison::describe_area(Witness& witness, const std::string& 
     for (const ShadowPiece& piece : shade.umbra) {
       if (!contains(piece.loop, point)) continue;
       witness.caster = id_of(piece.caster);
-      return " behind '" + witness.caster + "'";
+      return " behind " + named(witness.caster);
     }
     for (const ShadowPiece& piece : shade.penumbra) {
       if (penumbra || !contains(piece.loop, point)) continue;
@@ -410,7 +419,7 @@ std::string GroupComparison::describe_area(Witness& witness, const std::string& 
     witness.caster = claimed;
     return {};
   }
-  std::string text = " of '" + witness.caster + "'";
+  std::string text = " of " + named(witness.caster);
   if (witness.found == LightState::kUmbra && !rules_.per_caster) {
     const AreaPointVisibility seen =
         answer_.area_visibility(light_).at(group_.parts.front(), group_.side, witness.point);
@@ -440,7 +449,7 @@ void GroupComparison::describe(Witness& witness, const Cell& cell, const ChartPo
   } else if (witness.found) {
     found = std::string("found ") + name_of(*witness.found);
     if (!claimed.empty() && *witness.found != LightState::kLit) {
-      found += " (caster '" + claimed + "')";
+      found += " (caster " + named(claimed) + ")";
     }
   }
   witness.text = found + ", " + truth;
@@ -518,6 +527,9 @@ std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
 PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
                                 const AnswerEntry& entry, const ClaimedPolygon* candidate,
                                 const ClaimedTerms& terms, const ComparisonOptions& options) {
+  if (candidate && !candidate->told.empty()) {
+    return compare_told_shares(answer, light, entry, *candidate, terms, options);
+  }
   if (terms.shares_alone && candidate) return compare_shares(answer, light, entry, *candidate);
   PolygonComparison result;
   result.polygon = answer.scene().polygons[entry.polygon].id;

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
+#include "gnomon/scene/rational_text.h"
 #include "oracle/geometry/group_overlay.h"
 
 namespace gnomon::oracle {
@@ -61,61 +63,60 @@ ShareError share_error(const ClaimedPolygon& claimed, const AreaShare& lit,
   error.wrong.fraction = wrong;
   error.wrong.area = wrong * (lit.area + shadow.area);
   const std::string share =
-      claimed.lit_fraction ? claimed.lit_fraction->get_str()
+      claimed.lit_fraction ? text_for_people(*claimed.lit_fraction)
       : claimed.share.lower == claimed.share.upper
           ? fmt::format("{:.17g}", claimed.share.lower)
           : fmt::format("{:.17g} to {:.17g}", claimed.share.lower, claimed.share.upper);
   error.text = fmt::format(
       "found {}, share {}, truly {}, share {}", told(error.found), share, told(error.truth),
-      lit.exact ? lit.exact->get_str() : fmt::format("{:.17g}", lit.fraction.middle()));
+      lit.exact ? text_for_people(*lit.exact) : fmt::format("{:.17g}", lit.fraction.middle()));
   return error;
 }
 
-PolygonComparison compare_shares(const ExactAnswer& answer, std::uint32_t light,
-                                 const AnswerEntry& entry, const ClaimedPolygon& candidate) {
+SideShares true_shares(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
+                       bool exact) {
   const PreparedScene& prepared = answer.prepared();
-  PolygonComparison result;
-  result.polygon = answer.scene().polygons[entry.polygon].id;
-  result.side = entry.side;
   // Shares are of all parts of the polygon: those that this side does not show the light are dark.
   std::vector<std::vector<std::uint32_t>> parts;
   for (const ReceiverGroup& group : entry.groups) parts.push_back(group.parts);
   const std::vector<Enclosure> weights = areas_in_ratio(prepared, parts);
-  ShareSum lit, shadow;
-  Enclosure area;  // scene units squared
+  constexpr std::array kMembers{&TrueFractions::lit, &TrueFractions::shadow,
+                                &TrueFractions::penumbra, &TrueFractions::umbra};
+  AreaShare TrueFractions::*const dark =
+      answer.is_area(light) ? &TrueFractions::umbra : &TrueFractions::shadow;
+  std::array<ShareSum, kMembers.size()> sums;
+  SideShares result;
   for (std::size_t g = 0; g < entry.groups.size(); ++g) {
     const ReceiverGroup& group = entry.groups[g];
     const Enclosure whole = weights[g];
-    area = area + group_area(prepared, group.parts);
+    result.area = result.area + group_area(prepared, group.parts);
     TrueFractions own;
     if (group.faces && !group.optional) {
-      own = answer.group_fractions(light, group, candidate.lit_fraction.has_value());
+      own = answer.group_fractions(light, group, exact);
     } else {
-      own.lit.exact = 0;
-      own.shadow = {{1, 1}, whole, mpq_class(1), false};
+      for (const auto member : kMembers) (own.*member).exact = 0;
+      own.*dark = {{1, 1}, whole, mpq_class(1), false};
     }
-    own.lit.area = own.lit.fraction * whole;
-    own.shadow.area = own.shadow.fraction * whole;
-    lit.add(own.lit, whole);
-    shadow.add(own.shadow, whole);
+    for (std::size_t k = 0; k < kMembers.size(); ++k) {
+      (own.*kMembers[k]).area = (own.*kMembers[k]).fraction * whole;
+      sums[k].add(own.*kMembers[k], whole);
+    }
   }
-  result.lit = lit.result();
-  result.shadow = shadow.result();
-  result.lit.area = not_negative(result.lit.fraction * area);
-  result.shadow.area = not_negative(result.shadow.fraction * area);
-  const ShareError error = share_error(candidate, result.lit, result.shadow);
-  result.misclassified = result.judged_misclassified = error.wrong;
-  if (error.wrong.zero) return result;
-  result.regions = 1;
+  for (std::size_t k = 0; k < kMembers.size(); ++k) {
+    AreaShare& share = result.*kMembers[k];
+    share = sums[k].result();
+    share.area = not_negative(share.fraction * result.area);
+  }
+  return result;
+}
+
+Witness witness_of_side(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry) {
+  const PreparedScene& prepared = answer.prepared();
   Witness witness;
   witness.light = answer.scene().lights[prepared.lights[light].light].id;
-  witness.polygon = result.polygon;
+  witness.polygon = answer.scene().polygons[entry.polygon].id;
   witness.side = entry.side;
   witness.kind = ErrorKind::kMisclassified;
-  witness.found = error.found;
-  witness.truth = error.truth;
-  witness.text = error.text;
-  // Where it is wrong is not told: the middle of the first part stands for the side.
   const auto loop = prepared.loop(prepared.parts[entry.groups.front().parts.front()]);
   const Geometry& geometry = prepared.geometry;
   for (int k = 0; k < 3; ++k) {
@@ -125,6 +126,25 @@ PolygonComparison compare_shares(const ExactAnswer& answer, std::uint32_t light,
     witness.point[k].canonicalize();
     witness.nearest[k] = enclose(witness.point[k]).middle();
   }
+  return witness;
+}
+
+PolygonComparison compare_shares(const ExactAnswer& answer, std::uint32_t light,
+                                 const AnswerEntry& entry, const ClaimedPolygon& candidate) {
+  PolygonComparison result;
+  result.polygon = answer.scene().polygons[entry.polygon].id;
+  result.side = entry.side;
+  const SideShares truth = true_shares(answer, light, entry, candidate.lit_fraction.has_value());
+  result.lit = truth.lit;
+  result.shadow = truth.shadow;
+  const ShareError error = share_error(candidate, result.lit, result.shadow);
+  result.misclassified = result.judged_misclassified = error.wrong;
+  if (error.wrong.zero) return result;
+  result.regions = 1;
+  Witness witness = witness_of_side(answer, light, entry);
+  witness.found = error.found;
+  witness.truth = error.truth;
+  witness.text = error.text;
   result.worst.push_back({error.wrong, std::move(witness), false});
   return result;
 }

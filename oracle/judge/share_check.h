@@ -23,6 +23,18 @@ struct ShareError {
 ShareError share_error(const ClaimedPolygon& claimed, const AreaShare& lit,
                        const AreaShare& shadow);
 
+/// The true shares of all classes on one side of a polygon, of all of its parts: those that this
+/// side does not show the light are dark. `exact`: rationals where the parts are coplanar.
+struct SideShares : TrueFractions {
+  Enclosure area;  // of the side, scene units squared
+};
+SideShares true_shares(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry,
+                       bool exact);
+
+/// A witness of a side whose shares are wrong. Where they are is not told: the middle of the first
+/// part stands for the side.
+Witness witness_of_side(const ExactAnswer& answer, std::uint32_t light, const AnswerEntry& entry);
+
 /// As compare_entry(), of a candidate without fragments.
 PolygonComparison compare_shares(const ExactAnswer& answer, std::uint32_t light,
                                  const AnswerEntry& entry, const ClaimedPolygon& candidate);

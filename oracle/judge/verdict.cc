@@ -52,6 +52,7 @@ class Certifier {
   void compare_all();
   void sum_up();
   void judge();
+  void note_shares();
   bool fails(const PolygonComparison& comparison) const;
   void problem(std::string text) { report_.problems.push_back(std::move(text)); }
   /// "light 'sun'", and the block that tells of it if the lights' own does not.
@@ -141,6 +142,12 @@ void Certifier::match_light(std::uint32_t light, const ClaimedLight* found) {
                           polygon.id, name_of(fragment.state),
                           area ? "lit, penumbra or umbra" : "lit or shadow"));
     }
+    for (const ToldShare& share : polygon.told) {
+      if (is_class_of(share.state, area) || share.value == 0) continue;
+      problem(fmt::format("{}: polygon '{}' has a share of class '{}'; {} was expected", name,
+                          polygon.id, name_of(share.state),
+                          area ? "lit, penumbra or umbra" : "lit or shadow"));
+    }
     if (used[&polygon] || found->block == Block::kOverlay) continue;
     const auto place = known.find(polygon.id);
     if (place == known.end()) {
@@ -218,6 +225,8 @@ void Certifier::compare_all() {
   comparison_options.width_resolution = report_.width / 16;
   comparison_options.exact_limit = options_.exact_limit;
   comparison_options.most_regions = options_.most_regions;
+  comparison_options.share_tolerance = report_.share_tolerance;
+  comparison_options.double_tolerance = report_.tolerance;
   // Fragments' points and as many random ones, each against every part.
   const std::uint64_t point_pairs =
       2 * std::uint64_t{options_.points_a_polygon} * tasks_.size() * prepared.parts.size();
@@ -228,11 +237,12 @@ void Certifier::compare_all() {
   const auto compare_one = [&](std::size_t i) {
     if (options_.interrupted && options_.interrupted->load(std::memory_order_relaxed)) return;
     const Task& task = tasks_[i];
-    if (report_.by_points) {
+    const bool told = task.candidate != nullptr && !task.candidate->told.empty();
+    if (report_.by_points && !(told && (i + options_.seed) % stride == 0)) {
       comparisons_[i].polygon = answer_.scene().polygons[task.entry.polygon].id;
       comparisons_[i].side = task.entry.side;
       comparisons_[i].fragments = task.candidate ? task.candidate->fragments.size() : 0;
-      if ((i + options_.seed) % stride == 0) {
+      if (!told && (i + options_.seed) % stride == 0) {
         point_checks_[i] =
             check_points(answer_, task.light, task.entry, task.candidate, task.terms,
                          answer_.is_area(task.light) ? nullptr : &visibility.at(task.light),
@@ -259,6 +269,7 @@ void Certifier::compare_all() {
 }
 
 bool Certifier::fails(const PolygonComparison& comparison) const {
+  if (comparison.told_shares > 0) return !comparison.judged_misclassified.zero;
   for (const AreaShare* share : {&comparison.judged_misclassified, &comparison.judged_uncovered,
                                  &comparison.judged_overlapping, &comparison.judged_outside}) {
     if (!share->zero && !(share->fraction.upper <= report_.tolerance)) return true;
@@ -308,6 +319,7 @@ void Certifier::sum_up() {
     totals.width = greater_of(totals.width, own.width);
     totals.off_plane = greater_of(totals.off_plane, own.off_plane);
     totals.fragments += own.fragments;
+    report_.told_shares += own.told_shares;
     totals.regions += own.regions;
     totals.ill_conditioned_regions += own.ill_conditioned_regions;
     totals.invented += own.invented;
@@ -366,7 +378,10 @@ void Certifier::judge() {
   } else if (options_.leaks && report_.totals.invented + report_.totals.lost > *options_.leaks) {
     failed(fmt::format("{} regions invented and {} lost, more than {} in all",
                        report_.totals.invented, report_.totals.lost, *options_.leaks));
-  } else if (report_.by_points) {
+  } else if (report_.told_shares > 0 && within) {
+    report_.verdict = Verdict::kSharesAgree;
+    note_shares();
+  } else if (report_.by_points && within) {
     report_.verdict = Verdict::kWithinTolerance;
     report_.notes.push_back(fmt::format(
         "{} pairs of parts are above the limit of {}: {} exact points were compared instead",
@@ -387,12 +402,30 @@ void Certifier::judge() {
   }
 }
 
+void Certifier::note_shares() {
+  const auto sides = std::ranges::count_if(
+      tasks_, [](const Task& task) { return task.candidate && !task.candidate->told.empty(); });
+  std::ptrdiff_t compared = 0;
+  for (const LightComparison& light : report_.lights) {
+    compared += std::ranges::count_if(
+        light.polygons, [](const PolygonComparison& own) { return own.told_shares > 0; });
+  }
+  std::string note = "only shares are told, and they agree; where on the polygons is not known";
+  if (compared < sides) {
+    note +=
+        fmt::format("; {} pairs of parts are above the limit of {}: {} of {} sides were compared",
+                    report_.pairs, report_.most_pairs, compared, sides);
+  }
+  report_.notes.push_back(std::move(note));
+}
+
 Report Certifier::run() {
   report_.candidate = candidate_.name;
   report_.diagonal = scene_diagonal(answer_.prepared());
   report_.tolerance = options_.strict ? 0 : options_.tolerance;
   report_.width = options_.strict ? 0 : options_.width.value_or(1e-9 * report_.diagonal);
   report_.clearance = options_.clearance;
+  report_.share_tolerance = options_.strict ? std::optional(0.0) : options_.share_tolerance;
   shared_ = shared_claims(candidate_, answer_.scene());
   if (!candidate_.lights.empty() || shared_.empty()) match_lights(candidate_, Block::kLights);
   for (const Claims& block : shared_) {
@@ -428,6 +461,8 @@ const char* name_of(Verdict verdict) {
       return "identical";
     case Verdict::kWithinTolerance:
       return "within tolerance";
+    case Verdict::kSharesAgree:
+      return "shares agree";
     case Verdict::kFailed:
       return "failed";
   }
@@ -450,7 +485,7 @@ double scene_diagonal(const PreparedScene& prepared) {
 
 Expected<Report> certify(const ExactAnswer& answer, const Claims& candidate,
                          const CertifyOptions& options) {
-  if (!(options.tolerance >= 0)) {
+  if (!(options.tolerance >= 0) || !(options.share_tolerance.value_or(0) >= 0)) {
     return fail(ErrorCode::kUsage, "tolerance is negative", "a fraction of at least 0");
   }
   if (options.width && !(*options.width >= 0)) {

@@ -40,7 +40,7 @@ void write_witness(JsonWriter& json, const oracle::Witness& witness) {
   json.member("polygon", witness.polygon);
   json.member("side", name_of(witness.side));
   json.member("error", name_of(witness.kind));
-  if (witness.kind != oracle::ErrorKind::kNone) {
+  if (witness.kind != oracle::ErrorKind::kNone && !witness.is_of_side()) {
     json.key("point");
     json.begin_array(JsonLayout::kInline);
     for (double coordinate : witness.nearest) json.value(coordinate);
@@ -174,6 +174,11 @@ void write_run(JsonWriter& json, const Scene& scene, const JudgedRun& run, bool 
     json.member("verdict", name_of(report.verdict));
     json.member("reason", report.reason);
     json.member("tolerance", report.tolerance);
+    if (report.told_shares > 0) {
+      json.member("told_shares", report.told_shares);
+      json.key("share_tolerance");
+      report.share_tolerance ? json.value(*report.share_tolerance) : json.value("digits");
+    }
     json.member("width", report.width);
     json.member("clearance", report.clearance);
     json.member("diagonal", report.diagonal);

@@ -148,13 +148,15 @@ void add_notes(const JudgedRun& run, TextTable& table) {
 
 /// Whole sentences below the table.
 std::string conclusion(const Certificate& certificate) {
-  std::vector<std::string> identical, tolerated, failed, wrong_exact;
+  std::vector<std::string> identical, tolerated, agreeing, failed, wrong_exact;
   for (const JudgedRun& run : certificate.runs) {
     if (run.report && run.report->interrupted) continue;
     if (run.failed()) {
       failed.push_back(run.name);
     } else if (run.report->verdict == oracle::Verdict::kIdentical) {
       identical.push_back(run.name);
+    } else if (run.report->verdict == oracle::Verdict::kSharesAgree) {
+      agreeing.push_back(run.name);
     } else {
       tolerated.push_back(run.name);
     }
@@ -163,6 +165,9 @@ std::string conclusion(const Certificate& certificate) {
   std::string text;
   if (!identical.empty()) text += "Identical to the exact answer: " + joined(identical, 20) + ". ";
   if (!tolerated.empty()) text += "Within tolerance: " + joined(tolerated, 20) + ". ";
+  if (!agreeing.empty()) {
+    text += "Shares agree with the exact ones: " + joined(agreeing, 20) + ". ";
+  }
   if (!failed.empty()) text += "Failed: " + joined(failed, 20) + ". ";
   if (!wrong_exact.empty()) {
     text += "Exact kernels that disagree with the oracle: " + joined(wrong_exact, 20) +
@@ -180,11 +185,16 @@ std::string place_in_words(const oracle::Witness& witness) {
   text += "light " + witness.light + ", polygon " + witness.polygon + " (" + name_of(witness.side) +
           ")";
   if (witness.kind == oracle::ErrorKind::kNone) return text;
+  if (witness.is_of_side()) return text + ": " + witness.text;
   text += ", at (" + rounded(witness.nearest[0], 9) + ", " + rounded(witness.nearest[1], 9) + ", " +
           rounded(witness.nearest[2], 9) + "): found " +
           (witness.found ? name_of(*witness.found) : "nothing") + ", true " +
           (witness.truth ? name_of(*witness.truth) : "outside the polygon");
-  if (!witness.caster.empty()) text += ", by caster " + witness.caster;
+  if (witness.caster == witness.polygon) {
+    text += ", by another part of it";
+  } else if (!witness.caster.empty()) {
+    text += ", by caster " + witness.caster;
+  }
   if (witness.width.upper > 0) text += "; " + bound(witness.width.upper) + " wide";
   if (witness.clearance) {
     text += "; moving one vertex by " + bound(*witness.clearance) + " would change it";
@@ -210,6 +220,14 @@ std::string certificate_text(const Certificate& certificate) {
   for (const JudgedRun& run : certificate.runs) {
     if (!run.report) continue;
     const oracle::Report& report = *run.report;
+    if (report.told_shares > 0) {
+      text += wrapped(
+          "tolerance of shares told alone: " +
+              (report.share_tolerance ? rounded(*report.share_tolerance, 3) + " of each polygon"
+                                      : "half a unit of the last digit written"),
+          TextTable::kWidth, 0, 2);
+      if (report.totals.fragments == 0) continue;
+    }
     text += wrapped(
         "tolerance " + rounded(report.tolerance, 3) + " of each polygon, width " +
             rounded(report.width, 3) + " (scene diagonal " + rounded(report.diagonal, 6) + ")" +

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "kernel/signs/nearest_double.h"
 #include "report/json/extras_json.h"
 #include "report/json/json_writer.h"
 #include "report/sides/part_area.h"
@@ -238,8 +239,7 @@ class ResultWriter {
     if (!std::isfinite(area)) find("polygon " + id + ": its area is beyond the range of doubles");
     json_.member("area", area);
     for (const LightState state : light_states(side.area_light)) {
-      write_share(name_of(state), light, side, area, share_of(side, state),
-                  exact_share_of(side, state));
+      write_share(state, light, side, area);
     }
     if (side.area_light && !options_.deep_umbra.empty()) {
       const auto index = static_cast<std::size_t>(&light - result_.lights.data());
@@ -259,27 +259,49 @@ class ResultWriter {
     json_.end_object();
   }
 
+  void write_enclosure(double lower, double upper) {
+    json_.key("enclosure");
+    json_.begin_array(JsonLayout::kInline);
+    json_.value(lower);
+    json_.value(upper);
+    json_.end_array();
+  }
+
+  /// A whole that has no one exact fraction says how certain its number is: the nearest double, and
+  /// its neighbours.
+  void write_precise_share(const ClassifiedSide& side, LightState state) {
+    const mpq_class share = precise_share(prepared_, side, state);
+    const double nearest = nearest_double(share);
+    json_.member("fraction", nearest);
+    if (share == 0) {
+      write_enclosure(0, 0);
+    } else {
+      write_enclosure(std::nextafter(nearest, 0.0), std::min(1.0, std::nextafter(nearest, 2.0)));
+    }
+    json_.member("area", areas_.nearest(side.polygon, share));
+  }
+
   /// `area`: of the whole side.
-  void write_share(std::string_view name, const LightResult& light, const ClassifiedSide& side,
-                   double area, const Interval& share, const std::optional<mpq_class>& exact) {
+  void write_share(LightState state, const LightResult& light, const ClassifiedSide& side,
+                   double area) {
+    const std::string_view name = name_of(state);
+    const Interval& share = share_of(side, state);
+    const std::optional<mpq_class>& exact = exact_share_of(side, state);
     json_.key(name);
     json_.begin_object(JsonLayout::kInline);
     if (options_.exact_fractions && exact) {
       json_.member("fraction", exact->get_str());
+    } else if (options_.exact_fractions) {
+      write_precise_share(side, state);
+      json_.end_object();
+      return;
     } else {
       if (!std::isfinite(share.middle())) {
         find("light " + light_id(light) + ", polygon " + scene_.polygons[side.polygon].id +
              ": its " + std::string(name) + " fraction is not a number");
       }
       json_.member("fraction", share.middle());
-      // A whole that has no one exact fraction says how certain its number is.
-      if ((options_.exact_fractions && !exact) || share.upper - share.lower > kTight) {
-        json_.key("enclosure");
-        json_.begin_array(JsonLayout::kInline);
-        json_.value(share.lower);
-        json_.value(share.upper);
-        json_.end_array();
-      }
+      if (share.upper - share.lower > kTight) write_enclosure(share.lower, share.upper);
     }
     if (share.lower == share.upper && (share.lower == 0 || share.lower == 1)) {
       json_.member("area", share.lower == 0 ? 0.0 : area);

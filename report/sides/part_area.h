@@ -21,8 +21,9 @@ std::array<mpz_class, 3> doubled_area_vector(const PreparedScene& scene, const P
 Interval part_area(const PreparedScene& scene, const Part& part);
 /// The double nearest to the part's area, scene units squared.
 double nearest_area(const PreparedScene& scene, const Part& part);
-/// The area of a part, or of all parts of a polygon, to far more digits than a double has.
+/// The part's area, to far more digits than a double has.
 mpq_class precise_area(const PreparedScene& scene, const Part& part);
+/// The area of a polygon's parts, to far more digits than a double has.
 mpq_class precise_area(const PreparedScene& scene, std::uint32_t polygon);
 
 /// The areas of all polygons, which all lights of a scene share. Every double is the nearest one,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "kernel/numbers/double_double.h"
 #include "report/sides/part_area.h"
 
 namespace gnomon::report {
@@ -55,6 +56,29 @@ std::vector<Interval> areas_in_ratio(const PreparedScene& scene, std::uint32_t p
   return areas;
 }
 
+/// A sum of products of doubles that are not negative, in a pair of doubles: n of them err by less
+/// than 2^-102 n of the sum, and by what underflows.
+class ProductSum {
+ public:
+  void add(double a, double b) {
+    sum_ = sum_ + two_product(a, b);
+    ++count_;
+  }
+  double rounded_down() const { return std::max(0.0, rounded(-1)); }
+  double rounded_up() const { return rounded(1); }
+
+ private:
+  double rounded(int sign) const {
+    const double error = count_ * (0x1p-101 * sum_.high + 0x1p-1060);
+    const DoubleDouble far = two_sum(sum_.high, sum_.low + sign * error);
+    // The pair's lower half is itself rounded: by far less than the error allows for.
+    return sign * far.low <= 0 ? far.high : std::nextafter(far.high, sign * INFINITY);
+  }
+
+  DoubleDouble sum_;
+  double count_ = 0;
+};
+
 }  // namespace
 
 PartWeights::PartWeights(const PreparedScene& scene) {
@@ -86,16 +110,26 @@ void PartWeights::add(const PreparedScene& scene, std::uint32_t polygon) {
 }
 
 Interval PartWeights::sum(std::uint32_t polygon, std::span<const Interval> shares) const {
-  const Weights& own = *std::ranges::lower_bound(polygons_, polygon, {}, &Weights::polygon);
-  oracle::Enclosure sum{0, 0}, total{0, 0};
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const oracle::Enclosure weight = to_enclosure(parts_[own.first + i]);
-    sum = sum + weight * to_enclosure(shares[i]);
-    if (!own.coplanar) total = total + weight;
+  for (const double whole : {0.0, 1.0}) {
+    const auto is_whole = [&](const Interval& share) {
+      return share.lower == whole && share.upper == whole;
+    };
+    if (std::ranges::all_of(shares, is_whole)) return {whole, whole};
   }
-  if (own.coplanar) return to_interval(sum);
-  const Interval share = to_interval(sum / total);
-  return {share.lower, std::min(share.upper, 1.0)};
+  const Weights& own = *std::ranges::lower_bound(polygons_, polygon, {}, &Weights::polygon);
+  ProductSum lower, upper, lower_total, upper_total;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const Interval& weight = parts_[own.first + i];
+    lower.add(weight.lower, shares[i].lower);
+    upper.add(weight.upper, shares[i].upper);
+    lower_total.add(weight.lower, 1);
+    upper_total.add(weight.upper, 1);
+  }
+  const oracle::Enclosure sum{lower.rounded_down(), upper.rounded_up()};
+  if (own.coplanar) return {std::max(sum.lower, 0.0), std::min(sum.upper, 1.0)};
+  const Interval share =
+      to_interval(sum / oracle::Enclosure{lower_total.rounded_down(), upper_total.rounded_up()});
+  return {std::max(share.lower, 0.0), std::min(share.upper, 1.0)};
 }
 
 }  // namespace gnomon::report

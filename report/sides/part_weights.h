@@ -4,7 +4,8 @@
 //
 // Exactness: parts of one plane weigh exactly, as areas in one plane are proportional to any
 // component of their area vectors; others by enclosures of their areas. Bounds of parts become
-// bounds of the polygon.
+// bounds of the polygon, a few units in the last place wider however many parts there are. What all
+// parts are, or none of them is, the polygon is: exactly 1 or 0, in whatever planes they lie.
 #ifndef GNOMON_REPORT_SIDES_PART_WEIGHTS_H
 #define GNOMON_REPORT_SIDES_PART_WEIGHTS_H
 

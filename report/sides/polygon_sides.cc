@@ -84,12 +84,25 @@ std::optional<mpq_class> ClassifiedSide::*exact_member(LightState state) {
   return &ClassifiedSide::exact_lit;
 }
 
+/// Where all parts are of one class, the polygon is, exactly.
+void set_exact_if_of_one_class(ClassifiedSide& side) {
+  const auto states = light_states(side.area_light);
+  const auto is_all = [&](LightState state) {
+    return std::ranges::all_of(side.parts,
+                               [&](const PartSide& part) { return exact_share(part, state) == 1; });
+  };
+  const auto whole = std::ranges::find_if(states, is_all);
+  if (whole == states.end()) return;
+  for (const LightState state : states) side.*exact_member(state) = state == *whole ? 1 : 0;
+}
+
 /// The shares of a polygon of several parts.
 void sum_parts(const PreparedScene& scene, const PartWeights& weights, bool exact,
                ClassifiedSide& side) {
   std::vector<Interval> shares(side.parts.size());
   std::vector<mpq_class> exactly;
   if (exact && side.coplanar) exactly = exact_weights(scene, side.polygon);
+  if (exact && !side.coplanar) set_exact_if_of_one_class(side);
   for (const LightState state : light_states(side.area_light)) {
     std::ranges::transform(side.parts, shares.begin(),
                            [&](const PartSide& part) { return share_of(part, state); });
@@ -132,6 +145,17 @@ mpq_class exact_share(const PartSide& part, LightState state) {
       return part.exact->umbra;
   }
   return 0;
+}
+
+mpq_class precise_share(const PreparedScene& scene, const ClassifiedSide& side, LightState state) {
+  const std::uint32_t first = scene.first_part[side.polygon];
+  mpq_class sum = 0, total = 0;
+  for (std::uint32_t i = 0; i < side.parts.size(); ++i) {
+    const mpq_class area = precise_area(scene, scene.parts[first + i]);
+    sum += area * exact_share(side.parts[i], state);
+    total += area;
+  }
+  return sum / total;
 }
 
 Shares side_shares(const PreparedScene& scene, const LightResult& light, std::uint32_t polygon,

@@ -51,7 +51,7 @@ struct ClassifiedSide : Shares {  // of the polygon
   std::vector<PartSide> parts;                // none if the polygon was dropped
   ShadowReason reason = ShadowReason::kNone;  // set if all parts share it
   bool coplanar = true;                       // all parts lie in one plane
-  // If coplanar and computed; those of the light's classes.
+  // If computed, and coplanar or all of one class; those of the light's classes.
   std::optional<mpq_class> exact_lit, exact_shadow, exact_penumbra, exact_umbra;
 };
 
@@ -85,6 +85,9 @@ SidesByLight classified_sides(const PreparedScene& scene, const ShadowResult& re
 /// The exact share of one part. Requires: `exact_fractions` were asked for.
 mpq_class exact_share(const PartSide& part, LightState state);
 
+/// The share of a side of several parts to far more digits than a double has, in whatever planes
+/// they lie. Requires: `exact_fractions` were asked for.
+mpq_class precise_share(const PreparedScene& scene, const ClassifiedSide& side, LightState state);
 /// Bounds of the share of a side that is in the deep umbra of its area light. `bounds`: of the
 /// parts of the same LightResult, one for each.
 Interval deep_umbra_share(const PreparedScene& scene, const LightResult& light,

@@ -87,7 +87,7 @@ Expected<std::vector<PolygonGroup>> polygon_groups(const Scene& scene) {
 void remove_from_groups(Scene& scene, std::span<const std::string> ids) {
   if (scene.extra.find("\"groups\"") == std::string::npos) return;
   rapidjson::Document extra;
-  extra.Parse<kJsonFlags>(scene.extra.data(), scene.extra.size());
+  extra.Parse<rapidjson::kParseFullPrecisionFlag>(scene.extra.data(), scene.extra.size());
   if (extra.HasParseError() || !extra.IsObject()) return;
   const auto named = extra.FindMember(kGroups.data());
   if (named == extra.MemberEnd() || !named->value.IsObject()) return;

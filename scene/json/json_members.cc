@@ -43,6 +43,10 @@ void JsonMembers::read_if_there(const char* key, std::string& value) {
   if (find_member(object_, key) != nullptr) read(key, value);
 }
 
+void JsonMembers::read_if_there(const char* key, std::optional<double>& value) {
+  if (find_member(object_, key) != nullptr) read(key, value);
+}
+
 void JsonMembers::read(const char* key, bool& value) {
   const JsonValue* json = find(key);
   if (json == nullptr) return;

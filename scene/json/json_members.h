@@ -37,6 +37,7 @@ class JsonMembers {
   void read(const char* key, std::vector<std::uint16_t>& value);
   /// Leaves the value as it is if there is no such member.
   void read_if_there(const char* key, std::string& value);
+  void read_if_there(const char* key, std::optional<double>& value);
   /// A reader of the object there; of an empty one if there is none.
   JsonMembers object(const char* key);
   JsonMembers object_if_there(const char* key);

@@ -126,7 +126,7 @@ class RunMaker {
     if (points_.size() < 3 || !is_clean(points_)) {
       clean_and_note(p);
       if (loop_.size() < 3) {
-        note(p, Repair::kZeroArea, "dropped: all vertices on one line");
+        note(p, Repair::kZeroArea, "all vertices on one line");
         return std::nullopt;
       }
       load_points(loop_, points_);
@@ -244,7 +244,7 @@ class RunMaker {
     const int axis = projection_axis(area);
     if (!parts) return problem_of(p, outline, parts.error(), axis);
     if (parts->empty() && magnitude_along(area, axis) == outline.hole_area) {
-      note(p, Repair::kZeroArea, "dropped: its holes fill it");
+      note(p, Repair::kZeroArea, "its holes fill it");
       return std::nullopt;
     }
     note_cut(p, outline, parts->size());

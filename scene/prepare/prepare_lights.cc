@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "gnomon/scene/rational_text.h"
 #include "scene/geometry/loop_geometry.h"
 
 namespace gnomon::scene_detail {
@@ -126,10 +127,10 @@ class LightMaker {
             "the area light is not exactly planar: vertex {} is {:.3g} scene units off the plane "
             "of its first three",
             kept[worst], std::sqrt(square.get_d())),
-        fmt::format(
-            "an exactly planar polygon; setting {} of vertex {} to {} (about {:.17g}) flattens it, "
-            "or give the light as triangles",
-            "xyz"[axis], kept[worst], target.get_str(), target.get_d()));
+        fmt::format("an exactly planar polygon; setting {} of vertex {} to {} flattens it, or give "
+                    "the light "
+                    "as triangles",
+                    "xyz"[axis], kept[worst], text_for_people(target)));
   }
 
   const Scene& scene_;

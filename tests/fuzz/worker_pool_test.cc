@@ -11,6 +11,7 @@
 
 #include "fuzz/workers/isolated.h"
 #include "gnomon/scene/generate.h"
+#include "tests/support/test_directory.h"
 
 namespace gnomon::fuzz {
 namespace {
@@ -65,6 +66,24 @@ TEST(WorkerPool, ACrashIsAFailureOfWhatItWasAtAndTheNextGoesOn) {
       kAnswer);
   EXPECT_THAT(outcomes(crash_at_second, 4),
               ElementsAre("d", "no-crash:signal 11:double", "no-crash:status 3:double", "d"));
+}
+
+// Schedulers end all processes of a job: what was under way is done again.
+TEST(WorkerPool, WhoIsToldToEndIsNoFailure) {
+  for (const std::string signal : {"TERM", "HUP", "INT", "KILL"}) {
+    const test::TestDirectory directory;
+    const std::string flag = directory.file("flag");
+    const auto told_once =
+        shell("echo '@subject double'; case $line in 'case 1 '*) if [ ! -e " + flag +
+              " ]; then touch " + flag + "; kill -" + signal + " $$; fi;; esac; " + kAnswer);
+    EXPECT_THAT(outcomes(told_once, 3), ElementsAre("d", "d", "d")) << signal;
+  }
+  const auto always = [](const std::string& signal) {
+    return outcomes(shell("echo '@subject double'; kill -" + signal + " $$"), 1);
+  };
+  EXPECT_THAT(always("TERM"), ElementsAre(HasSubstr("ended by signal 15 again and again")));
+  // That is how the system ends who takes too much memory.
+  EXPECT_THAT(always("KILL"), ElementsAre("no-crash:signal 9:double"));
 }
 
 TEST(WorkerPool, AProcessThatReadsNoMoreEndsOnlyItself) {

@@ -76,15 +76,77 @@ TEST(PolygonSides, CoplanarPartsAddUpExactly) {
   EXPECT_EQ(PolygonAreas(all.prepared).nearest(0), 12);
 }
 
+/// A square bent along its diagonal, another under a lid, and one half of whose first part is.
+constexpr const char* kBentScene = R"({"format": "gnomon-scene", "version": 1, "numbers": "decimal",
+ "vertices": [[0,0,0],[5,0,0.3],[5,4,0],[0,4,0.1], [20,0,0],[25,0,0.3],[25,4,0],[20,4,0.1],
+              [19,-1,2],[26,-1,2],[26,5,2],[19,5,2], [40,0,0],[45,0,0.3],[45,4,0],[40,4,0.1],
+              [40,-1,2],[42.5,-1,2],[42.5,2,2],[40,2,2]],
+ "polygons": [{"id": "bent", "loop": [0,1,2,3]}, {"id": "dark", "loop": [4,5,6,7]},
+              {"id": "lid", "loop": [8,9,10,11]}, {"id": "mixed", "loop": [12,13,14,15]},
+              {"id": "small", "loop": [16,17,18,19]}],
+ "lights": [{"id": "zenith", "type": "directional", "to_light": [0,0,1]}]})";
+
 TEST(PolygonSides, PartsInSeveralPlanesAreEnclosed) {
-  const Classified all = classify(kScene);
-  const auto sides = polygon_sides(all.prepared, all.result.lights[0], 2, true);
+  const Classified all = classify(kBentScene);
+  const auto sides = polygon_sides(all.prepared, all.result.lights[0], 3, true);
   ASSERT_EQ(sides.size(), 1u);
   EXPECT_FALSE(sides[0].coplanar);
-  EXPECT_EQ(sides[0].parts.size(), 2u);
+  ASSERT_EQ(sides[0].parts.size(), 2u);
   EXPECT_FALSE(sides[0].exact_lit);
-  EXPECT_LE(sides[0].lit.lower, 1);
-  EXPECT_GE(sides[0].lit.upper, 1);
+  EXPECT_LT(sides[0].lit.upper - sides[0].lit.lower, 4e-15);
+  const mpq_class lit = precise_share(all.prepared, sides[0], LightState::kLit);
+  EXPECT_LE(mpq_class(sides[0].lit.lower), lit);
+  EXPECT_GE(mpq_class(sides[0].lit.upper), lit);
+  EXPECT_NEAR(lit.get_d(), 1 - sides[0].shadow.middle(), 1e-15);
+}
+
+TEST(PolygonSides, WhatAllPartsAreThePolygonIsInWhateverPlanesTheyLie) {
+  const Classified all = classify(kBentScene);
+  for (const auto& [polygon, lit] : {std::pair{0u, 1}, {1u, 0}}) {
+    for (const bool exact : {true, false}) {
+      const auto sides = polygon_sides(all.prepared, all.result.lights[0], polygon, exact);
+      ASSERT_EQ(sides.size(), 1u);
+      EXPECT_FALSE(sides[0].coplanar);
+      EXPECT_EQ(sides[0].lit.lower, lit);
+      EXPECT_EQ(sides[0].lit.upper, lit);
+      EXPECT_EQ(sides[0].shadow.lower, 1 - lit);
+      EXPECT_EQ(sides[0].shadow.upper, 1 - lit);
+      EXPECT_EQ(sides[0].exact_lit.has_value(), exact);
+      EXPECT_EQ(sides[0].exact_lit.value_or(lit), lit);
+    }
+  }
+}
+
+TEST(ResultJson, NumbersOfABentPolygon) {
+  const Classified all = classify(kBentScene);
+  for (const bool exact : {true, false}) {
+    ResultJsonOptions options;
+    options.exact_fractions = exact;
+    StringSink sink;
+    write_result_json(sink, all.scene, all.prepared, all.result, options);
+    rapidjson::Document json;
+    json.Parse<rapidjson::kParseFullPrecisionFlag>(sink.text().c_str());
+    ASSERT_FALSE(json.HasParseError());
+    const auto& polygons = json["lights"][0]["polygons"];
+    EXPECT_EQ(polygons[0]["lit"]["area"].GetDouble(), polygons[0]["area"].GetDouble());
+    EXPECT_EQ(polygons[0]["shadow"]["area"].GetDouble(), 0);
+    EXPECT_EQ(polygons[1]["shadow"]["area"].GetDouble(), polygons[1]["area"].GetDouble());
+    EXPECT_FALSE(polygons[0]["lit"].HasMember("enclosure"));
+    EXPECT_EQ(polygons[3]["lit"].HasMember("enclosure"), exact);
+    if (!exact) {
+      EXPECT_EQ(polygons[0]["lit"]["fraction"].GetDouble(), 1);
+      continue;
+    }
+    EXPECT_STREQ(polygons[0]["lit"]["fraction"].GetString(), "1");
+    EXPECT_STREQ(polygons[1]["lit"]["fraction"].GetString(), "0");
+    const auto side = polygon_sides(all.prepared, all.result.lights[0], 3, true).front();
+    const mpq_class lit = precise_share(all.prepared, side, LightState::kLit);
+    EXPECT_EQ(polygons[3]["lit"]["fraction"].GetDouble(), nearest_double(lit));
+    EXPECT_EQ(polygons[3]["lit"]["area"].GetDouble(),
+              nearest_double(lit * precise_area(all.prepared, 3u)));
+    EXPECT_LT(polygons[3]["lit"]["enclosure"][0].GetDouble(), lit.get_d() + 1e-30);
+    EXPECT_GT(polygons[3]["lit"]["enclosure"][1].GetDouble(), lit.get_d());
+  }
 }
 
 TEST(ResultJson, IsWellFormedAndListsEverything) {
@@ -102,7 +164,7 @@ TEST(ResultJson, IsWellFormedAndListsEverything) {
   EXPECT_STREQ(polygons[0]["lit"]["fraction"].GetString(), "1/3");
   EXPECT_EQ(polygons[0]["lit"]["area"].GetDouble(), 4);
   EXPECT_EQ(polygons[2]["parts"].Size(), 2u);
-  EXPECT_TRUE(polygons[2]["lit"].HasMember("enclosure"));
+  EXPECT_STREQ(polygons[2]["lit"]["fraction"].GetString(), "1");
   ASSERT_EQ(json["dropped"].Size(), 1u);
   EXPECT_STREQ(json["dropped"][0]["id"].GetString(), "line");
 }
@@ -247,7 +309,8 @@ TEST(AreaLights, SharesOfPartsAddUpToOne) {
         EXPECT_NEAR(side.penumbra.middle(), side.exact_penumbra->get_d(), 1e-12);
         EXPECT_NEAR(side.umbra.middle(), side.exact_umbra->get_d(), 1e-12);
       } else {
-        EXPECT_FALSE(side.exact_penumbra);
+        // All of one class.
+        EXPECT_EQ(*side.exact_lit + *side.exact_penumbra + *side.exact_umbra, 1);
       }
       EXPECT_LE(side.lit.lower + side.penumbra.lower + side.umbra.lower, 1);
       EXPECT_GE(side.lit.upper + side.penumbra.upper + side.umbra.upper, 1);
@@ -303,7 +366,7 @@ TEST(AreaLights, TheOracleGetsWhatWasClassified) {
   std::size_t behind = 0;
   for (const ClaimedPolygon& polygon : candidate.lights[0].polygons) {
     EXPECT_FALSE(polygon.shadow_fraction);
-    EXPECT_EQ(polygon.umbra_fraction.has_value(), polygon.id != "bent");
+    EXPECT_TRUE(polygon.umbra_fraction.has_value());
     for (const ClaimedFragment& fragment : polygon.fragments) {
       EXPECT_NE(fragment.state, LightState::kShadow);
       if (fragment.reason.empty()) continue;

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <tuple>
+#include <vector>
+
 namespace gnomon {
 namespace {
 
@@ -162,6 +166,106 @@ TEST(ReadClaims, SeveralLightsAtOnce) {
   at(painted + R"(, "level": 1.5}]}]})", "/overlay/0/painted/0/level");
   at(painted + R"(, "level": 1, "on": -2}]}]})", "/overlay/0/painted/0/on");
   at(painted + R"(, "level": 1, "on": 1e9}]}]})", "/overlay/0/painted/0/on");
+}
+
+/// The shares of a side of polygon "a" under light "sun", of a file with others besides.
+std::vector<ToldShare> told(const std::string& members, const std::string& others = "") {
+  const std::string text =
+      R"({"lights": [{"id": "sun", "polygons": [{"id": "a", )" + members + "}" + others + "]}]}";
+  Scene scene;
+  const Expected<Claims> found = parse_claims(text, "r.json", scene, SharesAlone::kTaken);
+  EXPECT_TRUE(found) << to_string(found.error());
+  if (!found) return {};
+  EXPECT_TRUE(found->lights.at(0).shares_alone);
+  return found->lights[0].polygons.at(0).told;
+}
+
+TEST(ReadClaims, SharesAloneInEverySpelling) {
+  for (const auto& [member, value, rounding] :
+       {std::tuple{R"("lit": 0.46875)", mpq_class(15, 32), mpq_class(1, 200'000)},
+        {R"("lit": {"fraction": 0.47})", mpq_class(47, 100), mpq_class(1, 200)},
+        {R"("lit": 4.7e-1)", mpq_class(47, 100), mpq_class(1, 200)},
+        {R"("lit": "0.470")", mpq_class(47, 100), mpq_class(1, 2000)},
+        {R"("lit": "15/32")", mpq_class(15, 32), mpq_class(0)},
+        {R"("lit": {"fraction": "1"})", mpq_class(1), mpq_class(0)}}) {
+    const std::vector<ToldShare> found = told(member);
+    ASSERT_EQ(found.size(), 1u) << member;
+    EXPECT_EQ(found[0].value, value) << member;
+    EXPECT_EQ(found[0].rounding, rounding) << member;
+    EXPECT_FALSE(found[0].is_area);
+  }
+  const std::vector<ToldShare> areas =
+      told(R"("lit": {"area": 12}, "penumbra": {"area": 1.50}, "umbra": 0.125)");
+  ASSERT_EQ(areas.size(), 3u);
+  EXPECT_TRUE(areas[0].is_area);
+  EXPECT_EQ(areas[0].rounding, mpq_class(1, 2));
+  EXPECT_EQ(areas[1].state, LightState::kPenumbra);
+  EXPECT_EQ(areas[1].value, mpq_class(3, 2));
+  EXPECT_EQ(areas[1].rounding, mpq_class(1, 200));
+  EXPECT_EQ(areas[2].state, LightState::kUmbra);
+}
+
+TEST(ReadClaims, ADoubleIsNotHeldToMoreThanItsOwnDigits) {
+  // 1/3 in a double, which is off by 2e-17, and what a sum of doubles leaves.
+  for (const std::string share :
+       {"0.3333333333333333", "0.33333333333333348", "0.3000000000000000"}) {
+    EXPECT_TRUE(told("\"lit\": " + share).at(0).is_double) << share;
+    EXPECT_EQ(told("\"lit\": " + share).at(0).rounding, mpq_class(0x1p-52));
+  }
+  EXPECT_FALSE(told("\"lit\": 0.33333333333333").at(0).is_double);
+  EXPECT_FALSE(told("\"lit\": \"333333333333333333/1000000000000000000\"").at(0).is_double);
+  // What is printed in as few digits as tell a double may have few.
+  EXPECT_TRUE(told(R"("lit": 0.25, "shadow": 0.75000000000000011)").at(0).is_double);
+  EXPECT_EQ(told("\"lit\": 1e-20").at(0).rounding, mpq_class(0x1p-52));
+}
+
+// Zeros at the end of a number are often left out.
+TEST(ReadClaims, AWholeShareIsRoundedLikeTheRestOfTheFile) {
+  const auto rounding = [](const std::string& lit, const std::string& other) {
+    return told(R"("lit": )" + lit, R"(, {"id": "b", "lit": )" + other + "}").at(0).rounding;
+  };
+  EXPECT_EQ(rounding("1", "0.12345"), mpq_class(1, 20'000));  // five digits: %.5g writes 0.99996 so
+  EXPECT_EQ(rounding("0", "0.12345"), mpq_class(1, 200'000));  // five decimals
+  EXPECT_EQ(rounding("1.0", "0.12345"), mpq_class(1, 20'000));
+  EXPECT_EQ(rounding("1.000", "1"), mpq_class(1, 2000));
+  EXPECT_EQ(rounding("1", "0"), mpq_class(1, 2'000'000'000));
+  EXPECT_EQ(rounding("1", R"("1/3")"), mpq_class(1, 2'000'000'000));
+  EXPECT_EQ(rounding("0.5", "0.12345"), mpq_class(1, 20));
+}
+
+TEST(ReadClaims, UnknownFormsAreNamed) {
+  const auto said = [](const std::string& text, const std::string& file = "r.json") {
+    const Expected<Claims> found = parse_claims(text, file, Scene{}, SharesAlone::kTaken);
+    return found ? "no error" : to_string(found.error());
+  };
+  const auto of_polygon = [&](const std::string& members) {
+    return said(R"({"lights": [{"id": "sun", "polygons": [{"id": "a")" + members + "}]}]}");
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  has(of_polygon(R"(, "sunlit": 0.5)"),
+      "an object with \"id\", \"sunlit\" has neither fragments nor shares");
+  has(of_polygon(R"(, "sunlit": 0.5)"), "/lights/0/polygons/0");
+  has(of_polygon(R"(, "lit": "47%")"), "the text \"47%\" is no share of the polygon");
+  has(of_polygon(R"(, "lit": {"percent": 47})"), "an object with \"percent\" is no share");
+  has(of_polygon(R"(, "lit": [0.5, 0.5])"), "an array is no share");
+  has(of_polygon(R"(, "shadow": true)"), "/lights/0/polygons/0/shadow");
+  has(of_polygon(R"(, "lit": {"area": null})"), "/lit/area");
+  has(of_polygon(R"(, "lit": 1e-5000)"), "/lit");
+  has(said("light,x,y,z,visible\nsun,0,0,0,1\n"), "a table of samples (CSV)");
+  has(said("Surface Name,wall\n01/01 01:00,0.5\n"), "a table of surfaces by time (CSV)");
+  has(said("<html>"), "XML or HTML");
+  has(said("a,b\n1,2\n", "r.csv"), "a table (CSV)");
+  has(said(R"({"samples": []})"), "this is an object with \"samples\"");
+  // Who needs fragments says so.
+  has(message(R"({"lights": [{"id": "sun", "polygons": [{"id": "a", "lit": 1}]}]})"),
+      "key \"fragments\" is missing");
+}
+
+TEST(ReadClaims, HugeExponentsOfSharesAreNoTrouble) {
+  const std::vector<ToldShare> found = told(R"("lit": 0e-999999999)");
+  EXPECT_EQ(found.at(0).value, 0);
 }
 
 TEST(ReadClaims, EveryErrorHasAPlace) {

@@ -31,12 +31,14 @@ struct Witness {
   RationalPoint point;  // strictly inside the region of error, on the support plane
   std::array<double, 3> nearest{};
   std::optional<LightState> found;  // none: uncovered
-  std::optional<LightState> truth;  // none: outside the polygon
+  std::optional<LightState> truth;  // none: outside the polygon, or it is about the whole side
   std::string caster;               // polygon that decides, empty if none does
   Enclosure width;                  // of the region around it, scene units
   std::optional<double> clearance;  // scene units; none: no single vertex is known to change it
   std::string text;                 // one sentence
   Block block = Block::kLights;     // of the candidate
+  /// Shares told alone say nothing of a place: `text` has it all.
+  bool is_of_side() const { return kind == ErrorKind::kMisclassified && !truth; }
 };
 
 /// A maximal connected region in which the candidate is wrong in any way.
@@ -51,6 +53,10 @@ struct ComparisonOptions {
   double width_resolution = 0;    // scene units; widths need not be told more closely
   std::size_t exact_limit = 200;  // boundary edges up to which an area is also given exactly
   std::size_t most_regions = 16;  // kept with their witness, widest first
+  /// Of shares told alone: of the polygon; none: as their digits say (ToldShare::rounding), and
+  /// `double_tolerance` of those that are doubles (ToldShare::is_double).
+  std::optional<double> share_tolerance;
+  double double_tolerance = 1e-9;
 };
 
 /// One polygon side under one light.
@@ -70,6 +76,10 @@ struct PolygonComparison {
   std::uint64_t invented = 0, lost = 0, t_vertices = 0, self_crossing = 0;
   std::vector<ErrorRegion> worst;  // widest first
   bool inconsistent = false;       // the oracle contradicts itself: a finding about us
+  /// The candidate tells shares alone. `misclassified` is then by how much the worst of them is
+  /// off, which is at most the area that is: a share that is right may lie in the wrong place. What
+  /// is within what the share's digits say, or within the tolerance asked for, is not judged.
+  std::size_t told_shares = 0;
   /// The same without ill-conditioned regions: what the verdict looks at.
   AreaShare judged_misclassified, judged_uncovered, judged_overlapping, judged_outside;
   Enclosure judged_width;

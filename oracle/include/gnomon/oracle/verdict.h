@@ -5,6 +5,9 @@
 //   identical         misclassified, uncovered, overlapping and outside are exactly 0 everywhere;
 //   within tolerance  each is at most `tolerance` of every polygon, and every region of error and
 //                     every vertex off its plane is at most `width`;
+//   shares agree      nothing is known but shares (ToldShare), and each is the true one as far as
+//   its
+//                     digits tell: no proof, since a shadow in the wrong place keeps its share;
 //   failed            otherwise, or if something is missing, unknown or listed twice.
 //
 // What a candidate tells of several lights at once (Claims::combined, Claims::overlay) is judged
@@ -31,11 +34,13 @@
 
 namespace gnomon::oracle {
 
-enum class Verdict : std::uint8_t { kIdentical, kWithinTolerance, kFailed };
+enum class Verdict : std::uint8_t { kIdentical, kWithinTolerance, kSharesAgree, kFailed };
 
 struct CertifyOptions {
-  double tolerance = 1e-9;                   // fraction of each polygon
-  std::optional<double> width;               // scene units; default 1e-9 of the scene's diagonal
+  double tolerance = 1e-9;      // fraction of each polygon
+  std::optional<double> width;  // scene units; default 1e-9 of the scene's diagonal
+  /// Of shares told alone, a fraction of each polygon; none: as their digits say.
+  std::optional<double> share_tolerance;
   bool strict = false;                       // tolerance and width 0
   double clearance = 0;                      // scene units; error below it is ill-conditioned
   bool subset = false;                       // lights and polygons may be missing
@@ -86,8 +91,10 @@ struct Report {
   bool by_points = false;                          // above the limit: only points were compared
   std::uint64_t points_checked = 0, points_wrong = 0, points_on_boundary = 0;
   std::uint64_t pairs = 0, most_pairs = 0;
-  bool interrupted = false;   // not everything was compared
-  bool oracle_fault = false;  // the oracle contradicted itself: a bug of ours
+  std::uint64_t told_shares = 0;          // compared
+  std::optional<double> share_tolerance;  // as applied to them; none: as their digits say
+  bool interrupted = false;               // not everything was compared
+  bool oracle_fault = false;              // the oracle contradicted itself: a bug of ours
 
   /// What an exact kernel must reach: identical; where only points were checked, nothing wrong
   /// found.

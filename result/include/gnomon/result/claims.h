@@ -45,6 +45,18 @@ struct ClaimedShare {
   std::optional<LightState> whole;  // the class of all of the side, if it has one
 };
 
+/// The share of one class as a file tells it that says how much of a side has it, and not where.
+struct ToldShare {
+  LightState state = LightState::kLit;
+  mpq_class value;     // of the polygon; `is_area`: scene units squared
+  mpq_class rounding;  // how far off the truth may be, by the digits written; 0 of a fraction "p/q"
+  bool is_area = false;  // else a fraction
+  /// The file has numbers with all digits of a double: they came so out of a computation, and
+  /// nobody claims the last digits of any of them.
+  bool is_double = false;
+  std::string text;  // as written
+};
+
 /// One side of a polygon.
 struct ClaimedPolygon {
   std::string id;
@@ -53,7 +65,9 @@ struct ClaimedPolygon {
   // As claimed, if claimed exactly; shadow for point lights, penumbra and umbra for area lights.
   std::optional<mpq_class> lit_fraction, shadow_fraction, penumbra_fraction, umbra_fraction;
   std::vector<ClaimedFragment> fragments;
-  ClaimedShare share;  // ClaimedTerms::shares_alone
+  ClaimedShare share;  // ClaimedTerms::shares_alone, of a method without fragments
+  /// Of a file: there are no fragments, and these shares are all that is claimed.
+  std::vector<ToldShare> told;
 };
 
 /// How the fragments of a light are meant.
@@ -67,8 +81,9 @@ struct ClaimedTerms {
   /// ("umbra": "per-caster"). Otherwise it may be claimed wherever no light arrives, and need not
   /// be.
   bool per_caster_umbra = false;
-  /// Point and directional lights: there are no fragments, and every side claims how much of it is
-  /// lit (ClaimedPolygon::share, and exact fractions if there are any).
+  /// There are no fragments, and every side claims how much of it has a class: by ClaimedPolygon's
+  /// `told`, or, of point and directional lights, by its `share` and exact fractions if there are
+  /// any.
   bool shares_alone = false;
   /// kLights: fragments name what hides the light, and every side is listed. Else they name
   /// nothing, and sides that no light reaches may be missing; of kOverlay, what lies on a side that
