@@ -13,10 +13,58 @@ using space::without;
 
 LightVolumes::LightVolumes(const PreparedScene& scene, const PreparedLight& light, double diagonal)
     : scene_(scene), diagonal_(diagonal), solids_(solids_of(scene, light)) {
-  if (!light.has_area()) return;
+  if (!light.has_area()) {
+    std::vector<std::uint32_t> casters;
+    for (std::uint32_t part = 0; part < solids_.size(); ++part) {
+      if (solids_[part].casts) casters.push_back(part);
+    }
+    index_.emplace(scene, light, casters);
+    shadow_planes_.resize(solids_.size());
+    return;
+  }
   std::vector<const Loop*> loops;
   for (const Solid& solid : solids_) loops.push_back(&solid.loop);
   area_.emplace(scene, light, loops);
+}
+
+ExactPlane grid_plane(const Geometry& geometry, const HalfSpace& half) {
+  ExactPlane plane;
+  mpz_class common = 1;
+  for (const mpq_class& component : half.normal) common = lcm(common, component.get_den());
+  for (int k = 0; k < 3; ++k) {
+    plane.normal[k] = half.normal[k].get_num() * (common / half.normal[k].get_den());
+  }
+  const mpz_class factor = gcd(gcd(plane.normal[0], plane.normal[1]), plane.normal[2]);
+  if (factor > 1) {
+    for (mpz_class& component : plane.normal) component /= factor;
+  }
+  const HomogeneousPoint base = to_grid(geometry, half.base);
+  plane.offset = oracle::dot(plane.normal, base.xyz);
+  for (mpz_class& component : plane.normal) component *= base.w;
+  return plane;
+}
+
+namespace {
+
+std::vector<ExactPlane> grid_planes(const Geometry& geometry,
+                                    const std::vector<HalfSpace>& bounds) {
+  std::vector<ExactPlane> planes;
+  for (const HalfSpace& half : bounds) planes.push_back(grid_plane(geometry, half));
+  return planes;
+}
+
+}  // namespace
+
+const std::vector<ExactPlane>& LightVolumes::shadow_planes(std::uint32_t part) {
+  std::vector<ExactPlane>& planes = shadow_planes_[part];
+  if (planes.empty()) planes = grid_planes(scene_.geometry, solids_[part].shadow);
+  return planes;
+}
+
+const std::vector<ExactPlane>& LightVolumes::planes_of(const AreaSolids::Volume& volume) {
+  const auto [place, inserted] = volume_planes_.try_emplace(&volume);
+  if (inserted) place->second = grid_planes(scene_.geometry, volume.bounds);
+  return place->second;
 }
 
 bool LightVolumes::sees(std::uint32_t part, Side side) const {

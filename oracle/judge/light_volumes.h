@@ -11,14 +11,20 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "gnomon/kernel/sign.h"
 #include "gnomon/result/classes.h"
+#include "oracle/geometry/chart.h"
 #include "oracle/judge/witness_pieces.h"
 #include "oracle/visibility/area_solids.h"
+#include "oracle/visibility/light_index.h"
 
 namespace gnomon::oracle {
+
+/// A half-space on the grid, by a primitive normal if its base is on the grid.
+ExactPlane grid_plane(const Geometry& geometry, const space::HalfSpace& half);
 
 class LightVolumes {
  public:
@@ -53,6 +59,16 @@ class LightVolumes {
   /// The area of each class in a piece, along its normal: by one caster alone where it is umbra.
   std::array<mpq_class, 4> areas_of_classes(const Piece& piece, Side side);  // by LightState
 
+  /// Casting parts that may shadow some of a part, in order. Requires: a point or directional
+  /// light.
+  std::vector<std::uint32_t> overlapping(std::uint32_t part) const {
+    return index_->overlapping(part);
+  }
+  /// The bounds of what a part shadows, and of a volume of area(), on the grid: made when first
+  /// asked for.
+  const std::vector<ExactPlane>& shadow_planes(std::uint32_t part);
+  const std::vector<ExactPlane>& planes_of(const AreaSolids::Volume& volume);
+
   bool is_apart(const Piece& piece, const std::vector<space::HalfSpace>& bounds) const {
     return piece.is_apart(bounds, 1e-6 * diagonal_);
   }
@@ -62,6 +78,9 @@ class LightVolumes {
   double diagonal_;
   std::vector<Solid> solids_;
   std::optional<AreaSolids> area_;
+  std::optional<LightIndex> index_;                     // without an area
+  std::vector<std::vector<ExactPlane>> shadow_planes_;  // by part
+  std::unordered_map<const AreaSolids::Volume*, std::vector<ExactPlane>> volume_planes_;
 };
 
 }  // namespace gnomon::oracle

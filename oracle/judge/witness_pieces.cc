@@ -85,17 +85,9 @@ std::vector<Solid> solids_of(const PreparedScene& scene, const PreparedLight& li
   return solids;
 }
 
-Piece::Piece(const ClaimedFragment& claimed, std::size_t number, std::uint32_t of_part,
-             const Solid& solid, bool exact)
-    : fragment(&claimed), index(number), part(of_part), loop(claimed.loop) {
-  const RationalPoint& normal = solid.normal;
-  if (!exact) {
-    const mpq_class square = dot(normal, normal);
-    for (RationalPoint& point : loop) {
-      const mpq_class height = dot(normal, minus(point, solid.loop[0])) / square;
-      for (int k = 0; k < 3; ++k) point[k] -= height * normal[k];
-    }
-  }
+Piece::Piece(const ClaimedFragment* claimed, std::size_t number, std::uint32_t of_part,
+             space::Loop own, const RationalPoint& normal)
+    : fragment(claimed), index(number), part(of_part), loop(std::move(own)) {
   measure(normal);
 }
 
@@ -125,6 +117,14 @@ void Piece::measure(const RationalPoint& normal) {
       high[k] = std::max(high[k], round_up(corner[k]));
     }
   }
+}
+
+void Piece::lay(const PlaneFrame& frame) {
+  flat = frame.loop_at(loop);
+  // A loop may turn the other way than the frame's plane.
+  if (area_of(flat) < 0) std::ranges::reverse(flat);
+  flat_lines = lines_of(flat);
+  flat_box = box_of(flat);
 }
 
 bool Piece::overlaps_box_of(const Piece& other) const {
@@ -181,16 +181,14 @@ std::vector<Piece> pieces_of(const Piece& whole, std::vector<space::Loop> loops,
 
 }  // namespace
 
-std::vector<Piece> without_holes(const Piece& piece, const Solid& solid, bool exact) {
-  std::vector<space::Loop> loops{piece.loop};
-  for (const RationalLoop& hole : piece.fragment->holes) {
-    ClaimedFragment shape;
-    shape.loop = hole;
-    Piece own(shape, 0, piece.part, solid, exact);
-    if (own.area == 0) continue;
-    loops = without(std::move(loops), own.walls_of(solid.normal));
+RationalPoint in_scene(const Geometry& geometry, const HomogeneousPoint& point) {
+  RationalPoint result;
+  for (int k = 0; k < 3; ++k) {
+    mpq_class coordinate(point.xyz[k], point.w);
+    coordinate.canonicalize();
+    result[k] = geometry.origin[k] + geometry.step * coordinate;
   }
-  return pieces_of(piece, std::move(loops), solid.normal);
+  return result;
 }
 
 std::vector<Piece> cut_to_visible(std::vector<Piece> pieces, const RationalPoint& normal) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the checker of claims (witness_check.h) cuts and cuts with: parts as convex solids of
-// half-spaces, and claimed fragments laid into the plane of their part. All of it is rational, in
+// What the checker of exact claims (witness_check.h) cuts and cuts with: parts as convex solids of
+// half-spaces, and claimed fragments in the plane of their part. All of it is rational, in
 // scene units; doubles only put aside what is clearly apart.
 #ifndef GNOMON_ORACLE_JUDGE_WITNESS_PIECES_H
 #define GNOMON_ORACLE_JUDGE_WITNESS_PIECES_H
@@ -13,6 +13,7 @@
 
 #include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
+#include "oracle/geometry/plane_frame.h"
 #include "oracle/geometry/space_loop.h"
 
 namespace gnomon::oracle {
@@ -45,15 +46,20 @@ struct Piece {
   std::vector<std::array<double, 3>> corners;  // the loop in doubles
   std::array<double, 3> low{}, high{};
 
-  /// `exact`: the fragment lies in the plane. If not, it is projected: rounded vertices are off the
-  /// plane by a hair, which must not put them behind a caster that lies in it.
-  Piece(const ClaimedFragment& claimed, std::size_t number, std::uint32_t of_part,
-        const Solid& solid, bool exact);
+  // The loop in the frame of the plane, once it is laid there.
+  PlanarLoop flat;
+  std::vector<PlanarLine> flat_lines;
+  PlanarBox flat_box;
+
+  /// Requires: a loop in the plane of the part, whose normal is given.
+  Piece(const ClaimedFragment* claimed, std::size_t number, std::uint32_t of_part, space::Loop own,
+        const RationalPoint& normal);
   /// Part of a piece. Requires: a convex loop inside of it, with its orientation.
   Piece(const Piece& whole, space::Loop own, const RationalPoint& normal);
   /// What no fragment covers.
   Piece(std::uint32_t of_part, space::Loop own, const RationalPoint& normal);
 
+  void lay(const PlaneFrame& frame);
   bool overlaps_box_of(const Piece& other) const;
   bool is_convex(const RationalPoint& normal) const;
   /// By doubles: clearly outside of one of the half-spaces, and so of what they bound.
@@ -68,8 +74,9 @@ struct Piece {
   std::vector<space::HalfSpace> walls_;
 };
 
-/// What of a fragment a convex loop is: all of it, without holes. Requires: convex holes.
-std::vector<Piece> without_holes(const Piece& piece, const Solid& solid, bool exact);
+/// In scene units.
+RationalPoint in_scene(const Geometry& geometry, const HomogeneousPoint& point);
+
 /// Pieces painted over each other, cut down to what is seen of each: a piece of a higher level
 /// hides what it holds of lower ones.
 std::vector<Piece> cut_to_visible(std::vector<Piece> pieces, const RationalPoint& normal);

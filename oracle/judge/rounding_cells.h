@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which cells of the overlay of truth and claims err by rounding alone (geometry/rounding.h): all
+// of such a cell lies near its own edges, which are borders of something, or near edges of claimed
+// loops that cancelled in the overlay.
+#ifndef GNOMON_ORACLE_JUDGE_ROUNDING_CELLS_H
+#define GNOMON_ORACLE_JUDGE_ROUNDING_CELLS_H
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "gnomon/scene/prepare.h"
+#include "oracle/geometry/chart.h"
+#include "oracle/geometry/overlay.h"
+#include "oracle/geometry/plane_frame.h"
+#include "oracle/geometry/rounding.h"
+
+namespace gnomon::oracle {
+
+class RoundingCells {
+ public:
+  using Edges = std::vector<std::pair<ChartPoint, ChartPoint>>;
+
+  /// `part`: one of those that the overlay is of; `claimed`: the edges of all claimed loops.
+  /// `radius`: 0 if nothing is excused. Keeps references to all but the number.
+  RoundingCells(const PreparedScene& scene, std::uint32_t part, const Chart& chart,
+                const Overlay& overlay, const Edges& claimed, long double radius)
+      : scene_(scene),
+        part_(part),
+        chart_(chart),
+        overlay_(overlay),
+        claimed_(claimed),
+        radius_(radius) {}
+
+  bool contains(std::uint32_t face);
+
+ private:
+  PlanarPoint at(const ChartPoint& point) const { return frame_->at(chart_.lift(point)); }
+
+  const PreparedScene& scene_;
+  std::uint32_t part_;
+  const Chart& chart_;
+  const Overlay& overlay_;
+  const Edges& claimed_;
+  long double radius_;
+  // Made when first asked for: most overlays have no error.
+  std::optional<PlaneFrame> frame_;
+  std::vector<Border> claimed_borders_;
+};
+
+}  // namespace gnomon::oracle
+
+#endif  // GNOMON_ORACLE_JUDGE_ROUNDING_CELLS_H
