@@ -95,6 +95,7 @@ Expected<ClaimedPolygon> Reader::polygon(const Json& value, const std::string& p
     return fields_.wrong(ErrorCode::kFormat, pointer, "key \"fragments\" is missing",
                          "a result written with fragments");
   }
+  result.fragments.reserve((*fragments)->Size());
   for (rapidjson::SizeType i = 0; i < (*fragments)->Size(); ++i) {
     Expected<ClaimedFragment> own =
         fragment((**fragments)[i], fmt::format("{}/fragments/{}", pointer, i));
@@ -169,6 +170,7 @@ Expected<ClaimedLight> Reader::light(const Json& value, const ClaimedLight& for_
   }
   const Expected<const Json*> polygons = fields_.list(value, "polygons", true, pointer);
   if (!polygons) return tl::unexpected(polygons.error());
+  result.polygons.reserve((*polygons)->Size());
   for (rapidjson::SizeType i = 0; i < (*polygons)->Size(); ++i) {
     Expected<ClaimedPolygon> own =
         polygon((**polygons)[i], fmt::format("{}/polygons/{}", pointer, i));

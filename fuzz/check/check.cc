@@ -142,9 +142,10 @@ class SceneCheck {
            (property == Property::kMetamorphic && (options_.seed >> 48) % 2 != 0);
   }
   bool wanted(Property property) const {
-    if (options_.brief && is_left_out(property)) return false;
-    return options_.properties.empty() ||
-           std::ranges::find(options_.properties, property) != options_.properties.end();
+    if (options_.properties.empty()) return !(options_.brief && is_left_out(property));
+    // Of those that somebody named, only the relation is left to every other scene.
+    if (options_.brief && property == Property::kMetamorphic && is_left_out(property)) return false;
+    return std::ranges::find(options_.properties, property) != options_.properties.end();
   }
   void add(Failure failure) {
     if (failure.property == Property::kCrash || wanted(failure.property)) {

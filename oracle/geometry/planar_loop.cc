@@ -112,6 +112,7 @@ PlanarLoop cut(const PlanarLoop& loop, const PlanarLine& line) {
   }
   if (!inside) return result;
   if (!outside) return loop;
+  result.reserve(loop.size() + 1);
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const PlanarPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
     const long double here = line.at(a), there = line.at(b);

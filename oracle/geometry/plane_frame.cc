@@ -106,11 +106,12 @@ PlanarPoint PlaneFrame::at(const RationalPoint& point) const {
 }
 
 PlanarPoint PlaneFrame::at(const HomogeneousPoint& point) const {
-  Vector offset;
-  for (int k = 0; k < 3; ++k) {
-    offset[k] = ratio(point.xyz[k] - origin_[k] * point.w, point.w) * step_;
-  }
-  return {dot(x_axis_, offset), dot(y_axis_, offset)};
+  Integers3 offset;
+  for (int k = 0; k < 3; ++k) offset[k] = point.xyz[k] - origin_[k] * point.w;
+  // Exact up to here, so that both coordinates are right by their own measure, however narrow a
+  // loop is.
+  return {ratio(oracle::dot(along_, offset), point.w) / along_length_ * step_,
+          ratio(oracle::dot(across_, offset), point.w) / across_length_ * step_};
 }
 
 PlanarLoop PlaneFrame::loop_at(std::span<const RationalPoint> loop) const {

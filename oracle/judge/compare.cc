@@ -139,7 +139,16 @@ class GroupComparison {
   Rules rules_;
   const ComparisonOptions& options_;
   PolygonComparison& result_;
+  const PlaneFrame& frame() {
+    if (!frame_) {
+      frame_.emplace(answer_.prepared().geometry,
+                     grid_loop(answer_.prepared(), group_.parts.front()));
+    }
+    return *frame_;
+  }
+
   GroupOverlay overlay_;
+  std::optional<PlaneFrame> frame_;  // made when first asked for
   std::vector<ProjectedFragment> fragments_;
   RoundingCells::Edges claimed_edges_;
   Shares shares_;
@@ -148,13 +157,19 @@ class GroupComparison {
 void GroupComparison::add(const ClaimedFragment& fragment) {
   const Geometry& geometry = answer_.prepared().geometry;
   const Chart& chart = overlay_.chart();
-  Enclosure most;
+  Enclosure most, judged;
   const auto projected_loop = [&](const RationalLoop& points) {
     std::vector<ChartPoint> loop;
     for (const RationalPoint& point : points) {
       const HomogeneousPoint place = to_grid(geometry, point);
       const mpz_class value = value_at(chart.support(), place);
-      if (value != 0) most = greater_of(most, enclose_ratio(value, place.w));
+      if (value != 0) {
+        const Enclosure own = enclose_ratio(value, place.w);
+        most = greater_of(most, own);
+        const bool excused = result_.rounding_radius > 0 &&
+                             is_rounding(std::fabs(frame().height(point)), result_.rounding_radius);
+        if (!excused) judged = greater_of(judged, own);
+      }
       loop.push_back(chart.project(place));
     }
     return loop;
@@ -165,7 +180,11 @@ void GroupComparison::add(const ClaimedFragment& fragment) {
   if (!most.is_zero()) {
     const Integers3& normal = chart.support().normal;
     const Enclosure length = enclose_square_root(mpq_class(dot(normal, normal)));
-    result_.off_plane = greater_of(result_.off_plane, most / length * enclose(geometry.step));
+    const auto in_scene = [&](Enclosure distance) {
+      return distance.is_zero() ? distance : distance / length * enclose(geometry.step);
+    };
+    result_.off_plane = greater_of(result_.off_plane, in_scene(most));
+    result_.judged_off_plane = greater_of(result_.judged_off_plane, in_scene(judged));
   }
   const auto keep_edges = [&](const std::vector<ChartPoint>& points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -298,8 +317,8 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells, Excuses& e
       boundaries[region_of[here]].push_back(h);
     }
   }
-  RoundingCells rounding(answer_.prepared(), group_.parts.front(), overlay_.chart(), overlay,
-                         claimed_edges_, result_.rounding_radius);
+  RoundingCells rounding(frame(), overlay_.chart(), overlay, claimed_edges_,
+                         result_.rounding_radius);
   for (std::size_t r = 0; r < faces.size(); ++r) {
     if (faces[r].empty()) continue;
     ++result_.regions;

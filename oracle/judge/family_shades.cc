@@ -2,6 +2,7 @@
 #include "oracle/judge/family_shades.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -111,7 +112,6 @@ void FamilyShades::add_shade(Shades& shades, std::uint32_t part,
                              const std::vector<ExactPlane>& planes, bool closed) {
   Shade shade;
   shade.part = part;
-  shade.region = surroundings_;
   PlanarLoop outer = surroundings_;
   const long double margin = 1024 * error_;
   for (std::size_t i = 0; i < planes.size() && !outer.empty(); ++i) {
@@ -121,7 +121,6 @@ void FamilyShades::add_shade(Shades& shades, std::uint32_t part,
     if (half.kind == FlatHalf::Kind::kNone) return;
     if (half.kind == FlatHalf::Kind::kAll) continue;
     shade.lines.push_back(half.line);
-    shade.region = oracle::cut(shade.region, half.line);
     outer = oracle::cut(outer, half.line.grown(margin));
   }
   if (outer.empty()) return;
@@ -129,10 +128,44 @@ void FamilyShades::add_shade(Shades& shades, std::uint32_t part,
   shades.add(std::move(shade));
 }
 
+PlanarLoop FamilyShades::region_of(const Shade& shade) const {
+  PlanarLoop region = surroundings_;
+  for (const PlanarLine& line : shade.lines) {
+    if (!region.empty()) region = oracle::cut(region, line);
+  }
+  return region;
+}
+
+namespace {
+
+/// By doubles: all corners are outside of one of the half-spaces, by more than the rounding of
+/// corner, base and sum.
+bool are_apart(const std::vector<std::array<double, 3>>& corners,
+               const std::vector<space::HalfSpace>& bounds) {
+  const auto largest = [](const std::array<double, 3>& p) {
+    return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
+  };
+  constexpr double kRounding = 0x1p-49;
+  return std::ranges::any_of(bounds, [&](const space::HalfSpace& half) {
+    return std::ranges::all_of(corners, [&](const std::array<double, 3>& corner) {
+      return half.near_value(corner) < -kRounding * (largest(corner) + largest(half.near_base));
+    });
+  });
+}
+
+}  // namespace
+
 void FamilyShades::add_volumes(Shades& shades, bool all) {
   const std::uint32_t receiver = parts_.front();
+  std::vector<std::array<double, 3>> corners;
+  for (const std::uint32_t part : parts_) {
+    for (const VertexId vertex : scene_.loop(scene_.parts[part])) {
+      corners.push_back(scene_.geometry.positions[vertex]);
+    }
+  }
   for (std::size_t b = 0; b < light_.area().size(); ++b) {
     if (light_.area().part_of(b) == receiver) continue;
+    if (are_apart(corners, light_.area().largest_penumbra(b).bounds)) continue;
     const AreaSolids::Volume& volume =
         all ? light_.area().umbra(b, receiver, side_) : light_.area().penumbra(b, receiver, side_);
     if (volume.empty) continue;

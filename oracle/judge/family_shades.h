@@ -32,8 +32,7 @@ PlanarLoop cut(const PlanarLoop& loop, const FlatHalf& half);
 struct Shade {
   std::uint32_t part = 0;  // that casts
   std::vector<PlanarLine> lines;
-  PlanarLoop region;  // of the family's surroundings
-  PlanarBox box;      // of that, and a margin
+  PlanarBox box;  // of what is inside, around the family, and a margin
   /// By more than the lines' error: all of the loop is outside, or inside.
   bool is_apart(const PlanarLoop& loop, long double error) const;
   bool is_around(const PlanarLoop& loop, long double error) const;
@@ -74,6 +73,8 @@ class FamilyShades {
   Shades& partly();
   /// What is in umbra. Requires: an area light.
   Shades& wholly();
+  /// What is inside, around the family; with its borders.
+  PlanarLoop region_of(const Shade& shade) const;
   /// Requires: an area light.
   const FlatHalf& before_light();
 

@@ -28,13 +28,15 @@ ExactPlane grid_plane(const Geometry& geometry, const space::HalfSpace& half);
 
 class LightVolumes {
  public:
-  /// Keeps a reference to the scene. `diagonal`: of its box, scene units.
+  /// Keeps references to both. `diagonal`: of its box, scene units.
   LightVolumes(const PreparedScene& scene, const PreparedLight& light, double diagonal);
   LightVolumes(const LightVolumes&) = delete;
   LightVolumes& operator=(const LightVolumes&) = delete;
 
-  const std::vector<Solid>& solids() const { return solids_; }
-  const Solid& solid(std::uint32_t part) const { return solids_[part]; }
+  /// Made when first asked for.
+  const Solid& solid(std::uint32_t part) const;
+  /// Requires: a point or directional light.
+  const LightStanding& standing(std::uint32_t part) const { return standings_[part]; }
   bool is_area() const { return area_.has_value(); }
   /// Requires: an area light.
   AreaSolids& area() { return *area_; }
@@ -66,7 +68,7 @@ class LightVolumes {
   }
   /// The bounds of what a part shadows, and of a volume of area(), on the grid: made when first
   /// asked for.
-  const std::vector<ExactPlane>& shadow_planes(std::uint32_t part);
+  const std::vector<ExactPlane>& shadow_planes(std::uint32_t part) const;
   const std::vector<ExactPlane>& planes_of(const AreaSolids::Volume& volume);
 
   bool is_apart(const Piece& piece, const std::vector<space::HalfSpace>& bounds) const {
@@ -75,11 +77,17 @@ class LightVolumes {
 
  private:
   const PreparedScene& scene_;
+  const PreparedLight& own_;
   double diagonal_;
-  std::vector<Solid> solids_;
+  mutable std::vector<std::optional<Solid>> solids_;  // by part
+  std::vector<LightStanding> standings_;              // by part, without an area
   std::optional<AreaSolids> area_;
-  std::optional<LightIndex> index_;                     // without an area
-  std::vector<std::vector<ExactPlane>> shadow_planes_;  // by part
+  std::optional<LightIndex> index_;  // without an area
+  /// The same in scene units, and rational.
+  const std::vector<space::HalfSpace>& shadow(std::uint32_t part) const;
+
+  mutable std::vector<std::vector<ExactPlane>> shadow_planes_;  // by part
+  mutable std::vector<std::vector<space::HalfSpace>> shadows_;  // by part
   std::unordered_map<const AreaSolids::Volume*, std::vector<ExactPlane>> volume_planes_;
 };
 

@@ -3,17 +3,12 @@
 
 #include <algorithm>
 
-#include "oracle/geometry/group_overlay.h"
 #include "oracle/geometry/region_width.h"
 
 namespace gnomon::oracle {
 
 bool RoundingCells::contains(std::uint32_t face) {
   if (!(radius_ > 0)) return false;
-  if (!frame_) {
-    frame_.emplace(scene_.geometry, grid_loop(scene_, part_));
-    for (const auto& [a, b] : claimed_) claimed_borders_.push_back({at(a), at(b)});
-  }
   std::vector<std::uint32_t> boundary;
   std::vector<Border> borders;
   overlay_.for_each_halfedge(face, [&](std::uint32_t h) {

@@ -6,11 +6,9 @@
 #define GNOMON_ORACLE_JUDGE_ROUNDING_CELLS_H
 
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include "gnomon/scene/prepare.h"
 #include "oracle/geometry/chart.h"
 #include "oracle/geometry/overlay.h"
 #include "oracle/geometry/plane_frame.h"
@@ -22,31 +20,23 @@ class RoundingCells {
  public:
   using Edges = std::vector<std::pair<ChartPoint, ChartPoint>>;
 
-  /// `part`: one of those that the overlay is of; `claimed`: the edges of all claimed loops.
-  /// `radius`: 0 if nothing is excused. Keeps references to all but the number.
-  RoundingCells(const PreparedScene& scene, std::uint32_t part, const Chart& chart,
-                const Overlay& overlay, const Edges& claimed, long double radius)
-      : scene_(scene),
-        part_(part),
-        chart_(chart),
-        overlay_(overlay),
-        claimed_(claimed),
-        radius_(radius) {}
+  /// `claimed`: the edges of all claimed loops. `radius`: 0 if nothing is excused. Keeps references
+  /// to all but the number.
+  RoundingCells(const PlaneFrame& frame, const Chart& chart, const Overlay& overlay,
+                const Edges& claimed, long double radius)
+      : frame_(frame), chart_(chart), overlay_(overlay), claimed_(claimed), radius_(radius) {}
 
   bool contains(std::uint32_t face);
 
  private:
-  PlanarPoint at(const ChartPoint& point) const { return frame_->at(chart_.lift(point)); }
+  PlanarPoint at(const ChartPoint& point) const { return frame_.at(chart_.lift(point)); }
 
-  const PreparedScene& scene_;
-  std::uint32_t part_;
+  const PlaneFrame& frame_;
   const Chart& chart_;
   const Overlay& overlay_;
   const Edges& claimed_;
   long double radius_;
-  // Made when first asked for: most overlays have no error.
-  std::optional<PlaneFrame> frame_;
-  std::vector<Border> claimed_borders_;
+  std::vector<Border> claimed_borders_;  // made when first asked for
 };
 
 }  // namespace gnomon::oracle

@@ -17,7 +17,6 @@
 #include "gnomon/oracle/visibility.h"
 #include "gnomon/result/claimed_pieces.h"
 #include "gnomon/result/shared_claims.h"
-#include "oracle/geometry/rounding.h"
 #include "oracle/judge/point_check.h"
 
 namespace gnomon::oracle {
@@ -278,8 +277,7 @@ bool Certifier::fails_beyond_rounding(const PolygonComparison& comparison) const
 }
 
 bool Certifier::is_off_plane(const PolygonComparison& comparison) const {
-  return !(comparison.off_plane.upper <= report_.width) &&
-         !is_rounding(comparison.off_plane.upper, comparison.rounding_radius);
+  return !(comparison.judged_off_plane.upper <= report_.width);
 }
 
 /// What a failed candidate cannot help, at the polygon that decided.
@@ -348,9 +346,9 @@ std::string Certifier::excess() const {
                            report_.width);
       });
       if (!is_off_plane(own)) continue;
-      weigh(own.off_plane.upper, report_.width, [&] {
+      weigh(own.judged_off_plane.upper, report_.width, [&] {
         return fmt::format("{}: a vertex {:.3g} off its plane, more than {:.3g}", where,
-                           own.off_plane.upper, report_.width);
+                           own.judged_off_plane.upper, report_.width);
       });
     }
   }
@@ -436,7 +434,8 @@ void Certifier::judge() {
       identical = identical && own.misclassified.zero && own.uncovered.zero &&
                   own.overlapping.zero && own.outside.zero;
       within = within && !fails(own);
-      if (is_off_plane(own) && (!off_plane || own.off_plane.upper > off_plane->off_plane.upper)) {
+      if (is_off_plane(own) &&
+          (!off_plane || own.judged_off_plane.upper > off_plane->judged_off_plane.upper)) {
         off_plane = &own;
       }
     }
@@ -474,7 +473,7 @@ void Certifier::judge() {
     }
     if (report_.reason.empty() && off_plane) {
       report_.reason = fmt::format("a vertex on polygon '{}' is {:.3g} off its plane",
-                                   off_plane->polygon, off_plane->off_plane.upper);
+                                   off_plane->polygon, off_plane->judged_off_plane.upper);
     }
     report_.excess = excess();
     tell_of_rounding();

@@ -113,13 +113,13 @@ bool WitnessChecker::tiles(const Family& family) {
 }
 
 bool WitnessChecker::is_facing(const Family& family) const {
-  const Solid& own = light_->solid(family.parts.front());
+  const LightStanding& own = light_->standing(family.parts.front());
   return own.receives && (own.facing > 0) == (family.polygon.side == Side::kFront);
 }
 
 bool WitnessChecker::shadow_reason_holds(const Family& family,
                                          const ClaimedFragment& fragment) const {
-  const int facing = light_->solid(family.parts.front()).facing;
+  const int facing = light_->standing(family.parts.front()).facing;
   const auto reason = shadow_reason_by_name(fragment.reason);
   return (reason == ShadowReason::kFacesAway && !is_facing(family) && facing != 0) ||
          (reason == ShadowReason::kLightInPlane && facing == 0);

@@ -122,9 +122,12 @@ void WitnessChecker::check_exact_family(Family& family, std::vector<Piece>& piec
   for (const Piece& piece : pieces) check_exact_piece(family, piece);
   mpq_class rest_area;
   if (const std::optional<ClassSet> allowed = left_out()) {
-    for (const Piece& rest : left_over(family.parts, light_->solids(), pieces)) {
-      rest_area += rest.area;
-      check_exact_classes(family, rest, *allowed);
+    for (const std::uint32_t part : family.parts) {
+      const Loop& loop = light_->solid(part).loop;
+      for (Piece& rest : left_over(family.parts.front(), loop, normal, pieces)) {
+        rest_area += rest.area;
+        check_exact_classes(family, rest, *allowed);
+      }
     }
   }
   check_exact_fractions(family, pieces, rest_area);

@@ -13,28 +13,37 @@
 
 #include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
+#include "oracle/geometry/chart.h"
 #include "oracle/geometry/plane_frame.h"
 #include "oracle/geometry/space_loop.h"
 
 namespace gnomon::oracle {
 
+/// Which side of a part a point or directional light is on, and what that makes of the part.
+struct LightStanding {
+  int facing = 0;  // 1 front, -1 back, 0 the light is in its plane
+  bool receives = false, casts = false;
+};
+LightStanding standing_of(const PreparedScene& scene, const PreparedLight& light,
+                          std::uint32_t part);
+
+/// What bounds the shadow of a part on the grid: behind it, and inside its edges seen from the
+/// light. Requires: a point or directional light that it faces.
+std::vector<ExactPlane> shadow_planes_of(const PreparedScene& scene, const PreparedLight& light,
+                                         std::uint32_t part, int facing);
+
 /// A part as receiver and caster.
 struct Solid {
   space::Loop loop;
   RationalPoint normal;
-  std::vector<space::HalfSpace> walls;   // in its plane: inside of the part
-  std::vector<space::HalfSpace> shadow;  // behind it and inside its edges, seen from the light
-  int facing = 0;                        // 1 front, -1 back, 0 the light is in its plane
-  bool receives = false, casts = false;
+  std::vector<space::HalfSpace> walls;  // in its plane: inside of the part
 
   /// All of the part lies in the plane of the half-space.
   bool lies_in(const space::HalfSpace& half) const;
   /// All of the other part lies in this one's plane: neither shadows the other.
   bool holds(const Solid& other) const;
 };
-
-/// All parts under one light. Under an area light none receives or casts: AreaSolids knows that.
-std::vector<Solid> solids_of(const PreparedScene& scene, const PreparedLight& light);
+Solid solid_of(const PreparedScene& scene, std::uint32_t part);
 
 /// A claimed fragment in the plane of a part, or a convex piece of it; or of what none covers.
 struct Piece {
@@ -80,9 +89,9 @@ RationalPoint in_scene(const Geometry& geometry, const HomogeneousPoint& point);
 /// Pieces painted over each other, cut down to what is seen of each: a piece of a higher level
 /// hides what it holds of lower ones.
 std::vector<Piece> cut_to_visible(std::vector<Piece> pieces, const RationalPoint& normal);
-/// What no piece holds of the parts, which are coplanar.
-std::vector<Piece> left_over(std::span<const std::uint32_t> parts, const std::vector<Solid>& solids,
-                             std::vector<Piece>& pieces);
+/// What no piece holds of a part. Areas are along the normal, which may be that of a coplanar part.
+std::vector<Piece> left_over(std::uint32_t part, const space::Loop& loop,
+                             const RationalPoint& normal, std::vector<Piece>& pieces);
 
 }  // namespace gnomon::oracle
 

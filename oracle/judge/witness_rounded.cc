@@ -379,7 +379,7 @@ void WitnessChecker::check_rounded_lit(Family& family, const FlatPiece& piece, S
     Loops wrong;
     take(rest, wrong, *shade);
     std::vector<Border> borders;
-    add_edges(borders, shade->region);
+    add_edges(borders, family.shades.region_of(*shade));
     add_error(family, piece, ErrorKind::kMisclassified, wrong,
               fmt::format("{} '{}'", text, id_of(shade->part)), std::move(borders));
   }
@@ -392,7 +392,7 @@ void WitnessChecker::check_hidden(Family& family, const FlatPiece& piece, Loops 
     if (prepared_.parts[shade->part].polygon != caster) continue;
     if (is_within(shade->lines, piece.loop, family.radius)) return;
     loops = without(std::move(loops), shade->lines);
-    add_edges(borders, shade->region);
+    add_edges(borders, family.shades.region_of(*shade));
   }
   add_error(family, piece, ErrorKind::kMisclassified, loops, text, std::move(borders));
 }
@@ -541,7 +541,8 @@ void WitnessChecker::check_rounded_classes(Family& family, const FlatPiece& piec
     for (Shades* shades :
          {&family.shades.partly(), light_->is_area() ? &family.shades.wholly() : nullptr}) {
       if (!shades) continue;
-      for (const Shade* shade : shades->near(piece.box)) add_edges(borders, shade->region);
+      for (const Shade* shade : shades->near(piece.box))
+        add_edges(borders, family.shades.region_of(*shade));
     }
     add_error(family, piece, ErrorKind::kMisclassified, classes[c],
               fmt::format("some of {} is {}", what, name_of(state)), std::move(borders));

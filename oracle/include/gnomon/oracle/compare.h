@@ -78,7 +78,7 @@ struct PolygonComparison {
   bool inconsistent = false;       // the oracle contradicts itself: a finding about us
   /// The same without what is ill-conditioned or rounding: what the verdict looks at.
   AreaShare judged_misclassified, judged_uncovered, judged_overlapping, judged_outside;
-  Enclosure judged_width;
+  Enclosure judged_width, judged_off_plane;
 };
 
 /// `candidate` may be null: nothing was found. Requires: `entry` is one of answer.entries(light).

@@ -12,8 +12,8 @@
 //   - claimed fractions are those of the fragments.
 // What names no witness (fragments of several lights at once, and what no fragment covers) must
 // have its class by what all casters together do to it. Loops painted over each other are cut down
-// to what is seen of each. Holes are cut out; loops of any shape are what they wind around. A result
-// that passes is right: its fragments tile every polygon and each has its proof.
+// to what is seen of each. Holes are cut out; loops of any shape are what they wind around. A
+// result that passes is right: its fragments tile every polygon and each has its proof.
 //
 // Exactness: exact on exact loops. Rounded loops are judged as in a comparison (verdict.h): what
 // rounding of their vertices explains is excused, all other error may be `tolerance` of the
