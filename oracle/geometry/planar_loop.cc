@@ -35,7 +35,9 @@ bool is_finite(const PlanarLoop& loop) {
 }
 
 PlanarLine line_through(const PlanarPoint& a, const PlanarPoint& b) {
-  const long double length = std::hypot(b.x - a.x, b.y - a.y);
+  // Squares of what a scene can hold neither overflow nor underflow in this precision.
+  const long double dx = b.x - a.x, dy = b.y - a.y;
+  const long double length = std::sqrt(dx * dx + dy * dy);
   if (!(length > 0)) return {};
   PlanarLine line{(a.y - b.y) / length, (b.x - a.x) / length, 0};
   line.c = -(line.a * a.x + line.b * a.y);
@@ -82,7 +84,8 @@ long double perimeter_of(const PlanarLoop& loop) {
   long double sum = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const PlanarPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
-    sum += std::hypot(b.x - a.x, b.y - a.y);
+    const long double dx = b.x - a.x, dy = b.y - a.y;
+    sum += std::sqrt(dx * dx + dy * dy);
   }
   return sum;
 }

@@ -133,7 +133,7 @@ std::optional<PlanarLine> PlaneFrame::trace(const ExactPlane& plane) const {
   const long exponent = std::max(a.exponent, b.exponent);
   const long double slope_x = scaled(a.mantissa, a.exponent - exponent) / along_length_;
   const long double slope_y = scaled(b.mantissa, b.exponent - exponent) / across_length_;
-  const long double slope = std::hypot(slope_x, slope_y);
+  const long double slope = std::sqrt(slope_x * slope_x + slope_y * slope_y);
   return PlanarLine{slope_x / slope, slope_y / slope,
                     scaled(c.mantissa / slope, c.exponent - exponent) * step_};
 }

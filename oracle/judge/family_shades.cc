@@ -29,12 +29,6 @@ bool Shade::is_apart(const PlanarLoop& loop, long double error) const {
   });
 }
 
-bool Shade::is_around(const PlanarLoop& loop, long double error) const {
-  return std::ranges::all_of(lines, [&](const PlanarLine& line) {
-    return std::ranges::all_of(loop, [&](const PlanarPoint& p) { return line.at(p) > error; });
-  });
-}
-
 void Shades::add(Shade shade) { shades_.push_back(std::move(shade)); }
 
 std::vector<const Shade*> Shades::near(const PlanarBox& box) {
@@ -81,7 +75,8 @@ FamilyShades::FamilyShades(const PreparedScene& scene, LightVolumes& light,
         greatest = std::max(greatest, std::fabs(static_cast<long double>(coordinate)));
       }
     }
-    if (area_of(loop) < 0) std::ranges::reverse(loop);
+    turned_.push_back(area_of(loop) < 0);
+    if (turned_.back()) std::ranges::reverse(loop);
     area_ += area_of(loop);
     all.insert(all.end(), loop.begin(), loop.end());
     lines_.push_back(lines_of(loop));
@@ -121,6 +116,7 @@ void FamilyShades::add_shade(Shades& shades, std::uint32_t part,
     if (half.kind == FlatHalf::Kind::kNone) return;
     if (half.kind == FlatHalf::Kind::kAll) continue;
     shade.lines.push_back(half.line);
+    shade.bounds.push_back(i);
     outer = oracle::cut(outer, half.line.grown(margin));
   }
   if (outer.empty()) return;

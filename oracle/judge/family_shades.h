@@ -32,10 +32,10 @@ PlanarLoop cut(const PlanarLoop& loop, const FlatHalf& half);
 struct Shade {
   std::uint32_t part = 0;  // that casts
   std::vector<PlanarLine> lines;
-  PlanarBox box;  // of what is inside, around the family, and a margin
-  /// By more than the lines' error: all of the loop is outside, or inside.
+  std::vector<std::size_t> bounds;  // of each line: which of the caster's planes it is of
+  PlanarBox box;                    // of what is inside, around the family, and a margin
+  /// All of the loop is outside, by more than the lines' error.
   bool is_apart(const PlanarLoop& loop, long double error) const;
-  bool is_around(const PlanarLoop& loop, long double error) const;
 };
 
 /// Shades, found by their boxes.
@@ -65,6 +65,8 @@ class FamilyShades {
   /// Counter-clockwise, in order of the parts.
   const std::vector<PlanarLoop>& loops() const { return loops_; }
   const std::vector<std::vector<PlanarLine>>& lines() const { return lines_; }
+  /// Whether the loop of that part, the first being 0, runs the other way than the part's.
+  bool is_turned(std::size_t part) const { return turned_[part]; }
   long double area() const { return area_; }
   /// Of a value of a line at a point of the family.
   long double error() const { return error_; }
@@ -91,6 +93,7 @@ class FamilyShades {
   PlaneFrame frame_;
   std::vector<PlanarLoop> loops_;
   std::vector<std::vector<PlanarLine>> lines_;
+  std::vector<bool> turned_;
   PlanarLoop surroundings_;
   long double area_ = 0, error_ = 0;
   std::optional<Shades> partly_, wholly_;

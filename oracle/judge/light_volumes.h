@@ -70,6 +70,8 @@ class LightVolumes {
   /// asked for.
   const std::vector<ExactPlane>& shadow_planes(std::uint32_t part) const;
   const std::vector<ExactPlane>& planes_of(const AreaSolids::Volume& volume);
+  /// shadow_planes() in scene units, and rational.
+  const std::vector<space::HalfSpace>& shadow(std::uint32_t part) const;
 
   bool is_apart(const Piece& piece, const std::vector<space::HalfSpace>& bounds) const {
     return piece.is_apart(bounds, 1e-6 * diagonal_);
@@ -82,10 +84,7 @@ class LightVolumes {
   mutable std::vector<std::optional<Solid>> solids_;  // by part
   std::vector<LightStanding> standings_;              // by part, without an area
   std::optional<AreaSolids> area_;
-  std::optional<LightIndex> index_;  // without an area
-  /// The same in scene units, and rational.
-  const std::vector<space::HalfSpace>& shadow(std::uint32_t part) const;
-
+  std::optional<LightIndex> index_;                             // without an area
   mutable std::vector<std::vector<ExactPlane>> shadow_planes_;  // by part
   mutable std::vector<std::vector<space::HalfSpace>> shadows_;  // by part
   std::unordered_map<const AreaSolids::Volume*, std::vector<ExactPlane>> volume_planes_;

@@ -7,7 +7,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -118,6 +120,11 @@ class WitnessChecker {
   void check_exact_tiling(Family& family, std::vector<Piece>& pieces);
   void check_exact_overlaps(Family& family, std::vector<Piece>& pieces);
   bool overlap(Piece& a, Piece& b, const Family& family) const;
+  /// All of a piece is on the outer side of the wall that the line is of, or on it.
+  bool is_outside(const Piece& piece, const PlanarLine& line, const space::HalfSpace& wall,
+                  const Family& family) const;
+  bool is_inside(const Piece& piece, const PlanarLine& line, const space::HalfSpace& wall,
+                 const Family& family) const;
   void check_exact_piece(Family& family, const Piece& piece);
   void check_exact_lit(Family& family, const Piece& piece);
   void check_exact_shade(Family& family, const Piece& piece);
@@ -147,7 +154,7 @@ class WitnessChecker {
   bool is_seen_roughly(Family& family, const FlatPiece& piece);
   /// What of loops no part of the caster hides.
   void check_hidden(Family& family, const FlatPiece& piece, Loops loops, std::uint32_t caster,
-                    Shades& shades, const std::string& text);
+                    Shades& shades, const std::function<std::string()>& text);
   std::array<Loops, 4> loops_of_classes(Family& family, const PlanarLoop& loop);  // by LightState
   void check_rounded_classes(Family& family, const FlatPiece& piece, const ClassSet& allowed,
                              const std::vector<FlatPiece>& pieces);

@@ -141,6 +141,19 @@ void WitnessChecker::check_exact_tiling(Family& family, std::vector<Piece>& piec
   }
   for (Piece& piece : pieces) {
     sum += piece.area;
+    const auto holds_piece = [&](std::size_t p) {
+      const std::vector<PlanarLine>& lines = family.shades.lines()[p];
+      const Solid& solid = light_->solid(family.parts[p]);
+      // Lines and walls of a part that looks the other way are in another order.
+      if (lines.size() != solid.walls.size() || family.shades.is_turned(p)) return false;
+      for (std::size_t w = 0; w < lines.size(); ++w) {
+        if (!is_inside(piece, lines[w], solid.walls[w], family)) return false;
+      }
+      return true;
+    };
+    if (std::ranges::any_of(std::views::iota(std::size_t{0}, family.parts.size()), holds_piece)) {
+      continue;
+    }
     mpq_class inside;
     for (const std::uint32_t part : family.parts) {
       Loop rest = piece.loop;
@@ -158,15 +171,46 @@ void WitnessChecker::check_exact_tiling(Family& family, std::vector<Piece>& piec
   }
 }
 
+bool WitnessChecker::is_outside(const Piece& piece, const PlanarLine& line, const HalfSpace& wall,
+                                const Family& family) const {
+  const long double error = family.shades.error();
+  if (std::ranges::any_of(piece.flat,
+                          [&](const PlanarPoint& p) { return !(line.at(p) <= error); })) {
+    return false;
+  }
+  for (std::size_t i = 0; i < piece.flat.size(); ++i) {
+    if (!(line.at(piece.flat[i]) < -error) && wall.value(piece.vertex_at(i)) > 0) return false;
+  }
+  return true;
+}
+
+bool WitnessChecker::is_inside(const Piece& piece, const PlanarLine& line, const HalfSpace& wall,
+                               const Family& family) const {
+  const long double error = family.shades.error();
+  if (std::ranges::any_of(piece.flat,
+                          [&](const PlanarPoint& p) { return !(line.at(p) >= -error); })) {
+    return false;
+  }
+  for (std::size_t i = 0; i < piece.flat.size(); ++i) {
+    if (!(line.at(piece.flat[i]) > error) && wall.value(piece.vertex_at(i)) < 0) return false;
+  }
+  return true;
+}
+
 bool WitnessChecker::overlap(Piece& a, Piece& b, const Family& family) const {
   const RationalPoint& normal = light_->solid(family.parts.front()).normal;
-  const auto beyond = [&](const Piece& own, const Piece& other) {
-    return std::ranges::any_of(own.flat_lines, [&](const PlanarLine& line) {
-      return std::ranges::all_of(
-          other.flat, [&](const PlanarPoint& p) { return line.at(p) < -family.shades.error(); });
-    });
+  const auto beyond = [&](Piece& own, const Piece& other) {
+    const std::vector<HalfSpace>& walls = own.walls_of(normal);
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      const PlanarLine line = own.line_of(i);
+      if (is_outside(other, line, walls[i], family)) return true;
+    }
+    return false;
   };
-  if (beyond(a, b) || beyond(b, a)) return false;
+  if (a.walls_of(normal).size() == a.loop.size() && b.walls_of(normal).size() == b.loop.size() &&
+      (beyond(a, b) || beyond(b, a))) {
+    return false;
+  }
   Loop rest = a.loop;
   for (const HalfSpace& wall : b.walls_of(normal)) {
     rest = cut(rest, wall);
@@ -203,7 +247,12 @@ void WitnessChecker::check_exact_piece(Family& family, const Piece& piece) {
 
 void WitnessChecker::check_exact_lit(Family& family, const Piece& piece) {
   for (const Shade* shade : family.shades.partly().near(piece.flat_box)) {
-    if (shade->is_apart(piece.flat, family.shades.error())) continue;
+    const std::vector<HalfSpace>& bounds = light_->shadow(shade->part);
+    bool apart = shade->is_apart(piece.flat, family.shades.error());
+    for (std::size_t i = 0; i < shade->lines.size() && !apart; ++i) {
+      apart = is_outside(piece, shade->lines[i], bounds[shade->bounds[i]], family);
+    }
+    if (apart) continue;
     if (light_->shadowed_by(piece, shade->part) > 0) {
       return violation(family.polygon.id,
                        fmt::format("a lit fragment is shadowed by '{}'", id_of(shade->part)),
@@ -234,8 +283,13 @@ void WitnessChecker::check_exact_shade(Family& family, const Piece& piece) {
   if (!caster) return;
   if (faces) {
     for (const Shade* shade : family.shades.partly().near(piece.flat_box)) {
-      const bool own = prepared_.parts[shade->part].polygon == *caster;
-      if (own && shade->is_around(piece.flat, family.shades.error())) return;
+      if (prepared_.parts[shade->part].polygon != *caster) continue;
+      const std::vector<HalfSpace>& bounds = light_->shadow(shade->part);
+      bool around = true;
+      for (std::size_t i = 0; i < shade->lines.size() && around; ++i) {
+        around = is_inside(piece, shade->lines[i], bounds[shade->bounds[i]], family);
+      }
+      if (around) return;
     }
   }
   if (area_along(light_->solid(piece.part).normal, light_->not_shadowed(piece, *caster)) > 0) {

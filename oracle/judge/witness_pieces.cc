@@ -122,9 +122,17 @@ void Piece::measure(const RationalPoint& normal) {
 void Piece::lay(const PlaneFrame& frame) {
   flat = frame.loop_at(loop);
   // A loop may turn the other way than the frame's plane.
-  if (area_of(flat) < 0) std::ranges::reverse(flat);
+  flat_turned_ = area_of(flat) < 0;
+  if (flat_turned_) std::ranges::reverse(flat);
   flat_lines = lines_of(flat);
   flat_box = box_of(flat);
+}
+
+PlanarLine Piece::line_of(std::size_t edge) const {
+  const std::size_t size = flat.size();
+  // Edge i runs from vertex i to the next; turned, it starts where it ended.
+  const std::size_t from = flat_turned_ ? (2 * size - 2 - edge) % size : edge;
+  return line_through(flat[from], flat[(from + 1) % size]);
 }
 
 bool Piece::overlaps_box_of(const Piece& other) const {

@@ -69,6 +69,12 @@ struct Piece {
   Piece(std::uint32_t of_part, space::Loop own, const RationalPoint& normal);
 
   void lay(const PlaneFrame& frame);
+  /// The line of an edge of the loop in the frame, with the piece inside.
+  PlanarLine line_of(std::size_t edge) const;
+  /// The vertex of the loop that a vertex of `flat` is of.
+  const RationalPoint& vertex_at(std::size_t flat_index) const {
+    return loop[flat_turned_ ? loop.size() - 1 - flat_index : flat_index];
+  }
   bool overlaps_box_of(const Piece& other) const;
   bool is_convex(const RationalPoint& normal) const;
   /// By doubles: clearly outside of one of the half-spaces, and so of what they bound.
@@ -81,6 +87,7 @@ struct Piece {
   void measure(const RationalPoint& normal);
 
   std::vector<space::HalfSpace> walls_;
+  bool flat_turned_ = false;
 };
 
 /// In scene units.

@@ -386,7 +386,8 @@ void WitnessChecker::check_rounded_lit(Family& family, const FlatPiece& piece, S
 }
 
 void WitnessChecker::check_hidden(Family& family, const FlatPiece& piece, Loops loops,
-                                  std::uint32_t caster, Shades& shades, const std::string& text) {
+                                  std::uint32_t caster, Shades& shades,
+                                  const std::function<std::string()>& text) {
   std::vector<Border> borders;
   for (const Shade* shade : shades.near(piece.box)) {
     if (prepared_.parts[shade->part].polygon != caster) continue;
@@ -394,7 +395,8 @@ void WitnessChecker::check_hidden(Family& family, const FlatPiece& piece, Loops 
     loops = without(std::move(loops), shade->lines);
     add_edges(borders, family.shades.region_of(*shade));
   }
-  add_error(family, piece, ErrorKind::kMisclassified, loops, text, std::move(borders));
+  if (loops.empty()) return;
+  add_error(family, piece, ErrorKind::kMisclassified, loops, text(), std::move(borders));
 }
 
 void WitnessChecker::check_rounded_shade(Family& family, const FlatPiece& piece) {
@@ -421,8 +423,9 @@ void WitnessChecker::check_rounded_shade(Family& family, const FlatPiece& piece)
   }
   const std::optional<std::uint32_t> caster = named_caster(family.polygon, piece.index);
   if (!caster) return;
-  check_hidden(family, piece, {piece.loop}, *caster, family.shades.partly(),
-               fmt::format("'{}' does not shadow all of the fragment", fragment.caster));
+  check_hidden(family, piece, {piece.loop}, *caster, family.shades.partly(), [&] {
+    return fmt::format("'{}' does not shadow all of the fragment", fragment.caster);
+  });
 }
 
 bool WitnessChecker::is_seen_roughly(Family& family, const FlatPiece& piece) {
@@ -482,9 +485,10 @@ void WitnessChecker::check_rounded_area_shade(Family& family, const FlatPiece& p
   PlanarLoop before = cut(piece.loop, half);
   if (before.empty()) return;
   check_hidden(family, piece, {std::move(before)}, *caster,
-               all ? family.shades.wholly() : family.shades.partly(),
-               fmt::format("'{}' does not hide {} of the light from all of the fragment",
-                           fragment.caster, all ? "all" : "part"));
+               all ? family.shades.wholly() : family.shades.partly(), [&] {
+                 return fmt::format("'{}' does not hide {} of the light from all of the fragment",
+                                    fragment.caster, all ? "all" : "part");
+               });
 }
 
 std::array<WitnessChecker::Loops, 4> WitnessChecker::loops_of_classes(Family& family,
