@@ -106,6 +106,7 @@ Expected<ClaimedPolygon> Reader::polygon(const Json& value, const std::string& p
     }
     return result;
   }
+  result.fragments.reserve((*fragments)->Size());
   for (rapidjson::SizeType i = 0; i < (*fragments)->Size(); ++i) {
     Expected<ClaimedFragment> own =
         fragment((**fragments)[i], fmt::format("{}/fragments/{}", pointer, i));
@@ -197,6 +198,7 @@ Expected<ClaimedLight> Reader::light(const Json& value, const ClaimedLight& for_
   }
   const Expected<const Json*> polygons = fields_.list(value, "polygons", true, pointer);
   if (!polygons) return tl::unexpected(polygons.error());
+  result.polygons.reserve((*polygons)->Size());
   for (rapidjson::SizeType i = 0; i < (*polygons)->Size(); ++i) {
     Expected<ClaimedPolygon> own =
         polygon((**polygons)[i], fmt::format("{}/polygons/{}", pointer, i));

@@ -25,7 +25,7 @@ struct VerifyOptions {
   std::string result;
   double tolerance = 1e-9;
   std::optional<double> width;
-  bool subset = false;
+  bool subset = false, strict = false;
   std::string json;
 };
 
@@ -55,7 +55,10 @@ std::string findings_text(const VerifyOptions& options, const oracle::WitnessRep
   text +=
       wrapped(options.result + ": " + grouped(report.polygons) + " polygon sides, " +
                   grouped(report.fragments) + " fragments (" + grouped(report.exact_fragments) +
-                  " with exact loops), " + grouped(report.witnesses) + " witnesses checked: " +
+                  " with exact loops), " + grouped(report.witnesses) + " witnesses checked" +
+                  (report.rounded > 0 ? ", " + grouped(report.rounded) + " errors that are rounding"
+                                      : std::string()) +
+                  ": " +
                   (report.interrupted       ? "interrupted"
                    : report.violations == 0 ? "every claim holds"
                                             : grouped(report.violations) + " claims do not hold"),
@@ -74,6 +77,7 @@ void write_findings_json(report::TextSink& sink, const oracle::WitnessReport& re
   json.member("fragments", report.fragments);
   json.member("exact_fragments", report.exact_fragments);
   json.member("witnesses", report.witnesses);
+  json.member("rounding", report.rounded);
   json.member("violations", report.violations);
   json.key("findings");
   json.begin_array();
@@ -103,6 +107,7 @@ int run_verify(const VerifyOptions& options) {
   oracle::WitnessOptions witness_options;
   witness_options.tolerance = options.tolerance;
   witness_options.width = options.width;
+  witness_options.strict = options.strict;
   // Lights left out by --light are not missed.
   witness_options.subset = options.subset || !options.scene.lights.empty();
   witness_options.progress = progress.callback();
@@ -134,7 +139,7 @@ void add_verify_command(CLI::App& app, Action& action) {
       *app.add_subcommand("verify", "Check a result's own claims: tiling, witnesses, fractions");
   command.footer(
       "With code that shares nothing with the algorithms; exactly where the result has exact "
-      "loops.\n\n"
+      "loops.\nWhere it has none, what the rounding of vertices to doubles explains is excused.\n\n"
       "Example:\n"
       "  gnomon shadows room.json --exact-loops --exact-fractions -o room.result.json\n"
       "  gnomon verify room.json room.result.json");
@@ -144,16 +149,18 @@ void add_verify_command(CLI::App& app, Action& action) {
       ->type_name("FILE");
   command
       .add_option("--tolerance", options->tolerance,
-                  "Share of a polygon that rounded loops may be off")
+                  "Share of a polygon that rounded loops may be wrong about")
       ->check(not_negative())
       ->type_name("F")
       ->default_str("1e-9");
   command
       .add_option("--width", options->width,
-                  "How far off its plane a rounded vertex may be, scene units "
+                  "How wide that may be, and how far off its plane a vertex, scene units "
                   "[1e-9 of the scene's diagonal]")
       ->check(not_negative())
       ->type_name("W");
+  command.add_flag("--strict", options->strict,
+                   "Rounded loops are judged as if they were exact: nothing is rounding");
   command.add_flag("--subset", options->subset, "Lights and polygons may be missing");
   command.add_option("--json", options->json, "Write the findings as JSON; - is standard output")
       ->type_name("FILE");

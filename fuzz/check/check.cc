@@ -141,12 +141,14 @@ class SceneCheck {
   }
   bool is_left_out(Property property) const {
     return property == Property::kClaims || property == Property::kRoundTrip ||
+           property == Property::kWritten ||
            (property == Property::kMetamorphic && (options_.seed >> 48) % 2 != 0);
   }
   bool wanted(Property property) const {
-    if (options_.brief && is_left_out(property)) return false;
-    return options_.properties.empty() ||
-           std::ranges::find(options_.properties, property) != options_.properties.end();
+    if (options_.properties.empty()) return !(options_.brief && is_left_out(property));
+    // Of those that somebody named, only the relation is left to every other scene.
+    if (options_.brief && property == Property::kMetamorphic && is_left_out(property)) return false;
+    return std::ranges::find(options_.properties, property) != options_.properties.end();
   }
   void add(Failure failure) {
     if (failure.property == Property::kCrash || wanted(failure.property)) {
@@ -199,6 +201,7 @@ class SceneCheck {
     if (subject.foreign()) return check_foreign(subject, name);
     ShadowOptions options = shadow_options(subject);
     options.limits.fragments = options_.max_fragments;
+    options.output.points = subject.exact() && wanted(Property::kWritten);
     Expected<ShadowResult> result = compute_shadows(*prepared_, options, subject.mistake);
     if (!result) return add_error(result.error(), name);
     if (report_.fragments == 0) {
@@ -218,6 +221,9 @@ class SceneCheck {
     judge(subject, classified.claims, name);
     // A file without fragments is no result that could be read back.
     if (is_first && fragments && wanted(Property::kRoundTrip)) check_result_text(classified, name);
+    if (subject.exact() && fragments && wanted(Property::kWritten)) {
+      check_written_doubles(classified, name);
+    }
     if (is_first) first_ = std::move(classified.result);
   }
 
@@ -329,6 +335,7 @@ class SceneCheck {
     oracle::WitnessOptions options;
     options.tolerance = must_be_exact ? 0 : options_.tolerance;
     options.width = must_be_exact ? std::optional(0.0) : options_.width;
+    options.strict = must_be_exact;
     options.most = 1;
     const oracle::WitnessReport checked =
         oracle::check_witnesses(scene_, *prepared_, candidate, options);
@@ -444,6 +451,42 @@ class SceneCheck {
         return differ("light " + a.id + ", polygon " + a.polygons[i].id + ": " + difference +
                       " read back otherwise");
       }
+    }
+  }
+
+  /// What a person does: a file of doubles, read by both judges, which excuse what rounding does to
+  /// it and nothing else.
+  void check_written_doubles(const Classified& classified, const std::string& name) {
+    tell("doubles of " + name);
+    report::StringSink sink;
+    report::ResultJsonOptions options;
+    options.geometry_digest = "sha256:0";
+    options.fragments = options.exact_fractions = true;
+    options.sides = &classified.sides;
+    report::write_result_json(sink, scene_, *prepared_, classified.result, options);
+    const Expected<Claims> read = parse_claims(sink.text(), "result.json", scene_);
+    if (!read) {
+      return add({Property::kWritten, name, "unreadable", {}, {}, to_string(read.error())});
+    }
+    const Expected<oracle::Report> report = judged_->judge(*read, {});
+    if (!report) return add_error(report.error(), name);
+    if (report->verdict == oracle::Verdict::kFailed) {
+      Failure failure{Property::kWritten, name, "certify", {}, {}, report->reason};
+      failure.text += "; " + report->excess;
+      if (report->worst) {
+        failure.light = report->worst->light;
+        failure.polygon = report->worst->polygon;
+      }
+      failure.width = report->totals.width.upper;
+      failure.share = worst_share(report->totals);
+      add(std::move(failure));
+    }
+    oracle::WitnessOptions witness_options;
+    witness_options.most = 1;
+    const oracle::WitnessReport checked =
+        oracle::check_witnesses(scene_, *prepared_, *read, witness_options);
+    for (const oracle::WitnessFinding& finding : checked.findings) {
+      add({Property::kWritten, name, "verify", finding.light, finding.polygon, finding.text});
     }
   }
 

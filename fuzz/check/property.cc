@@ -24,6 +24,8 @@ constexpr std::array kProperties = {
     PropertyInfo{Property::kPreparation, "preparation",
                  "the prepared scene is what the definitions say"},
     PropertyInfo{Property::kSelf, "oracle-itself", "the oracle does not contradict itself"},
+    PropertyInfo{Property::kWritten, "written-doubles",
+                 "an exact result, written as doubles and read back, passes verify and certify"},
 };
 
 }  // namespace

@@ -25,6 +25,7 @@ enum class Property : std::uint8_t {
   kRoundTrip,    // scene and result read back as they were written
   kPreparation,  // the prepared scene is what the definitions say
   kSelf,         // the oracle does not contradict itself
+  kWritten,      // exact results written as doubles and read back pass every judge
 };
 
 struct PropertyInfo {

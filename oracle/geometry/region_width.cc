@@ -154,13 +154,107 @@ SlabDirection best_direction(const std::vector<Planar>& edges) {
   return best;
 }
 
+/// The boundary's edges of a region, turned so that slabs are upright, and the region between them
+/// as trapezoids, slab by slab.
+class SlabCut {
+ public:
+  explicit SlabCut(SlabDirection direction = {}) : direction_(direction) {}
+
+  void add(BoundaryEdge edge);
+  const std::vector<BoundaryEdge>& edges() const { return edges_; }
+  SlabDirection direction() const { return direction_; }
+  /// Calls `use(below, above, low_x, high_x, middle_x, middle_y)` for each; it returns false to
+  /// stop.
+  template <class Use>
+  void cut(const Use& use);
+
+ private:
+  template <class Use>
+  bool cut_slab(const std::vector<std::size_t>& crossing, const ChartPoint& from,
+                const ChartPoint& to, const Use& use);
+
+  SlabDirection direction_;
+  std::vector<BoundaryEdge> edges_;
+};
+
+void SlabCut::add(BoundaryEdge edge) {
+  edge.left = direction_.turn(edge.left);
+  edge.right = direction_.turn(edge.right);
+  if (compare(edge.left, edge.right) > 0) std::swap(edge.left, edge.right);
+  edge.line = line_through(edge.left, edge.right);
+  edges_.push_back(std::move(edge));
+}
+
+template <class Use>
+void SlabCut::cut(const Use& use) {
+  std::vector<ChartPoint> stops;  // where slabs begin and end
+  for (const BoundaryEdge& edge : edges_) {
+    stops.push_back(edge.left);
+    stops.push_back(edge.right);
+  }
+  const auto before_x = [](const ChartPoint& p, const ChartPoint& q) {
+    return compare_x(p, q) < 0;
+  };
+  std::sort(stops.begin(), stops.end(), before_x);
+  stops.erase(
+      std::unique(stops.begin(), stops.end(),
+                  [](const ChartPoint& p, const ChartPoint& q) { return compare_x(p, q) == 0; }),
+      stops.end());
+  std::sort(edges_.begin(), edges_.end(),
+            [&](const BoundaryEdge& p, const BoundaryEdge& q) { return before_x(p.left, q.left); });
+  std::vector<std::size_t> active;
+  std::size_t next = 0;
+  for (std::size_t s = 0; s + 1 < stops.size(); ++s) {
+    const ChartPoint& from = stops[s];
+    std::erase_if(active, [&](std::size_t e) { return compare_x(edges_[e].right, from) <= 0; });
+    while (next < edges_.size() && compare_x(edges_[next].left, from) <= 0) {
+      if (compare_x(edges_[next].right, from) > 0) active.push_back(next);
+      ++next;
+    }
+    if (!cut_slab(active, from, stops[s + 1], use)) return;
+  }
+}
+
+/// Between each two edges that cross the slab.
+template <class Use>
+bool SlabCut::cut_slab(const std::vector<std::size_t>& crossing, const ChartPoint& from,
+                       const ChartPoint& to, const Use& use) {
+  mpq_class low_x(from.x, from.w), high_x(to.x, to.w);
+  low_x.canonicalize();
+  high_x.canonicalize();
+  const mpq_class middle_x = (low_x + high_x) / 2;
+  std::vector<std::pair<mpq_class, std::size_t>> across;
+  for (std::size_t e : crossing) across.emplace_back(height_at(edges_[e].line, middle_x), e);
+  std::sort(across.begin(), across.end());
+  for (std::size_t i = 0; i + 1 < across.size(); i += 2) {
+    const mpq_class middle_y = (across[i].first + across[i + 1].first) / 2;
+    if (!use(edges_[across[i].second], edges_[across[i + 1].second], low_x, high_x, middle_x,
+             middle_y)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// A point of a chart by its two coordinates.
+ChartPoint chart_point(const mpq_class& x, const mpq_class& y) {
+  const mpz_class w = lcm(x.get_den(), y.get_den());
+  ChartPoint point{x.get_num() * (w / x.get_den()), y.get_num() * (w / y.get_den()), w};
+  reduce(point);
+  return point;
+}
+
 class RegionMeasure {
  public:
   RegionMeasure(const Overlay& overlay, const ChartMetric& metric,
                 const std::vector<std::uint32_t>& boundary)
       : overlay_(overlay), metric_(metric), unit_(overlay.box_unit()) {
     read(boundary);
-    cut();
+    slabs_.cut([this](const BoundaryEdge& below, const BoundaryEdge& above, const mpq_class& low_x,
+                      const mpq_class& high_x, const mpq_class& middle_x,
+                      const mpq_class& middle_y) {
+      return add_trapezoid(below, above, low_x, high_x, middle_x, middle_y);
+    });
   }
 
   RegionShape shape(double resolution) {
@@ -184,14 +278,9 @@ class RegionMeasure {
     return Planar{metric_.a * u + metric_.b * v, metric_.c * v};
   }
 
-  /// The boundary's edges, turned so that slabs are upright, from left to right.
   void read(const std::vector<std::uint32_t>& boundary);
-  /// The region as trapezoids between its edges, slab by slab.
-  void cut();
-  /// Those of one slab, between each two edges that cross it.
-  void cut_slab(const std::vector<std::size_t>& crossing, const ChartPoint& from,
-                const ChartPoint& to);
-  void add_trapezoid(const BoundaryEdge& below, const BoundaryEdge& above, const mpq_class& low_x,
+  /// False once there are too many.
+  bool add_trapezoid(const BoundaryEdge& below, const BoundaryEdge& above, const mpq_class& low_x,
                      const mpq_class& high_x, mpq_class middle_x, mpq_class middle_y);
   /// Halves the pieces, widest first, until no disc can be much larger than the one found.
   double lower_bound(double fine);
@@ -200,9 +289,7 @@ class RegionMeasure {
   const ChartMetric& metric_;
   double unit_;
   mpz_class base_x_, base_y_;
-  std::vector<BoundaryEdge> edges_;
-  std::vector<ChartPoint> stops_;  // where slabs begin and end
-  SlabDirection direction_;
+  SlabCut slabs_;
   double size_ = 0;
   std::priority_queue<Piece> queue_;
   std::size_t made_ = 0;
@@ -219,72 +306,27 @@ void RegionMeasure::read(const std::vector<std::uint32_t>& boundary) {
     return planar(point.x, point.w, point.y, point.w);
   };
   std::vector<Planar> directions;
+  std::vector<BoundaryEdge> edges;
   for (std::uint32_t halfedge : boundary) {
     const ChartPoint& p = overlay_.point(overlay_.halfedges()[halfedge].origin);
     const ChartPoint& q = overlay_.point(overlay_.target(halfedge));
-    edges_.push_back({p, q, {}, planar_point(p), planar_point(q)});
-    const Planar &a = edges_.back().a, &b = edges_.back().b;
+    edges.push_back({p, q, {}, planar_point(p), planar_point(q)});
+    const Planar &a = edges.back().a, &b = edges.back().b;
     const double v = (b.y - a.y) / metric_.c;
     directions.push_back({(b.x - a.x - metric_.b * v) / metric_.a, v});
     size_ = std::max({size_, std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y)});
   }
-  direction_ = best_direction(directions);
-  for (BoundaryEdge& edge : edges_) {
-    edge.left = direction_.turn(edge.left);
-    edge.right = direction_.turn(edge.right);
-    if (compare(edge.left, edge.right) > 0) std::swap(edge.left, edge.right);
-    edge.line = line_through(edge.left, edge.right);
-    stops_.push_back(edge.left);
-    stops_.push_back(edge.right);
-  }
-  const auto before_x = [](const ChartPoint& p, const ChartPoint& q) {
-    return compare_x(p, q) < 0;
-  };
-  std::sort(stops_.begin(), stops_.end(), before_x);
-  stops_.erase(
-      std::unique(stops_.begin(), stops_.end(),
-                  [](const ChartPoint& p, const ChartPoint& q) { return compare_x(p, q) == 0; }),
-      stops_.end());
-  std::sort(edges_.begin(), edges_.end(),
-            [&](const BoundaryEdge& p, const BoundaryEdge& q) { return before_x(p.left, q.left); });
+  slabs_ = SlabCut(best_direction(directions));
+  for (BoundaryEdge& edge : edges) slabs_.add(std::move(edge));
 }
 
-void RegionMeasure::cut() {
-  std::vector<std::size_t> active;
-  std::size_t next = 0;
-  for (std::size_t s = 0; s + 1 < stops_.size() && complete_; ++s) {
-    const ChartPoint& from = stops_[s];
-    std::erase_if(active, [&](std::size_t e) { return compare_x(edges_[e].right, from) <= 0; });
-    while (next < edges_.size() && compare_x(edges_[next].left, from) <= 0) {
-      if (compare_x(edges_[next].right, from) > 0) active.push_back(next);
-      ++next;
-    }
-    cut_slab(active, from, stops_[s + 1]);
-  }
-}
-
-void RegionMeasure::cut_slab(const std::vector<std::size_t>& crossing, const ChartPoint& from,
-                             const ChartPoint& to) {
-  mpq_class low_x(from.x, from.w), high_x(to.x, to.w);
-  low_x.canonicalize();
-  high_x.canonicalize();
-  const mpq_class middle_x = (low_x + high_x) / 2;
-  std::vector<std::pair<mpq_class, std::size_t>> across;
-  for (std::size_t e : crossing) across.emplace_back(height_at(edges_[e].line, middle_x), e);
-  std::sort(across.begin(), across.end());
-  for (std::size_t i = 0; i + 1 < across.size(); i += 2) {
-    add_trapezoid(edges_[across[i].second], edges_[across[i + 1].second], low_x, high_x, middle_x,
-                  (across[i].first + across[i + 1].first) / 2);
-  }
-}
-
-void RegionMeasure::add_trapezoid(const BoundaryEdge& below, const BoundaryEdge& above,
+bool RegionMeasure::add_trapezoid(const BoundaryEdge& below, const BoundaryEdge& above,
                                   const mpq_class& low_x, const mpq_class& high_x,
                                   mpq_class middle_x, mpq_class middle_y) {
   Piece piece;
   const auto corner = [&](const BoundaryEdge& edge, mpq_class x) {
     mpq_class y = height_at(edge.line, x);
-    direction_.turn_back(x, y);
+    slabs_.direction().turn_back(x, y);
     return planar(x.get_num(), x.get_den(), y.get_num(), y.get_den());
   };
   piece.corners = {corner(below, low_x), corner(below, high_x), corner(above, high_x),
@@ -299,30 +341,28 @@ void RegionMeasure::add_trapezoid(const BoundaryEdge& below, const BoundaryEdge&
   const double area_like = std::min(piece.upper, apart(1, 0));
   if (area_like > widest_) {
     widest_ = area_like;
-    direction_.turn_back(middle_x, middle_y);
-    const mpz_class w = lcm(middle_x.get_den(), middle_y.get_den());
-    interior_ = {middle_x.get_num() * (w / middle_x.get_den()),
-                 middle_y.get_num() * (w / middle_y.get_den()), w};
-    reduce(interior_);
+    slabs_.direction().turn_back(middle_x, middle_y);
+    interior_ = chart_point(middle_x, middle_y);
   }
   queue_.push(piece);
   if (++made_ > kMostTrapezoids) complete_ = false;
+  return complete_;
 }
 
 double RegionMeasure::lower_bound(double fine) {
-  const std::size_t most_steps = std::min(kMostSteps, 600 + kStepsAnEdge * edges_.size());
+  const std::size_t most_steps = std::min(kMostSteps, 600 + kStepsAnEdge * slabs_.edges().size());
   double lower = 0;
   for (std::size_t step = 0; step < most_steps && !queue_.empty(); ++step) {
     Piece piece = queue_.top();
     if (piece.upper <= std::max(lower * kCloseEnough, fine)) break;
     queue_.pop();
     if (!piece.refined) {
-      for (const BoundaryEdge& edge : edges_) {
+      for (const BoundaryEdge& edge : slabs_.edges()) {
         piece.upper = std::min(piece.upper, farthest(piece, edge));
       }
       const Planar centre = centre_of(piece);
       double radius = std::numeric_limits<double>::infinity();
-      for (const BoundaryEdge& edge : edges_) {
+      for (const BoundaryEdge& edge : slabs_.edges()) {
         radius = std::min(radius, distance(centre, edge.a, edge.b));
       }
       lower = std::max(lower, radius);
@@ -340,6 +380,30 @@ double RegionMeasure::lower_bound(double fine) {
 RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
                            const std::vector<std::uint32_t>& boundary, double resolution) {
   return RegionMeasure(overlay, metric, boundary).shape(resolution);
+}
+
+std::vector<std::vector<ChartPoint>> trapezoids_of(const Overlay& overlay,
+                                                   const std::vector<std::uint32_t>& boundary) {
+  SlabCut slabs;
+  for (const std::uint32_t halfedge : boundary) {
+    slabs.add({overlay.point(overlay.halfedges()[halfedge].origin),
+               overlay.point(overlay.target(halfedge)),
+               {},
+               {},
+               {}});
+  }
+  std::vector<std::vector<ChartPoint>> trapezoids;
+  slabs.cut([&](const BoundaryEdge& below, const BoundaryEdge& above, const mpq_class& low_x,
+                const mpq_class& high_x, const mpq_class&, const mpq_class&) {
+    std::vector<ChartPoint> corners;
+    for (const auto& [edge, x] :
+         {std::pair{&below, &low_x}, {&below, &high_x}, {&above, &high_x}, {&above, &low_x}}) {
+      corners.push_back(chart_point(*x, height_at(edge->line, *x)));
+    }
+    trapezoids.push_back(std::move(corners));
+    return trapezoids.size() < kMostTrapezoids;
+  });
+  return trapezoids;
 }
 
 }  // namespace gnomon::oracle

@@ -32,6 +32,10 @@ struct RegionShape {
 RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
                            const std::vector<std::uint32_t>& boundary, double resolution);
 
+/// The region between such halfedges as convex pieces: trapezoids with two sides along y.
+std::vector<std::vector<ChartPoint>> trapezoids_of(const Overlay& overlay,
+                                                   const std::vector<std::uint32_t>& boundary);
+
 }  // namespace gnomon::oracle
 
 #endif  // GNOMON_ORACLE_GEOMETRY_REGION_WIDTH_H

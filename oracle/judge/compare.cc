@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <ranges>
 
 #include "oracle/answer/deep_umbra.h"
 #include "oracle/answer/truth_overlay.h"
@@ -15,6 +16,7 @@
 #include "oracle/geometry/region_width.h"
 #include "oracle/judge/cells.h"
 #include "oracle/judge/clearance.h"
+#include "oracle/judge/rounding_cells.h"
 #include "oracle/judge/share_check.h"
 #include "oracle/judge/told_share_check.h"
 
@@ -102,7 +104,7 @@ class GroupComparison {
 
   struct Shares {
     AreaShare lit, shadow, penumbra, umbra, missing_umbra, misclassified, uncovered, overlapping,
-        outside, ill_conditioned;
+        outside, ill_conditioned, rounding;
     AreaShare judged_misclassified, judged_uncovered, judged_overlapping, judged_outside;
   };
   const Shares& shares() const { return shares_; }
@@ -112,7 +114,13 @@ class GroupComparison {
   Layer layer_of(LightState shade) const { return gnomon::oracle::layer_of(shade, rules_.area); }
   std::vector<Cell> read_cells() const;
   void add_deep_umbra();
-  void examine_regions(const std::vector<Cell>& cells, std::vector<bool>& ill_conditioned);
+  /// What excuses a cell's error.
+  struct Excuses {
+    std::vector<bool> ill_conditioned, rounding;
+  };
+  void examine_regions(const std::vector<Cell>& cells, Excuses& excuses);
+  /// Keeps the widest, those that count before those that are excused.
+  void keep(ErrorRegion region);
   ErrorRegion examine(const std::vector<std::uint32_t>& faces,
                       const std::vector<std::uint32_t>& boundary, const std::vector<Cell>& cells);
   void describe(Witness& witness, const Cell& cell, const ChartPoint& point) const;
@@ -136,21 +144,37 @@ class GroupComparison {
   Rules rules_;
   const ComparisonOptions& options_;
   PolygonComparison& result_;
+  const PlaneFrame& frame() {
+    if (!frame_) {
+      frame_.emplace(answer_.prepared().geometry,
+                     grid_loop(answer_.prepared(), group_.parts.front()));
+    }
+    return *frame_;
+  }
+
   GroupOverlay overlay_;
+  std::optional<PlaneFrame> frame_;  // made when first asked for
   std::vector<ProjectedFragment> fragments_;
+  RoundingCells::Edges claimed_edges_;
   Shares shares_;
 };
 
 void GroupComparison::add(const ClaimedFragment& fragment) {
   const Geometry& geometry = answer_.prepared().geometry;
   const Chart& chart = overlay_.chart();
-  Enclosure most;
+  Enclosure most, judged;
   const auto projected_loop = [&](const RationalLoop& points) {
     std::vector<ChartPoint> loop;
     for (const RationalPoint& point : points) {
       const HomogeneousPoint place = to_grid(geometry, point);
       const mpz_class value = value_at(chart.support(), place);
-      if (value != 0) most = greater_of(most, enclose_ratio(value, place.w));
+      if (value != 0) {
+        const Enclosure own = enclose_ratio(value, place.w);
+        most = greater_of(most, own);
+        const bool excused = result_.rounding_radius > 0 &&
+                             is_rounding(std::fabs(frame().height(point)), result_.rounding_radius);
+        if (!excused) judged = greater_of(judged, own);
+      }
       loop.push_back(chart.project(place));
     }
     return loop;
@@ -161,8 +185,19 @@ void GroupComparison::add(const ClaimedFragment& fragment) {
   if (!most.is_zero()) {
     const Integers3& normal = chart.support().normal;
     const Enclosure length = enclose_square_root(mpq_class(dot(normal, normal)));
-    result_.off_plane = greater_of(result_.off_plane, most / length * enclose(geometry.step));
+    const auto in_scene = [&](Enclosure distance) {
+      return distance.is_zero() ? distance : distance / length * enclose(geometry.step);
+    };
+    result_.off_plane = greater_of(result_.off_plane, in_scene(most));
+    result_.judged_off_plane = greater_of(result_.judged_off_plane, in_scene(judged));
   }
+  const auto keep_edges = [&](const std::vector<ChartPoint>& points) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      claimed_edges_.emplace_back(points[i], points[(i + 1) % points.size()]);
+    }
+  };
+  keep_edges(loop);
+  for (const std::vector<ChartPoint>& hole : holes) keep_edges(hole);
   ProjectedFragment projected{&fragment, normalise(std::move(loop), holes)};
   if (projected.loop.crosses_itself) ++result_.self_crossing;
   const auto mark = terms_.cover == Cover::kOverlay ? static_cast<std::uint32_t>(fragments_.size())
@@ -186,9 +221,9 @@ void GroupComparison::compare() {
   }
   const std::vector<Cell> cells = read_cells();
   result_.t_vertices += overlay.t_vertices();
-  std::vector<bool> ill_conditioned(cells.size(), false);
+  Excuses excuses{std::vector<bool>(cells.size(), false), std::vector<bool>(cells.size(), false)};
   if (std::any_of(cells.begin(), cells.end(), [](const Cell& cell) { return cell.errs(); })) {
-    examine_regions(cells, ill_conditioned);
+    examine_regions(cells, excuses);
   }
   if (!group_.optional) {
     for (const LightState shade : kClasses) count_leaks(overlay, cells, shade, rules_, result_);
@@ -206,21 +241,24 @@ void GroupComparison::compare() {
   shares_.penumbra = truth(LightState::kPenumbra);
   shares_.umbra = truth(LightState::kUmbra);
   shares_.missing_umbra = share([](const Cell& cell, std::size_t) { return cell.missing_umbra; });
-  const bool some_ill =
-      std::find(ill_conditioned.begin(), ill_conditioned.end(), true) != ill_conditioned.end();
+  const auto is_excused = [&](std::size_t f) {
+    return excuses.ill_conditioned[f] || excuses.rounding[f];
+  };
+  const bool some_excused =
+      std::ranges::any_of(std::views::iota(std::size_t{0}, cells.size()), is_excused);
   const auto both = [&](bool Cell::*member, AreaShare& all, AreaShare& judged) {
     all = share([&](const Cell& cell, std::size_t) { return cell.*member; });
     judged = all;
-    if (!some_ill) return;
-    judged =
-        share([&](const Cell& cell, std::size_t f) { return cell.*member && !ill_conditioned[f]; });
+    if (!some_excused) return;
+    judged = share([&](const Cell& cell, std::size_t f) { return cell.*member && !is_excused(f); });
   };
   both(&Cell::misclassified, shares_.misclassified, shares_.judged_misclassified);
   both(&Cell::uncovered, shares_.uncovered, shares_.judged_uncovered);
   both(&Cell::overlapping, shares_.overlapping, shares_.judged_overlapping);
   both(&Cell::outside, shares_.outside, shares_.judged_outside);
   shares_.ill_conditioned =
-      share([&](const Cell&, std::size_t f) { return bool{ill_conditioned[f]}; });
+      share([&](const Cell&, std::size_t f) { return bool{excuses.ill_conditioned[f]}; });
+  shares_.rounding = share([&](const Cell&, std::size_t f) { return bool{excuses.rounding[f]}; });
 }
 
 std::vector<Cell> GroupComparison::read_cells() const {
@@ -268,8 +306,7 @@ void GroupComparison::add_deep_umbra() {
   }
 }
 
-void GroupComparison::examine_regions(const std::vector<Cell>& cells,
-                                      std::vector<bool>& ill_conditioned) {
+void GroupComparison::examine_regions(const std::vector<Cell>& cells, Excuses& excuses) {
   const Overlay& overlay = overlay_.overlay();
   const std::vector<std::uint32_t> region_of =
       connect(overlay,
@@ -285,6 +322,8 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells,
       boundaries[region_of[here]].push_back(h);
     }
   }
+  RoundingCells rounding(frame(), overlay_.chart(), overlay, claimed_edges_,
+                         result_.rounding_radius);
   for (std::size_t r = 0; r < faces.size(); ++r) {
     if (faces[r].empty()) continue;
     ++result_.regions;
@@ -292,19 +331,20 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells,
     result_.width = greater_of(result_.width, region.witness.width);
     if (region.ill_conditioned) {
       ++result_.ill_conditioned_regions;
-      for (std::uint32_t face : faces[r]) ill_conditioned[face] = true;
+      for (std::uint32_t face : faces[r]) excuses.ill_conditioned[face] = true;
     } else {
-      result_.judged_width = greater_of(result_.judged_width, region.witness.width);
+      region.rounding = true;
+      for (std::uint32_t face : faces[r]) {
+        excuses.rounding[face] = rounding.contains(face);
+        region.rounding = region.rounding && excuses.rounding[face];
+      }
+      if (region.rounding) {
+        ++result_.rounding_regions;
+      } else {
+        result_.judged_width = greater_of(result_.judged_width, region.witness.width);
+      }
     }
-    // Kept: the widest, those that count before those that are ill-conditioned.
-    const auto worse = [](const ErrorRegion& a, const ErrorRegion& b) {
-      if (a.ill_conditioned != b.ill_conditioned) return b.ill_conditioned;
-      return a.witness.width.middle() > b.witness.width.middle();
-    };
-    auto place = std::upper_bound(result_.worst.begin(), result_.worst.end(), region, worse);
-    if (place == result_.worst.end() && result_.worst.size() >= options_.most_regions) continue;
-    result_.worst.insert(place, std::move(region));
-    if (result_.worst.size() > options_.most_regions) result_.worst.pop_back();
+    keep(std::move(region));
   }
   for (ErrorRegion& region : result_.worst) {
     if (!region.witness.text.empty()) continue;
@@ -315,6 +355,17 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells,
     cell.truth = region.witness.truth.value_or(LightState::kLit);
     describe(region.witness, cell, point);
   }
+}
+
+void GroupComparison::keep(ErrorRegion region) {
+  const auto worse = [](const ErrorRegion& a, const ErrorRegion& b) {
+    if (a.excused() != b.excused()) return b.excused();
+    return a.witness.width.middle() > b.witness.width.middle();
+  };
+  auto place = std::upper_bound(result_.worst.begin(), result_.worst.end(), region, worse);
+  if (place == result_.worst.end() && result_.worst.size() >= options_.most_regions) return;
+  result_.worst.insert(place, std::move(region));
+  if (result_.worst.size() > options_.most_regions) result_.worst.pop_back();
 }
 
 ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
@@ -539,6 +590,12 @@ PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
   for (const ReceiverGroup& group : entry.groups) {
     charts.emplace_back(support_of(answer.prepared(), group.parts.front()));
   }
+  const auto is_exact = [](const ClaimedFragment& fragment) { return fragment.exact; };
+  if (!candidate || candidate->fragments.empty() ||
+      !std::ranges::all_of(candidate->fragments, is_exact)) {
+    result.rounding_radius =
+        static_cast<double>(rounding_radius(answer.scene(), answer.prepared(), entry.polygon));
+  }
   if (candidate) {
     result.fragments = candidate->fragments.size();
     for (const ClaimedFragment& fragment : candidate->fragments) {
@@ -557,6 +614,7 @@ PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
       {&Shares::overlapping, &PolygonComparison::overlapping},
       {&Shares::outside, &PolygonComparison::outside},
       {&Shares::ill_conditioned, &PolygonComparison::ill_conditioned},
+      {&Shares::rounding, &PolygonComparison::rounding},
       {&Shares::judged_misclassified, &PolygonComparison::judged_misclassified},
       {&Shares::judged_uncovered, &PolygonComparison::judged_uncovered},
       {&Shares::judged_overlapping, &PolygonComparison::judged_overlapping},

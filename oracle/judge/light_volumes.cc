@@ -12,17 +12,86 @@ using space::Loop;
 using space::without;
 
 LightVolumes::LightVolumes(const PreparedScene& scene, const PreparedLight& light, double diagonal)
-    : scene_(scene), diagonal_(diagonal), solids_(solids_of(scene, light)) {
-  if (!light.has_area()) return;
-  std::vector<const Loop*> loops;
-  for (const Solid& solid : solids_) loops.push_back(&solid.loop);
-  area_.emplace(scene, light, loops);
+    : scene_(scene), own_(light), diagonal_(diagonal), solids_(scene.parts.size()) {
+  const auto count = static_cast<std::uint32_t>(scene.parts.size());
+  if (light.has_area()) {
+    std::vector<const Loop*> loops;
+    for (std::uint32_t part = 0; part < count; ++part) loops.push_back(&solid(part).loop);
+    area_.emplace(scene, light, loops);
+    return;
+  }
+  std::vector<std::uint32_t> casters;
+  for (std::uint32_t part = 0; part < count; ++part) {
+    standings_.push_back(standing_of(scene, light, part));
+    if (standings_.back().casts) casters.push_back(part);
+  }
+  index_.emplace(scene, light, casters);
+  shadow_planes_.resize(count);
+  shadows_.resize(count);
+}
+
+const Solid& LightVolumes::solid(std::uint32_t part) const {
+  std::optional<Solid>& own = solids_[part];
+  if (!own) own = solid_of(scene_, part);
+  return *own;
+}
+
+const std::vector<HalfSpace>& LightVolumes::shadow(std::uint32_t part) const {
+  std::vector<HalfSpace>& bounds = shadows_[part];
+  if (!bounds.empty()) return bounds;
+  const std::vector<ExactPlane>& planes = shadow_planes(part);
+  const Loop& loop = solid(part).loop;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Integers3& normal = planes[i].normal;
+    bounds.emplace_back(RationalPoint{normal[0], normal[1], normal[2]}, loop[i == 0 ? 0 : i - 1]);
+  }
+  return bounds;
+}
+
+ExactPlane grid_plane(const Geometry& geometry, const HalfSpace& half) {
+  ExactPlane plane;
+  mpz_class common = 1;
+  for (const mpq_class& component : half.normal) common = lcm(common, component.get_den());
+  for (int k = 0; k < 3; ++k) {
+    plane.normal[k] = half.normal[k].get_num() * (common / half.normal[k].get_den());
+  }
+  const mpz_class factor = gcd(gcd(plane.normal[0], plane.normal[1]), plane.normal[2]);
+  if (factor > 1) {
+    for (mpz_class& component : plane.normal) component /= factor;
+  }
+  const HomogeneousPoint base = to_grid(geometry, half.base);
+  plane.offset = oracle::dot(plane.normal, base.xyz);
+  for (mpz_class& component : plane.normal) component *= base.w;
+  return plane;
+}
+
+namespace {
+
+std::vector<ExactPlane> grid_planes(const Geometry& geometry,
+                                    const std::vector<HalfSpace>& bounds) {
+  std::vector<ExactPlane> planes;
+  for (const HalfSpace& half : bounds) planes.push_back(grid_plane(geometry, half));
+  return planes;
+}
+
+}  // namespace
+
+const std::vector<ExactPlane>& LightVolumes::shadow_planes(std::uint32_t part) const {
+  std::vector<ExactPlane>& planes = shadow_planes_[part];
+  if (planes.empty()) planes = shadow_planes_of(scene_, own_, part, standings_[part].facing);
+  return planes;
+}
+
+const std::vector<ExactPlane>& LightVolumes::planes_of(const AreaSolids::Volume& volume) {
+  const auto [place, inserted] = volume_planes_.try_emplace(&volume);
+  if (inserted) place->second = grid_planes(scene_.geometry, volume.bounds);
+  return place->second;
 }
 
 bool LightVolumes::sees(std::uint32_t part, Side side) const {
   if (area_) return area_->sees(part, side);
-  const Solid& solid = solids_[part];
-  return solid.receives && (side == Side::kFront ? solid.facing > 0 : solid.facing < 0);
+  const LightStanding& own = standings_[part];
+  return own.receives && (side == Side::kFront ? own.facing > 0 : own.facing < 0);
 }
 
 std::vector<Loop> LightVolumes::not_shadowed(const Piece& piece,
@@ -30,26 +99,26 @@ std::vector<Loop> LightVolumes::not_shadowed(const Piece& piece,
   std::vector<Loop> rest{piece.loop};
   const std::uint32_t first = caster ? scene_.first_part[*caster] : 0;
   const auto last =
-      caster ? scene_.first_part[*caster + 1] : static_cast<std::uint32_t>(solids_.size());
+      caster ? scene_.first_part[*caster + 1] : static_cast<std::uint32_t>(scene_.parts.size());
   for (std::uint32_t part = first; part < last && !rest.empty(); ++part) {
-    const Solid& solid = solids_[part];
     // A part in the receiver's plane shadows nothing of it, and its shadow cuts nothing off.
-    if (!solid.casts || part == piece.part || solid.holds(solids_[piece.part])) continue;
-    if (is_apart(piece, solid.shadow)) continue;
-    rest = without(std::move(rest), solid.shadow);
+    if (!standings_[part].casts || part == piece.part || solid(part).holds(solid(piece.part))) {
+      continue;
+    }
+    if (is_apart(piece, shadow(part))) continue;
+    rest = without(std::move(rest), shadow(part));
   }
   return rest;
 }
 
 mpq_class LightVolumes::shadowed_by(const Piece& piece, std::uint32_t part) const {
-  const Solid& caster = solids_[part];
-  if (!caster.casts || part == piece.part) return 0;
+  if (!standings_[part].casts || part == piece.part) return 0;
   Loop rest = piece.loop;
-  for (const HalfSpace& half : caster.shadow) {
+  for (const HalfSpace& half : shadow(part)) {
     rest = cut(rest, half);
     if (rest.empty()) return 0;
   }
-  return area_along(solids_[piece.part].normal, rest);
+  return area_along(solid(piece.part).normal, rest);
 }
 
 std::vector<Loop> LightVolumes::before_light(const Piece& piece) const {
@@ -74,7 +143,7 @@ std::vector<Loop> LightVolumes::not_hidden(const Piece& piece, std::vector<Loop>
     for (std::size_t i = 0; i < volume.bounds.size(); ++i) {
       const HalfSpace& half = volume.bounds[i];
       // Umbra volumes are closed: what lies in one of their planes is inside of it.
-      if (!(all && i > 0 && solids_[piece.part].lies_in(half))) bounds.push_back(half);
+      if (!(all && i > 0 && solid(piece.part).lies_in(half))) bounds.push_back(half);
     }
     loops = without(std::move(loops), bounds);
   }
@@ -85,7 +154,7 @@ Loop LightVolumes::inside(const Piece& piece, const AreaSolids::Volume& volume, 
   Loop rest = cut(piece.loop, area_->before_light());
   for (std::size_t i = 0; i < volume.bounds.size() && !rest.empty(); ++i) {
     const HalfSpace& half = volume.bounds[i];
-    if (!(closed && i > 0 && solids_[piece.part].lies_in(half))) rest = cut(rest, half);
+    if (!(closed && i > 0 && solid(piece.part).lies_in(half))) rest = cut(rest, half);
   }
   return volume.empty ? Loop{} : rest;
 }
@@ -95,7 +164,7 @@ std::array<mpq_class, 4> LightVolumes::areas_of_classes(const Piece& piece, Side
   const auto area_of = [&](LightState state) -> mpq_class& {
     return areas[static_cast<std::size_t>(state)];
   };
-  const RationalPoint& normal = solids_[piece.part].normal;
+  const RationalPoint& normal = solid(piece.part).normal;
   const bool reached = sees(piece.part, side);
   if (!area_) {
     if (reached) area_of(LightState::kLit) = area_along(normal, not_shadowed(piece, std::nullopt));

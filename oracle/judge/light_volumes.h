@@ -11,24 +11,32 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "gnomon/kernel/sign.h"
 #include "gnomon/result/classes.h"
+#include "oracle/geometry/chart.h"
 #include "oracle/judge/witness_pieces.h"
 #include "oracle/visibility/area_solids.h"
+#include "oracle/visibility/light_index.h"
 
 namespace gnomon::oracle {
 
+/// A half-space on the grid, by a primitive normal if its base is on the grid.
+ExactPlane grid_plane(const Geometry& geometry, const space::HalfSpace& half);
+
 class LightVolumes {
  public:
-  /// Keeps a reference to the scene. `diagonal`: of its box, scene units.
+  /// Keeps references to both. `diagonal`: of its box, scene units.
   LightVolumes(const PreparedScene& scene, const PreparedLight& light, double diagonal);
   LightVolumes(const LightVolumes&) = delete;
   LightVolumes& operator=(const LightVolumes&) = delete;
 
-  const std::vector<Solid>& solids() const { return solids_; }
-  const Solid& solid(std::uint32_t part) const { return solids_[part]; }
+  /// Made when first asked for.
+  const Solid& solid(std::uint32_t part) const;
+  /// Requires: a point or directional light.
+  const LightStanding& standing(std::uint32_t part) const { return standings_[part]; }
   bool is_area() const { return area_.has_value(); }
   /// Requires: an area light.
   AreaSolids& area() { return *area_; }
@@ -53,15 +61,33 @@ class LightVolumes {
   /// The area of each class in a piece, along its normal: by one caster alone where it is umbra.
   std::array<mpq_class, 4> areas_of_classes(const Piece& piece, Side side);  // by LightState
 
+  /// Casting parts that may shadow some of a part, in order. Requires: a point or directional
+  /// light.
+  std::vector<std::uint32_t> overlapping(std::uint32_t part) const {
+    return index_->overlapping(part);
+  }
+  /// The bounds of what a part shadows, and of a volume of area(), on the grid: made when first
+  /// asked for.
+  const std::vector<ExactPlane>& shadow_planes(std::uint32_t part) const;
+  const std::vector<ExactPlane>& planes_of(const AreaSolids::Volume& volume);
+  /// shadow_planes() in scene units, and rational.
+  const std::vector<space::HalfSpace>& shadow(std::uint32_t part) const;
+
   bool is_apart(const Piece& piece, const std::vector<space::HalfSpace>& bounds) const {
     return piece.is_apart(bounds, 1e-6 * diagonal_);
   }
 
  private:
   const PreparedScene& scene_;
+  const PreparedLight& own_;
   double diagonal_;
-  std::vector<Solid> solids_;
+  mutable std::vector<std::optional<Solid>> solids_;  // by part
+  std::vector<LightStanding> standings_;              // by part, without an area
   std::optional<AreaSolids> area_;
+  std::optional<LightIndex> index_;                             // without an area
+  mutable std::vector<std::vector<ExactPlane>> shadow_planes_;  // by part
+  mutable std::vector<std::vector<space::HalfSpace>> shadows_;  // by part
+  std::unordered_map<const AreaSolids::Volume*, std::vector<ExactPlane>> volume_planes_;
 };
 
 }  // namespace gnomon::oracle

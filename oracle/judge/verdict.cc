@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <set>
@@ -54,6 +55,10 @@ class Certifier {
   void judge();
   void note_shares();
   bool fails(const PolygonComparison& comparison) const;
+  bool fails_beyond_rounding(const PolygonComparison& comparison) const;
+  bool is_off_plane(const PolygonComparison& comparison) const;
+  void tell_of_rounding();
+  std::string excess() const;
   void problem(std::string text) { report_.problems.push_back(std::move(text)); }
   /// "light 'sun'", and the block that tells of it if the lights' own does not.
   static std::string name_of_light(const ClaimedLight& light) {
@@ -270,12 +275,95 @@ void Certifier::compare_all() {
 
 bool Certifier::fails(const PolygonComparison& comparison) const {
   if (comparison.told_shares > 0) return !comparison.judged_misclassified.zero;
+  return fails_beyond_rounding(comparison) ||
+         (options_.strict && (!comparison.rounding.zero || comparison.off_plane.upper > 0));
+}
+
+bool Certifier::fails_beyond_rounding(const PolygonComparison& comparison) const {
   for (const AreaShare* share : {&comparison.judged_misclassified, &comparison.judged_uncovered,
                                  &comparison.judged_overlapping, &comparison.judged_outside}) {
     if (!share->zero && !(share->fraction.upper <= report_.tolerance)) return true;
   }
-  return !(comparison.judged_width.upper <= report_.width) ||
-         !(comparison.off_plane.upper <= report_.width);
+  return !(comparison.judged_width.upper <= report_.width) || is_off_plane(comparison);
+}
+
+bool Certifier::is_off_plane(const PolygonComparison& comparison) const {
+  return !(comparison.judged_off_plane.upper <= report_.width);
+}
+
+/// What a failed candidate cannot help, at the polygon that decided.
+void Certifier::tell_of_rounding() {
+  const PolygonComparison* worst = nullptr;
+  bool beyond = false;
+  for (const LightComparison& light : report_.lights) {
+    for (const PolygonComparison& own : light.polygons) {
+      if (!fails(own)) continue;
+      const bool own_beyond = fails_beyond_rounding(own);
+      const auto width = [](const PolygonComparison& of) { return of.judged_width.upper; };
+      if (!worst || (own_beyond && !beyond) ||
+          (own_beyond == beyond && width(own) > width(*worst))) {
+        worst = &own;
+      }
+      beyond = beyond || own_beyond;
+    }
+  }
+  if (!worst) return;
+  const double radius = worst->rounding_radius;
+  const std::string where = fmt::format("polygon '{}'", worst->polygon);
+  if (!beyond) {
+    report_.reason = fmt::format(
+        "failed by doubles' own rounding at this distance from the origin: all error is within "
+        "{:.3g} of a border on {}",
+        radius, where);
+    return;
+  }
+  // A few roundings, one after the other: what a computation in doubles comes to at best.
+  constexpr double kFew = 64;
+  if (!(radius > 0) || worst->judged_width.upper > kFew * radius) return;
+  report_.notes.push_back(fmt::format(
+      "doubles' own rounding at this distance from the origin is {:.3g} on {}: what is so near a "
+      "border is excused, error up to {:.3g} wide is not",
+      radius, where, worst->judged_width.upper));
+}
+
+/// The number that is too large, of the polygon side where it is so most.
+std::string Certifier::excess() const {
+  std::string text;
+  double worst = 0;
+  const auto weigh = [&](double value, double limit, const auto& words) {
+    if (value <= limit) return;
+    const double ratio = limit > 0 ? value / limit : std::numeric_limits<double>::infinity();
+    if (!text.empty() && !(ratio > worst)) return;
+    worst = ratio;
+    text = words();
+  };
+  for (const LightComparison& light : report_.lights) {
+    for (const PolygonComparison& own : light.polygons) {
+      if (!fails(own)) continue;
+      const std::string where =
+          fmt::format("light {}, polygon {} ({})", light.id, own.polygon, name_of(own.side));
+      for (const auto& [share, what] : {std::pair{&own.judged_misclassified, "is misclassified"},
+                                        {&own.judged_uncovered, "is not covered"},
+                                        {&own.judged_overlapping, "is covered more than once"},
+                                        {&own.judged_outside, "lies outside of it"}}) {
+        weigh(share->zero ? 0 : share->fraction.upper, report_.tolerance,
+              [&, what = what, share = share] {
+                return fmt::format("{}: {:.3g} of it {}, more than {:.3g}", where,
+                                   share->fraction.upper, what, report_.tolerance);
+              });
+      }
+      weigh(own.judged_width.upper, report_.width, [&] {
+        return fmt::format("{}: error {:.3g} wide, more than {:.3g}", where, own.judged_width.upper,
+                           report_.width);
+      });
+      if (!is_off_plane(own)) continue;
+      weigh(own.judged_off_plane.upper, report_.width, [&] {
+        return fmt::format("{}: a vertex {:.3g} off its plane, more than {:.3g}", where,
+                           own.judged_off_plane.upper, report_.width);
+      });
+    }
+  }
+  return text;
 }
 
 void Certifier::sum_up() {
@@ -309,6 +397,7 @@ void Certifier::sum_up() {
     totals.overlapping = totals.overlapping + own.overlapping.area;
     totals.outside = totals.outside + own.outside.area;
     totals.ill_conditioned = totals.ill_conditioned + own.ill_conditioned.area;
+    totals.rounding = totals.rounding + own.rounding.area;
     const auto raise = [](double& worst, const AreaShare& share) {
       worst = std::max(worst, share.fraction.upper);
     };
@@ -322,6 +411,8 @@ void Certifier::sum_up() {
     report_.told_shares += own.told_shares;
     totals.regions += own.regions;
     totals.ill_conditioned_regions += own.ill_conditioned_regions;
+    totals.rounding_regions += own.rounding_regions;
+    totals.rounding_radius = std::max(totals.rounding_radius, own.rounding_radius);
     totals.invented += own.invented;
     totals.lost += own.lost;
     totals.t_vertices += own.t_vertices;
@@ -355,8 +446,8 @@ void Certifier::judge() {
       identical = identical && own.misclassified.zero && own.uncovered.zero &&
                   own.overlapping.zero && own.outside.zero;
       within = within && !fails(own);
-      if (!(own.off_plane.upper <= report_.width) &&
-          (!off_plane || own.off_plane.upper > off_plane->off_plane.upper)) {
+      if (is_off_plane(own) &&
+          (!off_plane || own.judged_off_plane.upper > off_plane->judged_off_plane.upper)) {
         off_plane = &own;
       }
     }
@@ -397,8 +488,10 @@ void Certifier::judge() {
     }
     if (report_.reason.empty() && off_plane) {
       report_.reason = fmt::format("a vertex on polygon '{}' is {:.3g} off its plane",
-                                   off_plane->polygon, off_plane->off_plane.upper);
+                                   off_plane->polygon, off_plane->judged_off_plane.upper);
     }
+    report_.excess = excess();
+    tell_of_rounding();
   }
 }
 

@@ -4,273 +4,72 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <map>
 #include <ranges>
-#include <set>
 
-#include "gnomon/oracle/compare.h"
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/result/claimed_pieces.h"
 #include "gnomon/result/shared_claims.h"
 #include "oracle/geometry/group_overlay.h"
-#include "oracle/geometry/space_loop.h"
-#include "oracle/judge/light_volumes.h"
 #include "oracle/judge/share_check.h"
-#include "oracle/judge/witness_pieces.h"
+#include "oracle/judge/witness_checker.h"
 
 namespace gnomon::oracle {
 
+using space::area_along;
+
 namespace {
 
-using space::area_along;
-using space::cross;
-using space::cut;
-using space::dot;
-using space::HalfSpace;
-using space::Loop;
-using space::minus;
-
-class WitnessChecker {
- public:
-  WitnessChecker(const Scene& scene, const PreparedScene& prepared, const Claims& candidate,
-                 const WitnessOptions& options)
-      : scene_(scene),
-        prepared_(prepared),
-        candidate_(candidate),
-        options_(options),
-        tolerance_(options.tolerance) {
-    diagonal_ = scene_diagonal(prepared);
-    width_ = mpq_class(options.width.value_or(1e-9 * diagonal_));
-    for (std::uint32_t i = 0; i < scene.polygons.size(); ++i) {
-      polygon_index_.emplace(scene.polygons[i].id, i);
-    }
-  }
-
-  /// `problems`: that are known of the candidate.
-  WitnessReport run(const std::vector<std::string>& problems = {});
-
- private:
-  void violation(const std::string& polygon, std::string text,
-                 std::optional<std::uint64_t> fragment = {}) {
-    ++report_.violations;
-    if (report_.findings.size() < options_.most) {
-      report_.findings.push_back({light_id_, polygon, std::move(text), fragment, terms_.block});
-    }
-  }
-  /// Parts whose plane a result lists on this side, by family; and others it may list there.
-  std::map<PlaneId, std::vector<std::uint32_t>> families_on(std::uint32_t polygon, Side side,
-                                                            std::set<PlaneId>& optional) const;
-  std::vector<Side> listed_sides(std::uint32_t polygon) const;
-  void check_polygon(const ClaimedPolygon& polygon);
-  /// Of a polygon without fragments.
-  void check_share(const ClaimedPolygon& polygon, std::uint32_t index);
-  using Families = std::map<PlaneId, std::vector<std::uint32_t>>;
-  /// The family whose plane a fragment is nearest to.
-  struct Nearest {
-    const std::vector<std::uint32_t>* parts = nullptr;  // none if there are no families
-    PlaneId plane = 0;
-    mpq_class distance;   // squared
-    bool around = false;  // a part of it is around the fragment's middle
+bool all_loops_exact(const Claims& claims) {
+  bool some = false, all = true;
+  const auto look_at = [&](const ClaimedShape& shape) {
+    some = true;
+    all = all && shape.exact;
   };
-  Nearest nearest_family(const ClaimedFragment& fragment, const Families& families) const;
-  Nearest distance_to(const ClaimedFragment& fragment, PlaneId plane,
-                      const std::vector<std::uint32_t>& parts) const;
-  mpq_class allowed_distance(const ClaimedFragment& fragment) const {
-    return fragment.exact ? mpq_class(0) : mpq_class(width_ * width_);
-  }
-  /// A fragment in convex pieces; none, with the violation told, if it cannot be judged.
-  std::vector<Piece> pieces_of(const ClaimedPolygon& polygon, std::size_t index,
-                               const Nearest& family);
-  void check_family(const ClaimedPolygon& polygon, const std::vector<std::uint32_t>& parts,
-                    std::vector<Piece>& pieces);
-  void check_shade(const ClaimedPolygon& polygon, const Piece& piece, const mpq_class& slack);
-  void check_lit(const ClaimedPolygon& polygon, const Piece& piece, const mpq_class& slack);
-  /// `rest`: the area that no piece covers.
-  void check_fractions(const ClaimedPolygon& polygon, const std::vector<Piece>& pieces,
-                       const mpq_class& rest, const std::vector<std::uint32_t>& parts);
-  void check_area_shade(const ClaimedPolygon& polygon, const Piece& piece, const mpq_class& slack);
-  /// False, with the violation told, if a fragment that is not umbra sees less than it claims.
-  bool is_seen(const ClaimedPolygon& polygon, const Piece& piece, const mpq_class& slack);
-  bool area_reason_holds(const ClaimedPolygon& polygon, const Piece& piece, bool behind);
-  /// The caster that a fragment names; none, with the violation told, if the scene has none such.
-  std::optional<std::uint32_t> named_caster(const ClaimedPolygon& polygon, const Piece& piece);
-  using ClassSet = std::array<bool, 4>;  // by LightState
-  /// The classes that what no fragment covers may have; nothing if fragments must cover everything.
-  std::optional<ClassSet> left_out() const;
-  bool is_told(LightState state) const {
-    return !terms_.listed || std::ranges::find(*terms_.listed, state) != terms_.listed->end();
-  }
-  /// Of a piece without a witness: that every point of it has one of the classes.
-  void check_classes(const ClaimedPolygon& polygon, const Piece& piece, const ClassSet& allowed,
-                     const mpq_class& slack);
-  void check_piece(const ClaimedPolygon& polygon, const Piece& piece, const mpq_class& slack);
-  void check_tiling(const ClaimedPolygon& polygon, const std::vector<std::uint32_t>& parts,
-                    std::vector<Piece>& pieces, const mpq_class& slack);
-  void check_overlaps(const ClaimedPolygon& polygon, const RationalPoint& normal,
-                      std::vector<Piece>& pieces, const mpq_class& slack);
-  /// Lights, polygons and sides that are not there.
-  void check_claims(const Claims& claims, Block block);
-  void check_light(const ClaimedLight& light);
-  void check_missing(const std::set<std::string>& polygons,
-                     const std::set<std::pair<std::string, Side>>& sides);
-  bool stopped() {
-    report_.interrupted =
-        report_.interrupted ||
-        (options_.interrupted && options_.interrupted->load(std::memory_order_relaxed));
-    return report_.interrupted;
-  }
-  const std::string& id_of(std::uint32_t part) const {
-    return scene_.polygons[prepared_.parts[part].polygon].id;
-  }
-  const Scene& scene_;
-  const PreparedScene& prepared_;
-  const Claims& candidate_;
-  const WitnessOptions& options_;
-  mpq_class tolerance_, width_;
-  double diagonal_ = 0;
-  std::map<std::string, std::uint32_t> polygon_index_;
-  std::string light_id_;
-  std::optional<LightVolumes> light_;
-  ClaimedTerms terms_;  // of the light
-  // First part and side of the families whose tiling by shared fragments is judged: once each.
-  std::set<std::pair<std::uint32_t, Side>> tiled_;
-  std::size_t polygons_ = 0, polygons_done_ = 0;  // for the progress
-  WitnessReport report_;
-};
-
-bool WitnessChecker::is_seen(const ClaimedPolygon& polygon, const Piece& piece,
-                             const mpq_class& slack) {
-  const RationalPoint& normal = light_->solid(piece.part).normal;
-  const bool lit = piece.fragment->state == LightState::kLit;
-  const std::string name = name_of(piece.fragment->state);
-  const auto told = [&](std::string text) {
-    violation(polygon.id, std::move(text), piece.index);
-    return false;
-  };
-  if (!light_->sees(piece.part, polygon.side)) {
-    return told(fmt::format("a fragment is {} on a side that sees nothing of the light", name));
-  }
-  if (area_along(normal, cut(piece.loop, light_->area().behind_light())) > slack) {
-    return told(fmt::format("a {} fragment reaches behind the light", name));
-  }
-  for (std::size_t b = 0; b < light_->area().size() && (lit || terms_.per_caster_umbra); ++b) {
-    if (light_->area().part_of(b) == piece.part) continue;
-    if (light_->is_apart(piece, light_->area().largest_penumbra(b).bounds)) continue;
-    const AreaSolids::Volume& volume = lit ? light_->area().penumbra(b, piece.part, polygon.side)
-                                           : light_->area().umbra(b, piece.part, polygon.side);
-    if (!(area_along(normal, light_->inside(piece, volume, !lit)) > slack)) continue;
-    const std::string& caster = id_of(light_->area().part_of(b));
-    return told(lit ? fmt::format("a lit fragment is in the penumbra of '{}'", caster)
-                    : fmt::format("a penumbra fragment is in the umbra of '{}'", caster));
-  }
-  return true;
-}
-
-bool WitnessChecker::area_reason_holds(const ClaimedPolygon& polygon, const Piece& piece,
-                                       bool behind) {
-  if (piece.fragment->state != LightState::kUmbra) return false;
-  switch (shadow_reason_by_name(piece.fragment->reason).value_or(ShadowReason::kNone)) {
-    case ShadowReason::kBehindLight:
-      return behind;
-    case ShadowReason::kFacesAway:
-      return light_->area().faces_away(piece.part, polygon.side);
-    case ShadowReason::kLightInPlane:
-      return light_->area().light_in_plane(piece.part);
-    case ShadowReason::kNone:
-      break;
-  }
-  return false;
-}
-
-std::optional<std::uint32_t> WitnessChecker::named_caster(const ClaimedPolygon& polygon,
-                                                          const Piece& piece) {
-  const auto caster = polygon_index_.find(piece.fragment->caster);
-  if (caster != polygon_index_.end()) return caster->second;
-  violation(polygon.id, fmt::format("no caster '{}' in the scene", piece.fragment->caster),
-            piece.index);
-  return std::nullopt;
-}
-
-void WitnessChecker::check_area_shade(const ClaimedPolygon& polygon, const Piece& piece,
-                                      const mpq_class& slack) {
-  const ClaimedFragment& fragment = *piece.fragment;
-  const bool all = fragment.state == LightState::kUmbra;
-  if (!all && !is_seen(polygon, piece, slack)) return;
-  if (fragment.state == LightState::kLit) return;
-  ++report_.witnesses;
-  const bool sees = light_->sees(piece.part, polygon.side);
-  const mpq_class behind =
-      area_along(light_->solid(piece.part).normal, cut(piece.loop, light_->area().behind_light()));
-  const mpq_class before = sees ? mpq_class(piece.area - behind) : mpq_class(0);
-  if (!fragment.reason.empty()) {
-    if (area_reason_holds(polygon, piece, before <= slack)) return;
-    return violation(polygon.id, fmt::format("the reason '{}' does not hold", fragment.reason),
-                     piece.index);
-  }
-  if (fragment.caster.empty()) {
-    if (before > slack) {
-      violation(
-          polygon.id,
-          fmt::format("{} {} fragment names no caster", all ? "an" : "a", name_of(fragment.state)),
-          piece.index);
-    }
-    return;
-  }
-  const std::optional<std::uint32_t> caster = named_caster(polygon, piece);
-  if (caster && sees &&
-      area_along(light_->solid(piece.part).normal,
-                 light_->not_hidden(piece, light_->before_light(piece), *caster, polygon.side,
-                                    all)) > slack) {
-    violation(polygon.id,
-              fmt::format("'{}' does not hide {} of the light from all of the fragment",
-                          fragment.caster, all ? "all" : "part"),
-              piece.index);
-  }
-}
-
-void WitnessChecker::check_lit(const ClaimedPolygon& polygon, const Piece& piece,
-                               const mpq_class& slack) {
-  for (std::uint32_t part = 0; part < light_->solids().size(); ++part) {
-    if (!light_->solid(part).casts || light_->is_apart(piece, light_->solid(part).shadow)) continue;
-    if (light_->shadowed_by(piece, part) > slack) {
-      return violation(polygon.id, fmt::format("a lit fragment is shadowed by '{}'", id_of(part)),
-                       piece.index);
+  for (const ClaimedLight& light : claims.lights) {
+    for (const ClaimedPolygon& polygon : light.polygons) {
+      std::ranges::for_each(polygon.fragments, look_at);
     }
   }
+  for (const auto* shared : {&claims.combined, &claims.overlay}) {
+    if (!*shared) continue;
+    for (const SharedPolygon& polygon : **shared) std::ranges::for_each(polygon.fragments, look_at);
+  }
+  return some && all;
 }
 
-void WitnessChecker::check_shade(const ClaimedPolygon& polygon, const Piece& piece,
-                                 const mpq_class& slack) {
-  const ClaimedFragment& fragment = *piece.fragment;
-  const Solid& own = light_->solid(piece.part);
-  const bool faces = own.receives && (own.facing > 0) == (polygon.side == Side::kFront);
-  if (fragment.state == LightState::kLit) {
-    if (faces) return check_lit(polygon, piece, slack);
-    return violation(polygon.id, "a fragment is lit on a side that does not face the light",
-                     piece.index);
+}  // namespace
+
+WitnessChecker::WitnessChecker(const Scene& scene, const PreparedScene& prepared,
+                               const Claims& candidate, const WitnessOptions& options)
+    : scene_(scene),
+      prepared_(prepared),
+      candidate_(candidate),
+      options_(options),
+      diagonal_(scene_diagonal(prepared)),
+      width_(options.width.value_or(1e-9 * diagonal_)),
+      exact_(options.strict || all_loops_exact(candidate)) {
+  for (std::uint32_t i = 0; i < scene.polygons.size(); ++i) {
+    polygon_index_.emplace(scene.polygons[i].id, i);
   }
-  ++report_.witnesses;
-  if (!fragment.reason.empty()) {
-    const auto reason = shadow_reason_by_name(fragment.reason);
-    const bool holds = (reason == ShadowReason::kFacesAway && !faces && own.facing != 0) ||
-                       (reason == ShadowReason::kLightInPlane && own.facing == 0);
-    if (!holds) {
-      violation(polygon.id, fmt::format("the reason '{}' does not hold", fragment.reason),
-                piece.index);
-    }
-    return;
+}
+
+void WitnessChecker::violation(const std::string& polygon, std::string text,
+                               std::optional<std::uint64_t> fragment) {
+  ++report_.violations;
+  if (report_.findings.size() < options_.most) {
+    report_.findings.push_back({light_id_, polygon, std::move(text), fragment, terms_.block});
   }
-  if (fragment.caster.empty()) {
-    if (faces) violation(polygon.id, "a shadow fragment names no caster", piece.index);
-    return;
-  }
-  const std::optional<std::uint32_t> caster = named_caster(polygon, piece);
-  if (caster && area_along(own.normal, light_->not_shadowed(piece, *caster)) > slack) {
-    violation(polygon.id, fmt::format("'{}' does not shadow all of the fragment", fragment.caster),
-              piece.index);
-  }
+}
+
+bool WitnessChecker::stopped() {
+  report_.interrupted =
+      report_.interrupted ||
+      (options_.interrupted && options_.interrupted->load(std::memory_order_relaxed));
+  return report_.interrupted;
+}
+
+bool WitnessChecker::is_told(LightState state) const {
+  return !terms_.listed || std::ranges::find(*terms_.listed, state) != terms_.listed->end();
 }
 
 std::optional<WitnessChecker::ClassSet> WitnessChecker::left_out() const {
@@ -289,158 +88,72 @@ std::optional<WitnessChecker::ClassSet> WitnessChecker::left_out() const {
   return classes;
 }
 
-void WitnessChecker::check_classes(const ClaimedPolygon& polygon, const Piece& piece,
-                                   const ClassSet& allowed, const mpq_class& slack) {
-  const std::array<mpq_class, 4> areas = light_->areas_of_classes(piece, polygon.side);
-  // Umbra may be called penumbra where it is not claimed per caster.
-  const bool umbra_is_penumbra =
-      !terms_.per_caster_umbra && allowed[static_cast<std::size_t>(LightState::kPenumbra)];
-  for (std::size_t c = 0; c < areas.size(); ++c) {
-    const auto state = static_cast<LightState>(c);
-    if (allowed[c] || (state == LightState::kUmbra && umbra_is_penumbra)) continue;
-    if (!(areas[c] > slack)) continue;
-    const std::string what = piece.fragment
-                                 ? fmt::format("a {} fragment", name_of(piece.fragment->state))
-                                 : std::string("what no fragment covers");
-    violation(polygon.id, fmt::format("some of {} is {}", what, name_of(state)),
-              piece.fragment ? std::optional<std::uint64_t>(piece.index) : std::nullopt);
-    return;
-  }
+std::optional<WitnessChecker::ClassSet> WitnessChecker::classes_without_witness(
+    LightState state) const {
+  if (!is_told(state)) return left_out();
+  if (terms_.block == Block::kLights) return std::nullopt;
+  ClassSet own{};
+  own[static_cast<std::size_t>(state)] = true;
+  return own;
 }
 
-void WitnessChecker::check_piece(const ClaimedPolygon& polygon, const Piece& piece,
-                                 const mpq_class& slack) {
-  const LightState state = piece.fragment->state;
-  if (!is_told(state)) return check_classes(polygon, piece, *left_out(), slack);
-  if (terms_.block != Block::kLights) {
-    ClassSet own{};
-    own[static_cast<std::size_t>(state)] = true;
-    return check_classes(polygon, piece, own, slack);
-  }
-  light_->is_area() ? check_area_shade(polygon, piece, slack) : check_shade(polygon, piece, slack);
+/// Umbra may be called penumbra where it is not claimed per caster.
+bool WitnessChecker::is_wrong(LightState state, const ClassSet& allowed) const {
+  if (allowed[static_cast<std::size_t>(state)]) return false;
+  return !(state == LightState::kUmbra && !terms_.per_caster_umbra &&
+           allowed[static_cast<std::size_t>(LightState::kPenumbra)]);
 }
 
-/// Pairs, swept along x. Of an overlay only those that say different things of one level.
-void WitnessChecker::check_overlaps(const ClaimedPolygon& polygon, const RationalPoint& normal,
-                                    std::vector<Piece>& pieces, const mpq_class& slack) {
-  std::ranges::sort(pieces, {}, [](const Piece& piece) { return piece.low[0]; });
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const ClaimedFragment& own = *pieces[i].fragment;
-    for (std::size_t j = i + 1; j < pieces.size() && pieces[j].low[0] <= pieces[i].high[0]; ++j) {
-      const ClaimedFragment& other = *pieces[j].fragment;
-      if (&own == &other || !pieces[i].overlaps_box_of(pieces[j])) continue;
-      if (terms_.cover == Cover::kOverlay &&
-          (own.level != other.level || own.state == other.state)) {
-        continue;
-      }
-      Loop rest = pieces[i].loop;
-      for (const HalfSpace& wall : pieces[j].walls_of(normal)) {
-        rest = cut(rest, wall);
-        if (rest.empty()) break;
-      }
-      if (rest.empty() ||
-          !(area_along(normal, rest) > (own.exact && other.exact ? mpq_class(0) : slack))) {
-        continue;
-      }
-      violation(polygon.id, fmt::format("the fragment overlaps fragment {}", pieces[j].index),
-                pieces[i].index);
-    }
-  }
-}
-
-/// `slack`: of rounded loops.
-void WitnessChecker::check_tiling(const ClaimedPolygon& polygon,
-                                  const std::vector<std::uint32_t>& parts,
-                                  std::vector<Piece>& pieces, const mpq_class& slack) {
-  const RationalPoint& normal = light_->solid(parts.front()).normal;
-  mpq_class whole, sum;
-  bool exact = true;
-  for (std::uint32_t part : parts) whole += area_along(normal, light_->solid(part).loop);
-  for (Piece& piece : pieces) {
-    exact = exact && piece.fragment->exact;
-    sum += piece.area;
-    mpq_class inside;
-    for (std::uint32_t part : parts) {
-      Loop rest = piece.loop;
-      for (const HalfSpace& wall : light_->solid(part).walls) {
-        if (!rest.empty()) rest = cut(rest, wall);
-      }
-      if (!rest.empty()) inside += area_along(normal, rest);
-    }
-    if (abs(mpq_class(piece.area - inside)) > (piece.fragment->exact ? mpq_class(0) : slack)) {
-      violation(polygon.id, "a fragment leaves the polygon", piece.index);
-    }
-  }
-  if (!left_out() && abs(mpq_class(whole - sum)) > (exact ? mpq_class(0) : slack)) {
-    violation(polygon.id, "the fragments' areas do not add up to the polygon's");
-  }
-}
-
-void WitnessChecker::check_family(const ClaimedPolygon& polygon,
-                                  const std::vector<std::uint32_t>& parts,
-                                  std::vector<Piece>& pieces) {
-  const bool reached = light_->sees(parts.front(), polygon.side);
-  if (terms_.block == Block::kOverlay && !reached) return;
-  const RationalPoint& normal = light_->solid(parts.front()).normal;
-  mpq_class whole;
-  for (std::uint32_t part : parts) whole += area_along(normal, light_->solid(part).loop);
-  const mpq_class slack = tolerance_ * whole;
+bool WitnessChecker::tiles(const Family& family) {
   // Shared fragments tile a side for all lights or for none.
-  const bool tiles = terms_.block == Block::kLights ||
-                     (reached && tiled_.emplace(parts.front(), polygon.side).second);
-  if (tiles) check_tiling(polygon, parts, pieces, slack);
-  // Loops of one level may overlap under one of a higher level.
-  if (terms_.cover == Cover::kOverlay) pieces = cut_to_visible(std::move(pieces), normal);
-  if (tiles) check_overlaps(polygon, normal, pieces, slack);
-  bool exact = true;
-  for (const Piece& piece : pieces) {
-    exact = exact && piece.fragment->exact;
-    check_piece(polygon, piece, piece.fragment->exact ? mpq_class(0) : slack);
-  }
-  mpq_class rest_area;
-  if (const std::optional<ClassSet> allowed = left_out()) {
-    for (const Piece& rest : left_over(parts, light_->solids(), pieces)) {
-      rest_area += rest.area;
-      check_classes(polygon, rest, *allowed, exact ? mpq_class(0) : slack);
-    }
-  }
-  check_fractions(polygon, pieces, rest_area, parts);
+  if (terms_.block == Block::kLights) return true;
+  const std::uint32_t part = family.parts.front();
+  return light_->sees(part, family.polygon.side) &&
+         tiled_.emplace(part, family.polygon.side).second;
 }
 
-void WitnessChecker::check_fractions(const ClaimedPolygon& polygon,
-                                     const std::vector<Piece>& pieces, const mpq_class& rest,
-                                     const std::vector<std::uint32_t>& parts) {
-  if (!polygon.lit_fraction && !polygon.shadow_fraction && !polygon.penumbra_fraction &&
-      !polygon.umbra_fraction) {
-    return;
+bool WitnessChecker::is_facing(const Family& family) const {
+  const LightStanding& own = light_->standing(family.parts.front());
+  return own.receives && (own.facing > 0) == (family.polygon.side == Side::kFront);
+}
+
+bool WitnessChecker::shadow_reason_holds(const Family& family,
+                                         const ClaimedFragment& fragment) const {
+  const int facing = light_->standing(family.parts.front()).facing;
+  const auto reason = shadow_reason_by_name(fragment.reason);
+  return (reason == ShadowReason::kFacesAway && !is_facing(family) && facing != 0) ||
+         (reason == ShadowReason::kLightInPlane && facing == 0);
+}
+
+bool WitnessChecker::area_reason_holds(const Family& family, const ClaimedFragment& fragment,
+                                       bool behind) {
+  if (fragment.state != LightState::kUmbra) return false;
+  const std::uint32_t part = family.parts.front();
+  switch (shadow_reason_by_name(fragment.reason).value_or(ShadowReason::kNone)) {
+    case ShadowReason::kBehindLight:
+      return behind;
+    case ShadowReason::kFacesAway:
+      return light_->area().faces_away(part, family.polygon.side);
+    case ShadowReason::kLightInPlane:
+      return light_->area().light_in_plane(part);
+    case ShadowReason::kNone:
+      break;
   }
-  const std::uint32_t index = prepared_.parts[parts.front()].polygon;
-  if (parts.size() != prepared_.first_part[index + 1] - prepared_.first_part[index]) return;
-  std::array<mpq_class, 4> areas;  // by LightState
-  if (terms_.background) areas[static_cast<std::size_t>(*terms_.background)] = rest;
-  bool exact = true;
-  for (const Piece& piece : pieces) {
-    areas[static_cast<std::size_t>(piece.fragment->state)] += piece.area;
-    exact = exact && piece.fragment->exact;
-  }
-  mpq_class whole;
-  for (std::uint32_t part : parts) {
-    whole += area_along(light_->solid(parts.front()).normal, light_->solid(part).loop);
-  }
-  const mpq_class slack = exact ? mpq_class(0) : tolerance_;
-  const auto claim = [&](const std::optional<mpq_class>& claimed, LightState shade) {
-    const mpq_class& area = areas[static_cast<std::size_t>(shade)];
-    const char* name = name_of(shade);
-    if (claimed && is_told(shade) && abs(mpq_class(*claimed - area / whole)) > slack) {
-      violation(polygon.id,
-                fmt::format("the {} fraction is claimed as {}, but the fragments say {}", name,
-                            claimed->get_str(), mpq_class(area / whole).get_str()));
-    }
-  };
-  claim(polygon.lit_fraction, LightState::kLit);
-  claim(polygon.shadow_fraction, LightState::kShadow);
-  claim(polygon.penumbra_fraction, LightState::kPenumbra);
-  claim(polygon.umbra_fraction, LightState::kUmbra);
+  return false;
+}
+
+std::optional<std::uint32_t> WitnessChecker::named_caster(const ClaimedPolygon& polygon,
+                                                          std::size_t index) {
+  const std::string& name = polygon.fragments[index].caster;
+  const auto caster = polygon_index_.find(name);
+  if (caster != polygon_index_.end()) return caster->second;
+  violation(polygon.id, fmt::format("no caster '{}' in the scene", name), index);
+  return std::nullopt;
+}
+
+bool WitnessChecker::has_all_parts(const Family& family) const {
+  const std::uint32_t index = prepared_.parts[family.parts.front()].polygon;
+  return family.parts.size() == prepared_.first_part[index + 1] - prepared_.first_part[index];
 }
 
 /// A polygon is listed once for each side that some part of it sees the light from, or with its
@@ -461,9 +174,9 @@ std::vector<Side> WitnessChecker::listed_sides(std::uint32_t polygon) const {
 
 /// All of the polygon's parts by plane. Planes that see the light from the other side alone may be
 /// listed here, as dark; what sees nothing belongs to the first side listed.
-std::map<PlaneId, std::vector<std::uint32_t>> WitnessChecker::families_on(
-    std::uint32_t polygon, Side side, std::set<PlaneId>& optional) const {
-  std::map<PlaneId, std::vector<std::uint32_t>> families;
+WitnessChecker::Families WitnessChecker::families_on(std::uint32_t polygon, Side side,
+                                                     std::set<PlaneId>& optional) const {
+  Families families;
   for (std::uint32_t part = prepared_.first_part[polygon]; part < prepared_.first_part[polygon + 1];
        ++part) {
     families[prepared_.parts[part].plane].push_back(part);
@@ -480,67 +193,28 @@ std::map<PlaneId, std::vector<std::uint32_t>> WitnessChecker::families_on(
   return families;
 }
 
-WitnessChecker::Nearest WitnessChecker::distance_to(const ClaimedFragment& fragment, PlaneId plane,
-                                                    const std::vector<std::uint32_t>& parts) const {
-  const Solid& solid = light_->solid(parts.front());
-  Nearest own{&parts, plane, 0, false};
-  RationalPoint centre;
-  for (const RationalPoint& point : fragment.loop) {
-    const mpq_class height = dot(solid.normal, minus(point, solid.loop[0]));
-    own.distance = std::max(own.distance, mpq_class(height * height));
-    for (int k = 0; k < 3; ++k) centre[k] += point[k] / mpq_class(fragment.loop.size());
-  }
-  own.distance /= dot(solid.normal, solid.normal);
-  own.around = std::ranges::any_of(parts, [&](std::uint32_t part) {
-    return std::ranges::all_of(light_->solid(part).walls,
-                               [&](const HalfSpace& wall) { return wall.value(centre) >= 0; });
-  });
-  return own;
-}
-
-/// By squared distances; among planes that are near enough, one with a part around the fragment's
-/// middle.
-WitnessChecker::Nearest WitnessChecker::nearest_family(const ClaimedFragment& fragment,
-                                                       const Families& families) const {
-  const mpq_class allowed = allowed_distance(fragment);
-  Nearest best;
-  for (const auto& [plane, parts] : families) {
-    Nearest own = distance_to(fragment, plane, parts);
-    const bool near = own.distance <= allowed, best_near = best.parts && best.distance <= allowed;
-    const bool better =
-        !best.parts || (near && !best_near) || (near == best_near && own.around && !best.around) ||
-        (near == best_near && own.around == best.around && own.distance < best.distance);
-    if (better) best = std::move(own);
-  }
-  return best;
-}
-
-std::vector<Piece> WitnessChecker::pieces_of(const ClaimedPolygon& polygon, std::size_t index,
-                                             const Nearest& family) {
+bool WitnessChecker::can_be_judged(const ClaimedPolygon& polygon, std::size_t index) {
   const ClaimedFragment& fragment = polygon.fragments[index];
-  const auto told = [&](const char* text) {
-    violation(polygon.id, text, index);
-    return std::vector<Piece>();
-  };
-  if (!family.parts) return told("nothing of the polygon is classified on this side");
-  if (family.distance > allowed_distance(fragment)) {
-    return told("a fragment does not lie in the polygon's plane");
+  ++report_.fragments;
+  if (fragment.exact) ++report_.exact_fragments;
+  const bool area = light_->is_area();
+  if (fragment.state != LightState::kLit && (fragment.state == LightState::kShadow) == area) {
+    violation(polygon.id,
+              area ? "a class that an area light does not have"
+                   : "a class that a point light does not have",
+              index);
+    return false;
   }
-  const std::uint32_t part = family.parts->front();
-  const Solid& solid = light_->solid(part);
-  const bool in_plane = family.distance == 0;
-  Piece piece(fragment, index, part, solid, in_plane);
-  if (fragment.exact && !piece.is_convex(solid.normal)) return told("a fragment is not convex");
-  if (fragment.holes.empty()) return {std::move(piece)};
+  if (fragment.loop.size() < 3) {
+    violation(polygon.id, "a fragment has fewer than three vertices", index);
+    return false;
+  }
   for (const RationalLoop& hole : fragment.holes) {
-    ClaimedFragment shape;
-    shape.loop = hole;
-    if (hole.size() < 3) return told("a hole of a fragment has fewer than three vertices");
-    if (fragment.exact && !Piece(shape, index, part, solid, in_plane).is_convex(solid.normal)) {
-      return told("a hole of a fragment is not convex");
-    }
+    if (hole.size() >= 3) continue;
+    violation(polygon.id, "a hole of a fragment has fewer than three vertices", index);
+    return false;
   }
-  return without_holes(piece, solid, in_plane);
+  return true;
 }
 
 void WitnessChecker::check_polygon(const ClaimedPolygon& polygon) {
@@ -550,33 +224,14 @@ void WitnessChecker::check_polygon(const ClaimedPolygon& polygon) {
     return violation(polygon.id, "no such polygon in the scene");
   }
   if (terms_.shares_alone) return check_share(polygon, known->second);
-  // Parts of this side, by family of coplanar ones.
   std::set<PlaneId> optional;
   const Families families = families_on(known->second, polygon.side, optional);
-  std::map<PlaneId, std::vector<Piece>> pieces;
-  for (std::size_t i = 0; i < polygon.fragments.size(); ++i) {
-    const ClaimedFragment& fragment = polygon.fragments[i];
-    ++report_.fragments;
-    if (fragment.exact) ++report_.exact_fragments;
-    const bool area = light_->is_area();
-    if (fragment.state != LightState::kLit && (fragment.state == LightState::kShadow) == area) {
-      violation(polygon.id,
-                area ? "a class that an area light does not have"
-                     : "a class that a point light does not have",
-                i);
-      continue;
-    }
-    if (fragment.loop.size() < 3) {
-      violation(polygon.id, "a fragment has fewer than three vertices", i);
-      continue;
-    }
-    const Nearest family = nearest_family(fragment, families);
-    std::ranges::move(pieces_of(polygon, i, family), std::back_inserter(pieces[family.plane]));
-  }
-  for (const auto& [plane, parts] : families) {
-    if (optional.contains(plane) && pieces[plane].empty()) continue;
-    check_family(polygon, parts, pieces[plane]);
-  }
+  const bool exact =
+      exact_ || (!polygon.fragments.empty() &&
+                 std::ranges::all_of(polygon.fragments,
+                                     [](const ClaimedFragment& own) { return own.exact; }));
+  exact ? check_exact_side(polygon, families, optional)
+        : check_rounded_side(polygon, families, optional);
 }
 
 void WitnessChecker::check_share(const ClaimedPolygon& polygon, std::uint32_t index) {
@@ -719,8 +374,6 @@ WitnessReport WitnessChecker::run(const std::vector<std::string>& problems) {
   }
   return std::move(report_);
 }
-
-}  // namespace
 
 WitnessReport check_witnesses(const Scene& scene, const PreparedScene& prepared,
                               const Claims& candidate, const WitnessOptions& options) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gnomon/oracle/enclosure.h"
+#include "oracle/geometry/group_overlay.h"
 
 namespace gnomon::oracle {
 
@@ -28,74 +29,65 @@ bool Solid::holds(const Solid& other) const {
   });
 }
 
-std::vector<Solid> solids_of(const PreparedScene& scene, const PreparedLight& light) {
-  std::vector<Solid> solids;
-  const Geometry& geometry = scene.geometry;
-  const auto in_scene = [&](const std::array<mpz_class, 3>& grid) {
-    RationalPoint point;
-    for (int k = 0; k < 3; ++k) point[k] = geometry.origin[k] + geometry.step * grid[k];
-    return point;
-  };
-  const bool directional = light.point.directional, area = light.has_area();
-  RationalPoint source;
-  if (area) {
-    // No single point: AreaSolids knows what the light is to each part.
-  } else if (directional) {
-    for (int k = 0; k < 3; ++k) source[k] = light.point.grid[k];
-  } else {
-    source = in_scene(light.point.grid);
+RationalPoint in_scene(const Geometry& geometry, const HomogeneousPoint& point) {
+  RationalPoint result;
+  for (int k = 0; k < 3; ++k) {
+    mpq_class coordinate(point.xyz[k], point.w);
+    if (point.w != 1) coordinate.canonicalize();
+    result[k] = geometry.origin[k] + geometry.step * coordinate;
   }
-  for (const Part& part : scene.parts) {
-    Solid solid;
-    for (VertexId vertex : scene.loop(part)) {
-      solid.loop.push_back(in_scene(
-          {geometry.grid.at(vertex, 0), geometry.grid.at(vertex, 1), geometry.grid.at(vertex, 2)}));
-    }
-    const std::size_t size = solid.loop.size();
-    solid.normal = cross(minus(solid.loop[1], solid.loop[0]), minus(solid.loop[2], solid.loop[0]));
-    const mpq_class height = area          ? mpq_class(0)
-                             : directional ? dot(solid.normal, source)
-                                           : dot(solid.normal, minus(source, solid.loop[0]));
-    solid.facing = sgn(height);
-    solid.receives = solid.facing > 0 || (solid.facing < 0 && part.two_sided);
-    solid.casts = solid.receives && part.casts;
-    for (std::size_t i = 0; i < size; ++i) {
-      const RationalPoint &a = solid.loop[i], &b = solid.loop[(i + 1) % size];
-      solid.walls.emplace_back(cross(solid.normal, minus(b, a)), a);
-    }
-    if (solid.casts) {
-      RationalPoint behind = solid.normal;
-      if (solid.facing > 0) {
-        for (mpq_class& component : behind) component = -component;
-      }
-      solid.shadow.emplace_back(behind, solid.loop[0]);
-      for (std::size_t i = 0; i < size; ++i) {
-        const RationalPoint &a = solid.loop[i], &b = solid.loop[(i + 1) % size];
-        RationalPoint inward =
-            directional ? cross(source, minus(b, a)) : cross(minus(a, source), minus(b, source));
-        // Inside is where the loop's other vertices are.
-        if (dot(inward, minus(solid.loop[(i + 2) % size], a)) < 0) {
-          for (mpq_class& component : inward) component = -component;
-        }
-        solid.shadow.emplace_back(std::move(inward), a);
-      }
-    }
-    solids.push_back(std::move(solid));
-  }
-  return solids;
+  return result;
 }
 
-Piece::Piece(const ClaimedFragment& claimed, std::size_t number, std::uint32_t of_part,
-             const Solid& solid, bool exact)
-    : fragment(&claimed), index(number), part(of_part), loop(claimed.loop) {
-  const RationalPoint& normal = solid.normal;
-  if (!exact) {
-    const mpq_class square = dot(normal, normal);
-    for (RationalPoint& point : loop) {
-      const mpq_class height = dot(normal, minus(point, solid.loop[0])) / square;
-      for (int k = 0; k < 3; ++k) point[k] -= height * normal[k];
-    }
+LightStanding standing_of(const PreparedScene& scene, const PreparedLight& light,
+                          std::uint32_t part) {
+  const ExactPlane plane = support_of(scene, part);
+  const Part& own = scene.parts[part];
+  LightStanding standing;
+  standing.facing = light.point.directional ? sgn(dot(plane.normal, light.point.grid))
+                                            : sgn(value_at(plane, light.point.grid));
+  standing.receives = standing.facing > 0 || (standing.facing < 0 && own.two_sided);
+  standing.casts = standing.receives && own.casts;
+  return standing;
+}
+
+std::vector<ExactPlane> shadow_planes_of(const PreparedScene& scene, const PreparedLight& light,
+                                         std::uint32_t part, int facing) {
+  const std::vector<Integers3> loop = grid_loop(scene, part);
+  ExactPlane behind = support_of(scene, part);
+  if (facing > 0) behind = opposite(std::move(behind));
+  std::vector<ExactPlane> planes{std::move(behind)};
+  const Integers3& source = light.point.grid;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Integers3 &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    ExactPlane inward;
+    inward.normal = light.point.directional ? cross(source, minus(b, a))
+                                            : cross(minus(a, source), minus(b, source));
+    inward.offset = dot(inward.normal, a);
+    // Inside is where the loop's other vertices are.
+    if (value_at(inward, loop[(i + 2) % loop.size()]) < 0) inward = opposite(std::move(inward));
+    planes.push_back(std::move(inward));
   }
+  return planes;
+}
+
+Solid solid_of(const PreparedScene& scene, std::uint32_t part) {
+  Solid solid;
+  for (const Integers3& vertex : grid_loop(scene, part)) {
+    solid.loop.push_back(in_scene(scene.geometry, HomogeneousPoint{vertex, 1}));
+  }
+  const std::size_t size = solid.loop.size();
+  solid.normal = cross(minus(solid.loop[1], solid.loop[0]), minus(solid.loop[2], solid.loop[0]));
+  for (std::size_t i = 0; i < size; ++i) {
+    const RationalPoint &a = solid.loop[i], &b = solid.loop[(i + 1) % size];
+    solid.walls.emplace_back(cross(solid.normal, minus(b, a)), a);
+  }
+  return solid;
+}
+
+Piece::Piece(const ClaimedFragment* claimed, std::size_t number, std::uint32_t of_part,
+             space::Loop own, const RationalPoint& normal)
+    : fragment(claimed), index(number), part(of_part), loop(std::move(own)) {
   measure(normal);
 }
 
@@ -125,6 +117,22 @@ void Piece::measure(const RationalPoint& normal) {
       high[k] = std::max(high[k], round_up(corner[k]));
     }
   }
+}
+
+void Piece::lay(const PlaneFrame& frame) {
+  flat = frame.loop_at(loop);
+  // A loop may turn the other way than the frame's plane.
+  flat_turned_ = area_of(flat) < 0;
+  if (flat_turned_) std::ranges::reverse(flat);
+  flat_lines = lines_of(flat);
+  flat_box = box_of(flat);
+}
+
+PlanarLine Piece::line_of(std::size_t edge) const {
+  const std::size_t size = flat.size();
+  // Edge i runs from vertex i to the next; turned, it starts where it ended.
+  const std::size_t from = flat_turned_ ? (2 * size - 2 - edge) % size : edge;
+  return line_through(flat[from], flat[(from + 1) % size]);
 }
 
 bool Piece::overlaps_box_of(const Piece& other) const {
@@ -181,18 +189,6 @@ std::vector<Piece> pieces_of(const Piece& whole, std::vector<space::Loop> loops,
 
 }  // namespace
 
-std::vector<Piece> without_holes(const Piece& piece, const Solid& solid, bool exact) {
-  std::vector<space::Loop> loops{piece.loop};
-  for (const RationalLoop& hole : piece.fragment->holes) {
-    ClaimedFragment shape;
-    shape.loop = hole;
-    Piece own(shape, 0, piece.part, solid, exact);
-    if (own.area == 0) continue;
-    loops = without(std::move(loops), own.walls_of(solid.normal));
-  }
-  return pieces_of(piece, std::move(loops), solid.normal);
-}
-
 std::vector<Piece> cut_to_visible(std::vector<Piece> pieces, const RationalPoint& normal) {
   std::ranges::stable_sort(pieces, std::greater<>(),
                            [](const Piece& piece) { return piece.fragment->level; });
@@ -209,20 +205,16 @@ std::vector<Piece> cut_to_visible(std::vector<Piece> pieces, const RationalPoint
   return visible;
 }
 
-std::vector<Piece> left_over(std::span<const std::uint32_t> parts, const std::vector<Solid>& solids,
-                             std::vector<Piece>& pieces) {
-  std::vector<Piece> left;
-  for (const std::uint32_t part : parts) {
-    // Parts of one plane may look to different sides: areas are along the first one's normal.
-    const RationalPoint& normal = solids[parts.front()].normal;
-    const Piece whole(parts.front(), solids[part].loop, normal);
-    std::vector<space::Loop> loops{whole.loop};
-    for (std::size_t i = 0; i < pieces.size() && !loops.empty(); ++i) {
-      if (pieces[i].area == 0 || !pieces[i].overlaps_box_of(whole)) continue;
-      loops = without(std::move(loops), pieces[i].walls_of(normal));
-    }
-    std::ranges::move(pieces_of(whole, std::move(loops), normal), std::back_inserter(left));
+std::vector<Piece> left_over(std::uint32_t part, const space::Loop& loop,
+                             const RationalPoint& normal, std::vector<Piece>& pieces) {
+  const Piece whole(part, loop, normal);
+  std::vector<space::Loop> loops{whole.loop};
+  for (std::size_t i = 0; i < pieces.size() && !loops.empty(); ++i) {
+    if (pieces[i].area == 0 || !pieces[i].overlaps_box_of(whole)) continue;
+    loops = without(std::move(loops), pieces[i].walls_of(normal));
   }
+  std::vector<Piece> left;
+  for (space::Loop& own : loops) left.emplace_back(part, std::move(own), normal);
   return left;
 }
 

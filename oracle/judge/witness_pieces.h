@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the checker of claims (witness_check.h) cuts and cuts with: parts as convex solids of
-// half-spaces, and claimed fragments laid into the plane of their part. All of it is rational, in
+// What the checker of exact claims (witness_check.h) cuts and cuts with: parts as convex solids of
+// half-spaces, and claimed fragments in the plane of their part. All of it is rational, in
 // scene units; doubles only put aside what is clearly apart.
 #ifndef GNOMON_ORACLE_JUDGE_WITNESS_PIECES_H
 #define GNOMON_ORACLE_JUDGE_WITNESS_PIECES_H
@@ -13,27 +13,37 @@
 
 #include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
+#include "oracle/geometry/chart.h"
+#include "oracle/geometry/plane_frame.h"
 #include "oracle/geometry/space_loop.h"
 
 namespace gnomon::oracle {
+
+/// Which side of a part a point or directional light is on, and what that makes of the part.
+struct LightStanding {
+  int facing = 0;  // 1 front, -1 back, 0 the light is in its plane
+  bool receives = false, casts = false;
+};
+LightStanding standing_of(const PreparedScene& scene, const PreparedLight& light,
+                          std::uint32_t part);
+
+/// What bounds the shadow of a part on the grid: behind it, and inside its edges seen from the
+/// light. Requires: a point or directional light that it faces.
+std::vector<ExactPlane> shadow_planes_of(const PreparedScene& scene, const PreparedLight& light,
+                                         std::uint32_t part, int facing);
 
 /// A part as receiver and caster.
 struct Solid {
   space::Loop loop;
   RationalPoint normal;
-  std::vector<space::HalfSpace> walls;   // in its plane: inside of the part
-  std::vector<space::HalfSpace> shadow;  // behind it and inside its edges, seen from the light
-  int facing = 0;                        // 1 front, -1 back, 0 the light is in its plane
-  bool receives = false, casts = false;
+  std::vector<space::HalfSpace> walls;  // in its plane: inside of the part
 
   /// All of the part lies in the plane of the half-space.
   bool lies_in(const space::HalfSpace& half) const;
   /// All of the other part lies in this one's plane: neither shadows the other.
   bool holds(const Solid& other) const;
 };
-
-/// All parts under one light. Under an area light none receives or casts: AreaSolids knows that.
-std::vector<Solid> solids_of(const PreparedScene& scene, const PreparedLight& light);
+Solid solid_of(const PreparedScene& scene, std::uint32_t part);
 
 /// A claimed fragment in the plane of a part, or a convex piece of it; or of what none covers.
 struct Piece {
@@ -45,15 +55,26 @@ struct Piece {
   std::vector<std::array<double, 3>> corners;  // the loop in doubles
   std::array<double, 3> low{}, high{};
 
-  /// `exact`: the fragment lies in the plane. If not, it is projected: rounded vertices are off the
-  /// plane by a hair, which must not put them behind a caster that lies in it.
-  Piece(const ClaimedFragment& claimed, std::size_t number, std::uint32_t of_part,
-        const Solid& solid, bool exact);
+  // The loop in the frame of the plane, once it is laid there.
+  PlanarLoop flat;
+  std::vector<PlanarLine> flat_lines;
+  PlanarBox flat_box;
+
+  /// Requires: a loop in the plane of the part, whose normal is given.
+  Piece(const ClaimedFragment* claimed, std::size_t number, std::uint32_t of_part, space::Loop own,
+        const RationalPoint& normal);
   /// Part of a piece. Requires: a convex loop inside of it, with its orientation.
   Piece(const Piece& whole, space::Loop own, const RationalPoint& normal);
   /// What no fragment covers.
   Piece(std::uint32_t of_part, space::Loop own, const RationalPoint& normal);
 
+  void lay(const PlaneFrame& frame);
+  /// The line of an edge of the loop in the frame, with the piece inside.
+  PlanarLine line_of(std::size_t edge) const;
+  /// The vertex of the loop that a vertex of `flat` is of.
+  const RationalPoint& vertex_at(std::size_t flat_index) const {
+    return loop[flat_turned_ ? loop.size() - 1 - flat_index : flat_index];
+  }
   bool overlaps_box_of(const Piece& other) const;
   bool is_convex(const RationalPoint& normal) const;
   /// By doubles: clearly outside of one of the half-spaces, and so of what they bound.
@@ -66,16 +87,18 @@ struct Piece {
   void measure(const RationalPoint& normal);
 
   std::vector<space::HalfSpace> walls_;
+  bool flat_turned_ = false;
 };
 
-/// What of a fragment a convex loop is: all of it, without holes. Requires: convex holes.
-std::vector<Piece> without_holes(const Piece& piece, const Solid& solid, bool exact);
+/// In scene units.
+RationalPoint in_scene(const Geometry& geometry, const HomogeneousPoint& point);
+
 /// Pieces painted over each other, cut down to what is seen of each: a piece of a higher level
 /// hides what it holds of lower ones.
 std::vector<Piece> cut_to_visible(std::vector<Piece> pieces, const RationalPoint& normal);
-/// What no piece holds of the parts, which are coplanar.
-std::vector<Piece> left_over(std::span<const std::uint32_t> parts, const std::vector<Solid>& solids,
-                             std::vector<Piece>& pieces);
+/// What no piece holds of a part. Areas are along the normal, which may be that of a coplanar part.
+std::vector<Piece> left_over(std::uint32_t part, const space::Loop& loop,
+                             const RationalPoint& normal, std::vector<Piece>& pieces);
 
 }  // namespace gnomon::oracle
 

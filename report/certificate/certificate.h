@@ -22,6 +22,7 @@ struct JudgedRun {
   std::string name;  // "double+identity", "plane/svbsp", or the file of a foreign result
   std::string kernel, algorithm;  // "double+identity", "svbsp"; empty if foreign
   bool foreign = false;           // not one of our kernels
+  bool counts = true;             // for the status: false if nobody asked for this kernel
   bool exact = false;             // an exact kernel: anything but `identical` is a bug of ours
   bool per_caster_umbra = true;   // else umbra that is called penumbra is a cost, and told
   bool identity = false;

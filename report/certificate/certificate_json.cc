@@ -71,6 +71,7 @@ void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals, bool
   json.member("fragments", totals.fragments);
   json.member("regions", totals.regions);
   json.member("ill_conditioned_regions", totals.ill_conditioned_regions);
+  json.member("rounding_regions", totals.rounding_regions);
   json.member("invented", totals.invented);
   json.member("lost", totals.lost);
   json.member("t_vertices", totals.t_vertices);
@@ -92,6 +93,8 @@ void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals, bool
   write_enclosure(json, "overlapping", totals.overlapping);
   write_enclosure(json, "outside", totals.outside);
   write_enclosure(json, "ill_conditioned", totals.ill_conditioned);
+  write_enclosure(json, "rounding", totals.rounding);
+  json.member("rounding_radius", totals.rounding_radius);
   write_enclosure(json, "width", totals.width);
   write_enclosure(json, "off_plane", totals.off_plane);
   json.end_object();
@@ -142,6 +145,7 @@ void write_wrong_polygons(JsonWriter& json, const Scene& scene, const oracle::Re
       write_share(json, "overlapping", polygon.overlapping);
       write_share(json, "outside", polygon.outside);
       write_share(json, "ill_conditioned", polygon.ill_conditioned);
+      write_share(json, "rounding", polygon.rounding);
       write_enclosure(json, "width", polygon.width);
       write_enclosure(json, "off_plane", polygon.off_plane);
       if (!polygon.worst.empty()) {
@@ -172,7 +176,9 @@ void write_run(JsonWriter& json, const Scene& scene, const JudgedRun& run, bool 
   if (run.report) {
     const oracle::Report& report = *run.report;
     json.member("verdict", name_of(report.verdict));
+    if (!run.counts) json.member("counts", false);
     json.member("reason", report.reason);
+    if (!report.excess.empty()) json.member("excess", report.excess);
     json.member("tolerance", report.tolerance);
     if (report.told_shares > 0) {
       json.member("told_shares", report.told_shares);

@@ -109,7 +109,9 @@ void add_notes(const JudgedRun& run, TextTable& table) {
   }
   if (report.verdict == oracle::Verdict::kFailed) {
     if (report.worst) table.add_note("worst: " + place_in_words(*report.worst));
-    const bool place_says_it = report.worst && report.problems.empty();
+    if (!report.excess.empty()) table.add_note("too much: " + report.excess);
+    const bool place_says_it =
+        report.worst && report.problems.empty() && report.reason == report.worst->text;
     if (!report.reason.empty() && !place_says_it) table.add_note("why: " + report.reason);
     const oracle::ComparisonTotals& totals = report.totals;
     std::string counts;
@@ -121,6 +123,10 @@ void add_notes(const JudgedRun& run, TextTable& table) {
     add(totals.invented, "invented region");
     add(totals.lost, "lost region");
     add(totals.ill_conditioned_regions, "ill-conditioned region");
+    if (totals.rounding_regions > 0) {
+      counts +=
+          (counts.empty() ? "" : ", ") + grouped(totals.rounding_regions) + " by rounding alone";
+    }
     add(totals.self_crossing, "self-crossing loop");
     add(run.dropped_slivers, "loop");
     if (run.dropped_slivers > 0) counts += " vanished in rounding";
@@ -148,11 +154,11 @@ void add_notes(const JudgedRun& run, TextTable& table) {
 
 /// Whole sentences below the table.
 std::string conclusion(const Certificate& certificate) {
-  std::vector<std::string> identical, tolerated, agreeing, failed, wrong_exact;
+  std::vector<std::string> identical, tolerated, agreeing, failed, uncounted, wrong_exact;
   for (const JudgedRun& run : certificate.runs) {
     if (run.report && run.report->interrupted) continue;
     if (run.failed()) {
-      failed.push_back(run.name);
+      (run.counts ? failed : uncounted).push_back(run.name);
     } else if (run.report->verdict == oracle::Verdict::kIdentical) {
       identical.push_back(run.name);
     } else if (run.report->verdict == oracle::Verdict::kSharesAgree) {
@@ -169,6 +175,10 @@ std::string conclusion(const Certificate& certificate) {
     text += "Shares agree with the exact ones: " + joined(agreeing, 20) + ". ";
   }
   if (!failed.empty()) text += "Failed: " + joined(failed, 20) + ". ";
+  if (!uncounted.empty()) {
+    text += "Failed, and not counted because nobody asked for it by --kernel: " +
+            joined(uncounted, 20) + ". ";
+  }
   if (!wrong_exact.empty()) {
     text += "Exact kernels that disagree with the oracle: " + joined(wrong_exact, 20) +
             ". This is a bug of this program; please report it with the scene. ";

@@ -46,6 +46,9 @@ struct ErrorRegion {
   AreaShare area;
   Witness witness;
   bool ill_conditioned = false;  // clearance below the one asked for
+  bool rounding = false;         // all of it is what rounding to doubles excuses
+
+  bool excused() const { return ill_conditioned || rounding; }
 };
 
 struct ComparisonOptions {
@@ -66,13 +69,16 @@ struct PolygonComparison {
   AreaShare lit, shadow;      // the truth
   AreaShare penumbra, umbra;  // the truth under an area light
   AreaShare misclassified, uncovered, overlapping, outside;
-  AreaShare ill_conditioned;  // share of the error that is, counted apart
+  AreaShare ill_conditioned, rounding;  // shares of the error that are, counted apart
   /// Area lights: true umbra claimed as penumbra. A cost; where umbra is claimed per caster it is
   /// misclassified instead, and none.
   AreaShare missing_umbra;
   Enclosure width;      // of the widest region of error, scene units
   Enclosure off_plane;  // scene units
-  std::uint64_t fragments = 0, regions = 0, ill_conditioned_regions = 0;
+  /// How near to a border error is rounding, and a vertex to its plane, scene units; 0 if every
+  /// loop is exact.
+  double rounding_radius = 0;
+  std::uint64_t fragments = 0, regions = 0, ill_conditioned_regions = 0, rounding_regions = 0;
   std::uint64_t invented = 0, lost = 0, t_vertices = 0, self_crossing = 0;
   std::vector<ErrorRegion> worst;  // widest first
   bool inconsistent = false;       // the oracle contradicts itself: a finding about us
@@ -80,9 +86,9 @@ struct PolygonComparison {
   /// off, which is at most the area that is: a share that is right may lie in the wrong place. What
   /// is within what the share's digits say, or within the tolerance asked for, is not judged.
   std::size_t told_shares = 0;
-  /// The same without ill-conditioned regions: what the verdict looks at.
+  /// The same without what is ill-conditioned or rounding: what the verdict looks at.
   AreaShare judged_misclassified, judged_uncovered, judged_overlapping, judged_outside;
-  Enclosure judged_width;
+  Enclosure judged_width, judged_off_plane;
 };
 
 /// `candidate` may be null: nothing was found. Requires: `entry` is one of answer.entries(light).

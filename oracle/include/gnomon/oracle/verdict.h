@@ -4,10 +4,10 @@
 //
 //   identical         misclassified, uncovered, overlapping and outside are exactly 0 everywhere;
 //   within tolerance  each is at most `tolerance` of every polygon, and every region of error and
-//                     every vertex off its plane is at most `width`;
+//                     every vertex off its plane is at most `width`; what the rounding of loops
+//                     that are not exact explains is told apart and counts only if `strict`;
 //   shares agree      nothing is known but shares (ToldShare), and each is the true one as far as
-//   its
-//                     digits tell: no proof, since a shadow in the wrong place keeps its share;
+//                     its digits tell: no proof, since a shadow in the wrong place keeps its share;
 //   failed            otherwise, or if something is missing, unknown or listed twice.
 //
 // What a candidate tells of several lights at once (Claims::combined, Claims::overlay) is judged
@@ -41,7 +41,7 @@ struct CertifyOptions {
   std::optional<double> width;  // scene units; default 1e-9 of the scene's diagonal
   /// Of shares told alone, a fraction of each polygon; none: as their digits say.
   std::optional<double> share_tolerance;
-  bool strict = false;                       // tolerance and width 0
+  bool strict = false;                       // tolerance and width 0, and rounding counts
   double clearance = 0;                      // scene units; error below it is ill-conditioned
   bool subset = false;                       // lights and polygons may be missing
   std::optional<std::uint64_t> leaks;        // fail with more invented and lost regions than this
@@ -67,13 +67,14 @@ struct LightComparison {
 /// Sums and maxima over all polygon sides; areas in scene units squared.
 struct ComparisonTotals {
   Enclosure area, lit, shadow, penumbra, umbra;
-  Enclosure misclassified, uncovered, overlapping, outside, ill_conditioned;
+  Enclosure misclassified, uncovered, overlapping, outside, ill_conditioned, rounding;
   Enclosure missing_umbra;
   double worst_misclassified = 0;  // greatest upper bound of a polygon's fraction
   double worst_uncovered = 0, worst_overlapping = 0, worst_outside = 0;
   Enclosure width, off_plane;  // greatest
   std::uint64_t polygons = 0, fragments = 0, wrong_polygons = 0, regions = 0;
-  std::uint64_t ill_conditioned_regions = 0;
+  std::uint64_t ill_conditioned_regions = 0, rounding_regions = 0;
+  double rounding_radius = 0;  // greatest, scene units
   std::uint64_t invented = 0, lost = 0, t_vertices = 0, self_crossing = 0;
 };
 
@@ -81,6 +82,7 @@ struct Report {
   std::string candidate;
   Verdict verdict = Verdict::kIdentical;
   std::string reason;                 // of a failure, one sentence; empty otherwise
+  std::string excess;                 // of a failure: the number that is above its limit
   std::vector<std::string> problems;  // missing, unknown, listed twice: each fails the candidate
   std::vector<std::string> notes;     // what was not compared, and why
   std::vector<LightComparison> lights;

@@ -12,11 +12,12 @@
 //   - claimed fractions are those of the fragments.
 // What names no witness (fragments of several lights at once, and what no fragment covers) must
 // have its class by what all casters together do to it. Loops painted over each other are cut down
-// to what is seen of each. Holes are cut out; they must be convex, as loops must. A result that
-// passes is right: its fragments tile every polygon and each has its proof.
+// to what is seen of each. Holes are cut out; loops of any shape are what they wind around. A
+// result that passes is right: its fragments tile every polygon and each has its proof.
 //
-// Exactness: exact on exact loops. Rounded loops are judged within `tolerance` of the polygon's
-// area and `width` off its plane.
+// Exactness: exact on exact loops. Rounded loops are judged as in a comparison (verdict.h): what
+// rounding of their vertices explains is excused, all other error may be `tolerance` of the
+// polygon's area and `width` wide, and vertices as far off the plane.
 #ifndef GNOMON_ORACLE_WITNESS_CHECK_H
 #define GNOMON_ORACLE_WITNESS_CHECK_H
 
@@ -44,12 +45,14 @@ struct WitnessReport {
   std::vector<WitnessFinding> findings;  // at most `most`
   std::uint64_t violations = 0;          // all of them
   std::uint64_t polygons = 0, fragments = 0, exact_fragments = 0, witnesses = 0;
+  std::uint64_t rounded = 0;  // pieces of error that rounding excuses, beyond what is plainly so
   bool interrupted = false;
 };
 
 struct WitnessOptions {
   double tolerance = 1e-9;      // fraction of the polygon's area, for rounded loops
   std::optional<double> width;  // scene units; default 1e-9 of the scene's diagonal
+  bool strict = false;          // all loops are judged as if they claimed to be exact
   bool subset = false;          // lights and polygons may be missing
   std::size_t most = 100;
   std::function<void(double)> progress;
