@@ -199,7 +199,7 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) 
 void warn_of_intent(const LoadedScene& loaded) {
   // The diagnosis takes about as long as preparation does, and a large scene is read, prepared and
   // classified in less than ten times that.
-  constexpr std::size_t kMostParts = 10'000;
+  constexpr std::size_t kMostParts = 2'000;
   const Intent intent =
       find_intent(loaded.scene, loaded.prepared, {.near = 0, .most_parts = kMostParts});
   const std::string text = report::intent_warning(loaded.scene, intent);

@@ -70,7 +70,7 @@ TEST_F(CommandLine, VersionAndHelp) {
 TEST_F(CommandLine, WrongUsageIsStatusTwoAndOneLine) {
   expect_one_line_error(run_gnomon({}), 2, "subcommand");
   expect_one_line_error(run_gnomon({"nonsense"}), 2, "gnomon --help");
-  expect_one_line_error(run_gnomon({"tradeoff"}), 2, "gnomon --help");
+  expect_one_line_error(run_gnomon({"nosuch"}), 2, "gnomon --help");
   expect_one_line_error(run_gnomon({"shadows"}), 2, "SCENE");
   expect_one_line_error(run_gnomon({"shadows", table_, "--nonsense"}), 2, "--nonsense");
   expect_one_line_error(run_gnomon({"shadows", table_, "--kernel", "triple"}), 2, "longdouble");
