@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: LGPL-3.0-or-later
+// SPDX-License-Identifier: GPL-3.0-or-later
 // Groups of polygons: from OBJ files and from "extra", back and forth, and what is refused.
 #include "gnomon/scene/groups.h"
 

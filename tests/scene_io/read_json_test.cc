@@ -233,8 +233,7 @@ TEST(ReadJson, LoopsAndIndices) {
             "3:15: the key 'loop' is missing @/polygons/0");
   EXPECT_EQ(error_after("[0,1,2,3]", "[0,1,2,3], \"holes\": [[0,1,2],[0,1,9]]"),
             "3:69: index 9 is not that of a vertex @/polygons/0/holes/1/2");
-  EXPECT_EQ(error_after("[0,1,2,3]", "[0,1,2,3], \"holes\": [[]]"),
-            "ok");
+  EXPECT_EQ(error_after("[0,1,2,3]", "[0,1,2,3], \"holes\": [[]]"), "ok");
   EXPECT_EQ(error_after("[0,1,2,3]", "[0,1,2,3], \"holes\": [0,1,2]"),
             "3:56: found a number @/polygons/0/holes/0");
   EXPECT_EQ(error_after("[0,1,2,3]", "[[0,1,2,3]]"), "3:36: found an array @/polygons/0/loop/0");
