@@ -100,7 +100,7 @@ Expected<std::vector<RecordedLight>> recorded_of(const Scene& scene, const Prepa
         }
         exact = false;
         const Interval& bounds = report::share_of(side, state);
-        share.nearest = bounds.middle();
+        share.nearest = nearest_double(report::precise_share(prepared, side, state));
         if (!(bounds.upper - bounds.lower <= kRounding)) {
           return fail(ErrorCode::kLimit,
                       place_of(own, one) + ": its fractions are known too roughly");

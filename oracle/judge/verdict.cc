@@ -274,12 +274,13 @@ void Certifier::compare_all() {
 }
 
 bool Certifier::fails(const PolygonComparison& comparison) const {
-  if (comparison.told_shares > 0) return !comparison.judged_misclassified.zero;
   return fails_beyond_rounding(comparison) ||
          (options_.strict && (!comparison.rounding.zero || comparison.off_plane.upper > 0));
 }
 
 bool Certifier::fails_beyond_rounding(const PolygonComparison& comparison) const {
+  // Shares have no loops that could round.
+  if (comparison.told_shares > 0) return !comparison.judged_misclassified.zero;
   for (const AreaShare* share : {&comparison.judged_misclassified, &comparison.judged_uncovered,
                                  &comparison.judged_overlapping, &comparison.judged_outside}) {
     if (!share->zero && !(share->fraction.upper <= report_.tolerance)) return true;

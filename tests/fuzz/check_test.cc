@@ -125,7 +125,7 @@ TEST(Check, StagesAreTold) {
   options.stage = [&](std::string_view stage) { stages.emplace_back(stage); };
   check_scene(table(), options);
   EXPECT_EQ(stages, (std::vector<std::string>{"preparation", "subject plane", "oracle on plane",
-                                              "claims of plane", "relation"}));
+                                              "claims of plane", "doubles of plane", "relation"}));
 }
 
 TEST(Relations, EachHoldsOnExactKernels) {
