@@ -231,7 +231,9 @@ void Overlay::intersect(std::size_t s, std::size_t t,
   }
   const auto touch = [&](std::uint32_t vertex, std::size_t segment, bool other_is_candidate) {
     if (!strictly_within(vertex, segments_[segment])) return;
-    splits[segment].push_back(vertex);
+    // A vertex of what is no edge splits nothing: edges of other layers on the same line, which do
+    // not look for T-vertices, would not be split there.
+    if (edges) splits[segment].push_back(vertex);
     if (segments_[segment].candidate && other_is_candidate) is_t_vertex_[vertex] = true;
   };
   if (a == 0) touch(second.a, s, second.candidate);

@@ -105,6 +105,22 @@ TEST(Overlay, CollinearOverlapsAndTVertices) {
   EXPECT_EQ(area_where(overlay, [](const Winding& w) { return w[kShadow] == 1; }), 8);
 }
 
+/// A vertex at which all edges cancel, on edges of two layers that lie on each other: it splits
+/// neither of them, or they would no longer be the same edge.
+TEST(Overlay, AVertexOfEdgesThatCancelSplitsNothing) {
+  Overlay overlay;
+  const std::vector<ChartPoint> corners = square(0, -2, 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    overlay.add_loop({p(2, 0), corners[i], corners[(i + 1) % 4]}, kShadow);
+  }
+  overlay.add_loop({p(-5, 0), p(6, 0), p(0, 9)}, kShadow);
+  overlay.add_loop({p(-5, 0), p(7, 0), p(0, 20)}, kTruth);
+  overlay.build();
+  ASSERT_TRUE(overlay.consistent());
+  EXPECT_EQ(area_where(overlay, [](const Winding& w) { return w[kTruth] == 1; }), 120);
+  EXPECT_GT(overlay.t_vertices(), 0u);
+}
+
 TEST(Overlay, ManyLinesThroughOnePoint) {
   Overlay overlay;
   overlay.add_loop({p(-9, -9), p(9, -9), p(9, 9), p(-9, 9)}, kReceiver);
