@@ -28,6 +28,7 @@ TradeoffPlan runs_of(const AdvicePlan& plan, LightsAsked lights, const SceneSour
   runs.thicknesses = {0, 1e-14, kDefaultThickness, 1e-9};
   runs.certify_up_to = plan.certify_up_to;
   runs.points = true;
+  runs.stages = true;
   runs.only = lights;
   return runs;
 }

@@ -157,39 +157,51 @@ double growth_exponent(const std::vector<double>& x, const std::vector<double>& 
   return covariance / variance;
 }
 
-Expected<std::vector<Planned>> planned_runs(const ComparePlan& plan) {
-  std::vector<Planned> all;
-  for (const SceneSource& source : plan.scenes) {
-    std::vector<std::optional<std::uint64_t>> sizes(plan.sizes.begin(), plan.sizes.end());
-    if (!source.takes_size() || sizes.empty()) sizes = {std::nullopt};
-    std::ranges::sort(sizes);
+Expected<void> for_each_scene(
+    const std::vector<SceneSource>& scenes, std::vector<std::uint64_t> sizes, std::uint64_t seed,
+    const std::function<void(const Scene& scene, const RunRequest& request)>& visit) {
+  std::ranges::sort(sizes);
+  for (const SceneSource& source : scenes) {
+    std::vector<std::optional<std::uint64_t>> asked(sizes.begin(), sizes.end());
+    if (!source.takes_size() || asked.empty()) asked = {std::nullopt};
     std::set<std::size_t> there;  // numbers of polygons
-    for (const auto& size : sizes) {
-      const auto scene = source.make(size, plan.seed);
+    for (const auto& size : asked) {
+      const auto scene = source.make(size, seed);
       if (!scene) return tl::unexpected(scene.error());
       if (!there.insert(scene->polygons.size()).second) continue;
       if (scene->lights.empty()) {
         return fail(ErrorCode::kUsage, source.name() + ": there is no light", "a scene with one");
       }
-      const bool area = std::ranges::all_of(scene->lights, &Light::has_area);
       RunRequest request;
       request.scene = source.name();
       request.size = size;
-      request.seed = plan.seed;
-      request.lights = area ? LightsAsked::kArea : LightsAsked::kPoint;
-      request.repeat = plan.repeat;
-      request.certify_up_to = plan.certify_up_to;
-      for (const std::string& system :
-           plan.systems.empty() ? systems_for(request.lights) : plan.systems) {
-        for (const std::string& kernel : plan.kernels) {
-          const auto most = plan.most_polygons.find(kernel);
-          if (most != plan.most_polygons.end() && scene->polygons.size() > most->second) continue;
-          request.system = system;
-          request.kernel = kernel;
-          all.push_back({request, scene->polygons.size()});
-        }
+      request.seed = seed;
+      visit(*scene, request);
+    }
+  }
+  return {};
+}
+
+Expected<std::vector<Planned>> planned_runs(const ComparePlan& plan) {
+  std::vector<Planned> all;
+  const auto add = [&](const Scene& scene, RunRequest request) {
+    const bool area = std::ranges::all_of(scene.lights, &Light::has_area);
+    request.lights = area ? LightsAsked::kArea : LightsAsked::kPoint;
+    request.repeat = plan.repeat;
+    request.certify_up_to = plan.certify_up_to;
+    for (const std::string& system :
+         plan.systems.empty() ? systems_for(request.lights) : plan.systems) {
+      for (const std::string& kernel : plan.kernels) {
+        const auto most = plan.most_polygons.find(kernel);
+        if (most != plan.most_polygons.end() && scene.polygons.size() > most->second) continue;
+        request.system = system;
+        request.kernel = kernel;
+        all.push_back({request, scene.polygons.size()});
       }
     }
+  };
+  if (auto done = for_each_scene(plan.scenes, plan.sizes, plan.seed, add); !done) {
+    return tl::unexpected(std::move(done.error()));
   }
   return all;
 }

@@ -75,6 +75,13 @@ struct Comparison {
   std::vector<std::string> contradictions;
 };
 
+/// Each scene in each size, from the smallest, with a request that names it; sizes that give a
+/// scene again are left out, and what takes none is made once. Errors: kUsage, for a scene without
+/// lights; those of making scenes.
+Expected<void> for_each_scene(
+    const std::vector<SceneSource>& scenes, std::vector<std::uint64_t> sizes, std::uint64_t seed,
+    const std::function<void(const Scene& scene, const RunRequest& request)>& visit);
+
 /// The runs of a plan in the order of the rows: by scene, size, system and kernel. Sizes that
 /// give a scene again are left out. Errors: kUsage, for a scene without lights; those of making
 /// scenes.

@@ -49,6 +49,7 @@ class Sweep {
   Expected<void> run() {
     TradeoffPlan plan = plan_.runs;
     plan.scenes = scenes_;
+    plan.stages = true;
     auto found = find_tradeoff(plan, program_, log_, control_);
     if (!found) return tl::unexpected(found.error());
     extremes_.runs = std::move(*found);

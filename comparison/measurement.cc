@@ -81,6 +81,7 @@ std::string request_text(const RunRequest& request) {
     json.member("thickness", request.thickness.value_or(0));
     json.member("change", request.change);
     json.member("points", request.points);
+    json.member("stages", request.stages);
     json.member("repeat", request.repeat);
     json.member("certify_up_to", request.certify_up_to);
   });
@@ -104,6 +105,7 @@ Expected<RunRequest> parse_request(std::string_view text) {
   members.read("thickness", thickness);
   members.read("change", request.change);
   members.read("points", request.points);
+  members.read("stages", request.stages);
   members.read("repeat", request.repeat);
   members.read("certify_up_to", request.certify_up_to);
   if (members.error()) return tl::unexpected(*members.error());

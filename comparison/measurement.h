@@ -31,6 +31,7 @@ struct RunRequest {
   std::optional<double> thickness{};  // of planes; else the kernel's own
   std::string change{};               // of scene_change.h: also what it changes; empty: none
   bool points = false;                // what has more polygons is judged by exact points
+  bool stages = false;                // also who decides, in a run of its own
   friend bool operator==(const RunRequest&, const RunRequest&) = default;
 };
 

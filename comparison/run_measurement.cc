@@ -152,7 +152,7 @@ class Run {
 
   /// Who decides, in a run that is asked for no more than the one that was timed.
   bool count_stages() {
-    if (!done_.exact) return true;
+    if (!request_.stages || !done_.exact) return true;
     ShadowOptions options = options_;
     options.output.stage_counts = true;
     const auto result = compute_shadows(prepared_, options);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <tuple>
 #include <utility>
 
@@ -99,35 +98,22 @@ std::optional<double> error_of(const Measurement& measurement) {
 
 Expected<std::vector<Planned>> tradeoff_runs(const TradeoffPlan& plan) {
   std::vector<Planned> all;
-  for (const SceneSource& source : plan.scenes) {
-    std::vector<std::optional<std::uint64_t>> sizes(plan.sizes.begin(), plan.sizes.end());
-    if (!source.takes_size() || sizes.empty()) sizes = {std::nullopt};
-    std::set<std::size_t> there;  // numbers of polygons
-    for (const auto& size : sizes) {
-      const auto scene = source.make(size, plan.seed);
-      if (!scene) return tl::unexpected(scene.error());
-      if (!there.insert(scene->polygons.size()).second) continue;
-      if (scene->lights.empty()) {
-        return fail(ErrorCode::kUsage, source.name() + ": there is no light", "a scene with one");
-      }
-      for (const LightsAsked lights : {LightsAsked::kPoint, LightsAsked::kArea}) {
-        const bool area = lights == LightsAsked::kArea;
-        if (std::ranges::none_of(scene->lights,
-                                 [&](const Light& light) { return light.has_area() == area; })) {
-          continue;
-        }
-        if (plan.only && *plan.only != lights) continue;
-        RunRequest request;
-        request.points = plan.points;
-        request.scene = source.name();
-        request.size = size;
-        request.seed = plan.seed;
-        request.lights = lights;
-        request.repeat = plan.repeat;
-        request.certify_up_to = plan.certify_up_to;
-        add_runs(plan, request, scene->polygons.size(), all);
-      }
+  const auto add = [&](const Scene& scene, RunRequest request) {
+    for (const LightsAsked lights : {LightsAsked::kPoint, LightsAsked::kArea}) {
+      const bool area = lights == LightsAsked::kArea;
+      const bool has = std::ranges::any_of(
+          scene.lights, [&](const Light& light) { return light.has_area() == area; });
+      if (!has || (plan.only && *plan.only != lights)) continue;
+      request.lights = lights;
+      request.points = plan.points;
+      request.stages = plan.stages;
+      request.repeat = plan.repeat;
+      request.certify_up_to = plan.certify_up_to;
+      add_runs(plan, request, scene.polygons.size(), all);
     }
+  };
+  if (auto done = for_each_scene(plan.scenes, plan.sizes, plan.seed, add); !done) {
+    return tl::unexpected(std::move(done.error()));
   }
   return all;
 }

@@ -25,6 +25,7 @@ struct TradeoffPlan {
   std::vector<std::string> changes;  // of scene_change.h; empty: the scenes as they are
   std::uint64_t seed = 1, repeat = 0, certify_up_to = kCertifyUpTo;
   bool points = false;              // RunRequest::points
+  bool stages = false;              // RunRequest::stages
   std::optional<LightsAsked> only;  // else every kind that a scene has
   std::optional<double> budget;     // seconds of the clock, after which nothing more is begun
   RunLimits limits;

@@ -43,11 +43,6 @@ Expected<comparison::ComparePlan> plan_of(const CompareCommandOptions& options) 
   return plan;
 }
 
-int status_of(const comparison::Comparison& comparison) {
-  if (comparison.interrupted) return kInterruptedStatus;
-  return comparison.contradictions.empty() ? kDone : kDisagree;
-}
-
 int run_compare(const CompareCommandOptions& options) {
   const auto plan = plan_of(options);
   if (!plan) return report_error(plan.error());
@@ -66,23 +61,14 @@ int run_compare(const CompareCommandOptions& options) {
   line.clear();
   if (!comparison) return report_error(comparison.error());
 
-  if (options.json != "-" && options.csv != "-") {
-    const std::string text =
-        comparison::comparison_text(*comparison, {options.commands, options.counters});
-    if (auto done = write_output({}, text); !done) return report_error(done.error());
-  }
-  if (!options.json.empty()) {
-    auto output = Output::open(options.json);
-    if (!output) return report_error(output.error());
-    comparison::write_comparison_json(*output, *comparison, options.times);
-    if (auto done = output->finish(); !done) return report_error(done.error());
-  }
-  if (!options.csv.empty()) {
-    const auto done =
-        write_output(options.csv, comparison::comparison_csv(*comparison, options.times));
-    if (!done) return report_error(done.error());
-  }
-  return status_of(*comparison);
+  const auto written = options.write(
+      comparison::comparison_text(*comparison, {options.commands, options.counters}),
+      [&](report::TextSink& sink) {
+        comparison::write_comparison_json(sink, *comparison, options.times);
+      },
+      [&] { return comparison::comparison_csv(*comparison, options.times); });
+  if (!written) return report_error(written.error());
+  return status_of(comparison->interrupted, comparison->contradictions);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "cli/common/check_options.h"
 #include "cli/common/commands.h"
 #include "cli/common/messages.h"
+#include "cli/common/output.h"
 #include "gnomon/algorithms/method_options.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/kernel_choice.h"
@@ -118,6 +119,49 @@ comparison::RunLimits ComparisonOptions::limits() const {
   if (!time.empty()) limits.seconds = duration_seconds(time);
   limits.megabytes = megabytes;
   return limits;
+}
+
+Expected<void> ComparisonOptions::write(const std::string& text,
+                                        const std::function<void(report::TextSink&)>& write_json,
+                                        const std::function<std::string()>& csv_text) const {
+  if (json != "-" && csv != "-") {
+    if (auto done = write_output({}, text); !done) return done;
+  }
+  if (!json.empty()) {
+    auto output = Output::open(json);
+    if (!output) return tl::unexpected(output.error());
+    write_json(*output);
+    if (auto done = output->finish(); !done) return done;
+  }
+  return csv.empty() ? Expected<void>() : write_output(csv, csv_text());
+}
+
+ExitStatus status_of(bool interrupted, const std::vector<std::string>& contradictions) {
+  if (interrupted) return kInterruptedStatus;
+  return contradictions.empty() ? kDone : kDisagree;
+}
+
+Expected<comparison::RunLog> open_log(const std::string& file) {
+  if (file.empty()) return comparison::RunLog();
+  return comparison::RunLog::open(file);
+}
+
+void add_log_option(CLI::App& command, std::string& file) {
+  command
+      .add_option("--log", file,
+                  "Write each run to this file as soon as it is done, and run nothing again that "
+                  "is there")
+      ->type_name("FILE");
+}
+
+void add_thickness_option(CLI::App& command, std::vector<double>& thicknesses,
+                          const std::string& absent) {
+  repeatable(command.add_option("--try", thicknesses,
+                                "A thickness of planes, relative to the scene's diagonal "
+                                "(repeatable); absent: " +
+                                    absent))
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("T");
 }
 
 void add_run_options(CLI::App& command, ComparisonOptions& options,

@@ -6,11 +6,15 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "cli/common/exit_status.h"
 #include "comparison/comparison.h"
+#include "comparison/run_log.h"
 #include "gnomon/kernel/error.h"
+#include "report/text/text_sink.h"
 
 namespace gnomon::cli {
 
@@ -30,7 +34,21 @@ struct ComparisonOptions {
   /// `usual`: where none is named.
   Expected<std::vector<std::string>> kernel_names(const std::vector<std::string>& usual) const;
   comparison::RunLimits limits() const;
+  /// The text on standard output, unless JSON or CSV go there alone; JSON and CSV where they were
+  /// asked for.
+  Expected<void> write(const std::string& text,
+                       const std::function<void(report::TextSink&)>& write_json,
+                       const std::function<std::string()>& csv) const;
 };
+
+/// What ends a command that measures: interrupted, contradicted by an exact kernel, or done.
+ExitStatus status_of(bool interrupted, const std::vector<std::string>& contradictions);
+/// One that keeps nothing if no file is named.
+Expected<comparison::RunLog> open_log(const std::string& file);
+void add_log_option(CLI::App& command, std::string& file);
+/// `--try T`; `absent`: what is tried else, in words.
+void add_thickness_option(CLI::App& command, std::vector<double>& thicknesses,
+                          const std::string& absent);
 
 /// The kernels that were built.
 std::vector<std::string> all_kernels();

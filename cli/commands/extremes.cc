@@ -78,12 +78,8 @@ int run_extremes(const ExtremesOptions& options) {
   if (!plan) return report_error(plan.error());
   const auto program = own_program();
   if (!program) return report_error(program.error());
-  comparison::RunLog log;
-  if (!options.log.empty()) {
-    auto opened = comparison::RunLog::open(options.log);
-    if (!opened) return report_error(opened.error());
-    log = std::move(*opened);
-  }
+  auto log = open_log(options.log);
+  if (!log) return report_error(log.error());
   ProgressLine line;
   comparison::CompareControl control;
   control.interrupted = &interrupted();
@@ -91,27 +87,15 @@ int run_extremes(const ExtremesOptions& options) {
     line.show("extremes " + std::to_string(done) + " of " + std::to_string(all) + ": " +
               request.scene + ", " + request.kernel + '/' + request.system);
   };
-  const auto extremes = comparison::find_extremes(*plan, {*program, {"measure"}}, log, control);
+  const auto extremes = comparison::find_extremes(*plan, {*program, {"measure"}}, *log, control);
   line.clear();
   if (!extremes) return report_error(extremes.error());
-  if (options.json != "-" && options.csv != "-") {
-    if (auto done = write_output({}, comparison::extremes_text(*extremes, options.curves)); !done) {
-      return report_error(done.error());
-    }
-  }
-  if (!options.json.empty()) {
-    auto output = Output::open(options.json);
-    if (!output) return report_error(output.error());
-    comparison::write_extremes_json(*output, *extremes);
-    if (auto done = output->finish(); !done) return report_error(done.error());
-  }
-  if (!options.csv.empty()) {
-    if (auto done = write_output(options.csv, comparison::extremes_csv(*extremes)); !done) {
-      return report_error(done.error());
-    }
-  }
-  if (extremes->runs.interrupted) return kInterruptedStatus;
-  return extremes->runs.contradictions.empty() ? kDone : kDisagree;
+  const auto written = options.write(
+      comparison::extremes_text(*extremes, options.curves),
+      [&](report::TextSink& sink) { comparison::write_extremes_json(sink, *extremes); },
+      [&] { return comparison::extremes_csv(*extremes); });
+  if (!written) return report_error(written.error());
+  return status_of(extremes->runs.interrupted, extremes->runs.contradictions);
 }
 
 }  // namespace
@@ -139,16 +123,8 @@ void add_extremes_command(CLI::App& app, Action& action) {
   command.add_flag("--sheared", options->sheared,
                    "Under an exact map of space that keeps no plane parallel to an axis");
   command.add_flag("--curves", options->curves, "Print the worst share of every step");
-  repeatable(command.add_option("--try", options->thicknesses,
-                                "A thickness of planes, relative to the scene's diagonal "
-                                "(repeatable); absent: 1e-12"))
-      ->check(CLI::Range(0.0, 1.0))
-      ->type_name("T");
-  command
-      .add_option("--log", options->log,
-                  "Write each run to this file as soon as it is done, and run nothing again that "
-                  "is there")
-      ->type_name("FILE");
+  add_thickness_option(command, options->thicknesses, "1e-12");
+  add_log_option(command, options->log);
   add_run_options(command, *options, "float, double, double+identity, longdouble, epick and plane",
                   "sectors, svbsp, receiver, merged");
   command.callback([options, &action] { action = [options] { return run_extremes(*options); }; });

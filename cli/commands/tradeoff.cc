@@ -79,38 +79,13 @@ std::string text_of(const comparison::Tradeoff& tradeoff, const TradeoffOptions&
   return comparison::tradeoff_text(tradeoff, options.commands);
 }
 
-Expected<void> write_files(const comparison::Tradeoff& tradeoff, const TradeoffOptions& options) {
-  if (!options.json.empty()) {
-    auto output = Output::open(options.json);
-    if (!output) return tl::unexpected(output.error());
-    comparison::write_tradeoff_json(*output, tradeoff);
-    if (auto done = output->finish(); !done) return done;
-  }
-  if (!options.csv.empty()) {
-    if (auto done = write_output(options.csv, comparison::tradeoff_csv(tradeoff)); !done) {
-      return done;
-    }
-  }
-  if (!options.plot.empty()) {
-    auto output = Output::open(options.plot);
-    if (!output) return tl::unexpected(output.error());
-    comparison::write_tradeoff_plot(*output, tradeoff);
-    if (auto done = output->finish(); !done) return done;
-  }
-  return {};
-}
-
 int run_tradeoff(const TradeoffOptions& options) {
   const auto plan = plan_of(options);
   if (!plan) return report_error(plan.error());
   const auto program = own_program();
   if (!program) return report_error(program.error());
-  comparison::RunLog log;
-  if (!options.log.empty()) {
-    auto opened = comparison::RunLog::open(options.log);
-    if (!opened) return report_error(opened.error());
-    log = std::move(*opened);
-  }
+  auto log = open_log(options.log);
+  if (!log) return report_error(log.error());
   ProgressLine line;
   comparison::CompareControl control;
   control.interrupted = &interrupted();
@@ -120,17 +95,21 @@ int run_tradeoff(const TradeoffOptions& options) {
               (request.thickness ? ", thickness " + report::shortest(*request.thickness) : "") +
               (request.change.empty() ? "" : ", " + request.change));
   };
-  const auto tradeoff = comparison::find_tradeoff(*plan, {*program, {"measure"}}, log, control);
+  const auto tradeoff = comparison::find_tradeoff(*plan, {*program, {"measure"}}, *log, control);
   line.clear();
   if (!tradeoff) return report_error(tradeoff.error());
-  if (options.json != "-" && options.csv != "-") {
-    if (auto done = write_output({}, text_of(*tradeoff, options)); !done) {
-      return report_error(done.error());
-    }
+  const auto written = options.write(
+      text_of(*tradeoff, options),
+      [&](report::TextSink& sink) { comparison::write_tradeoff_json(sink, *tradeoff); },
+      [&] { return comparison::tradeoff_csv(*tradeoff); });
+  if (!written) return report_error(written.error());
+  if (!options.plot.empty()) {
+    auto output = Output::open(options.plot);
+    if (!output) return report_error(output.error());
+    comparison::write_tradeoff_plot(*output, *tradeoff);
+    if (auto done = output->finish(); !done) return report_error(done.error());
   }
-  if (auto done = write_files(*tradeoff, options); !done) return report_error(done.error());
-  if (tradeoff->interrupted) return kInterruptedStatus;
-  return tradeoff->contradictions.empty() ? kDone : kDisagree;
+  return status_of(tradeoff->interrupted, tradeoff->contradictions);
 }
 
 }  // namespace
@@ -147,12 +126,8 @@ void add_tradeoff_command(CLI::App& app, Action& action) {
       "  gnomon tradeoff tests/regressions --thickness --algorithm sectors\n"
       "  gnomon tradeoff house.json --invariances --kernel double --kernel plane");
   add_comparison_options(command, *options, "all (with --thickness: double)");
-  repeatable(command.add_option("--try", options->thicknesses,
-                                "A thickness of planes, relative to the scene's diagonal "
-                                "(repeatable); absent: 0 and\nthe powers of ten from 1e-15 to "
-                                "1e-3"))
-      ->check(CLI::Range(0.0, 1.0))
-      ->type_name("T");
+  add_thickness_option(command, options->thicknesses,
+                       "0 and\nthe powers of ten from 1e-15 to 1e-3");
   CLI::Option* const thickness =
       command.add_flag("--thickness", options->thickness,
                        "Print with which thicknesses each scene is right, and the best single one");
@@ -166,11 +141,7 @@ void add_tradeoff_command(CLI::App& app, Action& action) {
       ->type_name("NAME");
   command.add_option("--plot", options->plot, "Write time and error as a picture")
       ->type_name("FILE.svg");
-  command
-      .add_option("--log", options->log,
-                  "Write each run to this file as soon as it is done, and run nothing again that "
-                  "is there")
-      ->type_name("FILE");
+  add_log_option(command, options->log);
   command.callback([options, &action] { action = [options] { return run_tradeoff(*options); }; });
 }
 
