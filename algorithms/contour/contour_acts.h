@@ -136,9 +136,6 @@ void ContourWalk<Numbers, Sides>::act_along(std::uint32_t k, const Segment<Numbe
 template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::find_events(std::uint32_t k, const Segment<Numbers>& segment) {
   const std::vector<Behind<Numbers>>& behind = lists_[k].behind;
-  const auto is_one = [](const PlaceOnEdge& a, const PlaceOnEdge& b) {
-    return a.name.is_known() && a.name == b.name;
-  };
   active_.clear();
   events_.clear();
   events_.push_back({segment.low, kSegment, true});
@@ -146,12 +143,12 @@ void ContourWalk<Numbers, Sides>::find_events(std::uint32_t k, const Segment<Num
   for (std::uint32_t i = 0; i < behind.size(); ++i) {
     const PlaceOnEdge &low = behind[i].low, &high = behind[i].high;
     if (certainly_before(segment.high, low) || certainly_before(high, segment.low)) continue;
-    if (certainly_before(low, segment.low) || is_one(low, segment.low)) {
+    if (certainly_before(low, segment.low) || is_same_place(low, segment.low)) {
       active_.push_back(i);
     } else {
       events_.push_back({low, i, true});
     }
-    if (!certainly_before(segment.high, high) && !is_one(high, segment.high)) {
+    if (!certainly_before(segment.high, high) && !is_same_place(high, segment.high)) {
       events_.push_back({high, i, false});
     }
   }
@@ -173,7 +170,7 @@ auto ContourWalk<Numbers, Sides>::group_of_events(std::size_t begin) const -> Ev
     if (reach < least_of(place)) break;
     if (reach < greatest_of(place)) reach = greatest_of(place);
     if constexpr (Numbers::kCertified) {
-      group.is_open = group.is_open || !first.name.is_known() || !(place.name == first.name);
+      group.is_open = group.is_open || !is_same_place(first, place);
     }
   }
   if constexpr (Numbers::kCertified) {

@@ -84,6 +84,11 @@ struct Place {
   static Place to() { return {T(1), 0, PlaceName::to()}; }
 };
 
+/// Whether two places are one by what they are.
+template <class Numbers>
+bool is_same_place(const Place<Numbers>& p, const Place<Numbers>& q) {
+  return p.name.is_known() && p.name == q.name;
+}
 /// Whether p is certainly before q.
 template <class Numbers>
 bool certainly_before(const Place<Numbers>& p, const Place<Numbers>& q) {
@@ -97,7 +102,7 @@ bool certainly_before(const Place<Numbers>& p, const Place<Numbers>& q) {
 template <class Numbers>
 bool certainly_no_gap(const Place<Numbers>& p, const Place<Numbers>& q) {
   if constexpr (Numbers::kCertified) {
-    return (p.name.is_known() && p.name == q.name) || p.t - q.t > p.error + q.error;
+    return is_same_place(p, q) || p.t - q.t > p.error + q.error;
   } else {
     return !(p.t < q.t);
   }
@@ -139,7 +144,7 @@ template <class Numbers>
 Place<Numbers> chosen_of(const Place<Numbers>& chosen, const Place<Numbers>& other) {
   Place<Numbers> result = chosen;
   if constexpr (Numbers::kCertified) {
-    if (chosen.name.is_known() && chosen.name == other.name) return result;
+    if (is_same_place(chosen, other)) return result;
     const double distance = other.t < chosen.t ? chosen.t - other.t : other.t - chosen.t;
     if (distance > chosen.error + other.error) return result;
     result.error = std::max(chosen.error, other.error - distance);

@@ -142,6 +142,24 @@ bool WitnessChecker::area_reason_holds(const Family& family, const ClaimedFragme
   return false;
 }
 
+std::optional<std::uint32_t> WitnessChecker::caster_to_check(const Family& family,
+                                                             const ClaimedFragment& fragment,
+                                                             std::size_t index) {
+  ++report_.witnesses;
+  const std::string& id = family.polygon.id;
+  if (!fragment.reason.empty()) {
+    if (!shadow_reason_holds(family, fragment)) {
+      violation(id, fmt::format("the reason '{}' does not hold", fragment.reason), index);
+    }
+    return std::nullopt;
+  }
+  if (fragment.caster.empty()) {
+    if (is_facing(family)) violation(id, "a shadow fragment names no caster", index);
+    return std::nullopt;
+  }
+  return named_caster(family.polygon, index);
+}
+
 std::optional<std::uint32_t> WitnessChecker::named_caster(const ClaimedPolygon& polygon,
                                                           std::size_t index) {
   const std::string& name = polygon.fragments[index].caster;

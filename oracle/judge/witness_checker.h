@@ -100,6 +100,11 @@ class WitnessChecker {
   bool area_reason_holds(const Family& family, const ClaimedFragment& fragment, bool behind);
   /// The caster that a fragment names; none, with the violation told, if the scene has none such.
   std::optional<std::uint32_t> named_caster(const ClaimedPolygon& polygon, std::size_t index);
+  /// The caster that is to shadow a fragment under a point or directional light; none if its reason
+  /// holds, or if what it says is wrong, with the violation told, or if it says nothing and need
+  /// not.
+  std::optional<std::uint32_t> caster_to_check(const Family& family,
+                                               const ClaimedFragment& fragment, std::size_t index);
   bool is_facing(const Family& family) const;
   bool has_all_parts(const Family& family) const;
   bool stopped();

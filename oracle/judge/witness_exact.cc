@@ -269,17 +269,7 @@ void WitnessChecker::check_exact_shade(Family& family, const Piece& piece) {
     if (faces) return check_exact_lit(family, piece);
     return violation(id, "a fragment is lit on a side that does not face the light", piece.index);
   }
-  ++report_.witnesses;
-  if (!fragment.reason.empty()) {
-    if (shadow_reason_holds(family, fragment)) return;
-    return violation(id, fmt::format("the reason '{}' does not hold", fragment.reason),
-                     piece.index);
-  }
-  if (fragment.caster.empty()) {
-    if (faces) violation(id, "a shadow fragment names no caster", piece.index);
-    return;
-  }
-  const std::optional<std::uint32_t> caster = named_caster(family.polygon, piece.index);
+  const std::optional<std::uint32_t> caster = caster_to_check(family, fragment, piece.index);
   if (!caster) return;
   if (faces) {
     for (const Shade* shade : family.shades.partly().near(piece.flat_box)) {

@@ -401,27 +401,15 @@ void WitnessChecker::check_hidden(Family& family, const FlatPiece& piece, Loops 
 
 void WitnessChecker::check_rounded_shade(Family& family, const FlatPiece& piece) {
   const ClaimedFragment& fragment = *piece.fragment;
-  const std::string& id = family.polygon.id;
-  const bool faces = is_facing(family);
   if (fragment.state == LightState::kLit) {
-    if (faces) {
+    if (is_facing(family)) {
       return check_rounded_lit(family, piece, family.shades.partly(),
                                "a lit fragment is shadowed by");
     }
     return add_error(family, piece, ErrorKind::kMisclassified, {piece.loop},
                      "a fragment is lit on a side that does not face the light");
   }
-  ++report_.witnesses;
-  if (!fragment.reason.empty()) {
-    if (shadow_reason_holds(family, fragment)) return;
-    return violation(id, fmt::format("the reason '{}' does not hold", fragment.reason),
-                     piece.index);
-  }
-  if (fragment.caster.empty()) {
-    if (faces) violation(id, "a shadow fragment names no caster", piece.index);
-    return;
-  }
-  const std::optional<std::uint32_t> caster = named_caster(family.polygon, piece.index);
+  const std::optional<std::uint32_t> caster = caster_to_check(family, fragment, piece.index);
   if (!caster) return;
   check_hidden(family, piece, {piece.loop}, *caster, family.shades.partly(), [&] {
     return fmt::format("'{}' does not shadow all of the fragment", fragment.caster);
