@@ -19,6 +19,10 @@ function(gnomon_set_flags target)
     # GCC 12 sees overlaps in std::string's operator+ where there are none (GCC bug 105651).
     target_compile_options(${target} PRIVATE -Wno-restrict)
   endif()
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    # RapidJSON 1.1 compares its iterators by members that C++20 also tries the other way round.
+    target_compile_options(${target} PRIVATE -Wno-ambiguous-reversed-operator)
+  endif()
   if(GNOMON_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

@@ -80,7 +80,7 @@ void ContourWalk<Numbers, Sides>::find_order(std::uint32_t q) {
 
 // As meet(), of two polygons of at most four corners.
 template <class Numbers, class Sides>
-void ContourWalk<Numbers, Sides>::meet_block(std::uint32_t q) requires(Survey::kInBlocks) {
+void ContourWalk<Numbers, Sides>::meet_block(std::uint32_t q) {
   const BlockSigns signs = survey_.block_signs(p_, q);
   const std::uint32_t n = polygons_->polygons[p_].count;
   // Bit 4 k: of edge k, whether any corner is in a set, and whether two are.

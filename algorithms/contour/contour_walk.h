@@ -93,7 +93,7 @@ class ContourWalk {
   void find_beside(std::uint32_t k);
   void meet(std::uint32_t q);
   void find_order(std::uint32_t q);
-  void meet_block(std::uint32_t q) requires(Survey::kInBlocks);
+  void meet_block(std::uint32_t q);
   void meet_outside(std::uint32_t q);
   void meet_on_edge(std::uint32_t k, std::uint32_t q, const LineThrough& through);
   void meet_in_plane(EdgeLists<Numbers>& lists, std::uint32_t q, LineCover cover,

@@ -58,7 +58,7 @@ class EdgeSurvey {
   LineThrough through_by_one(std::uint32_t p, std::uint32_t k, std::uint32_t q);
   /// The same for polygons of at most four corners in doubles, as one block of signs; what the
   /// numbers leave open is decided.
-  BlockSigns block_signs(std::uint32_t p, std::uint32_t q) requires(kInBlocks);
+  BlockSigns block_signs(std::uint32_t p, std::uint32_t q);
   /// Where the line goes whose signs of four corners are in a block, of a polygon of n corners.
   LineThrough through_block(std::uint32_t q, unsigned left, unsigned right) const;
   /// Decisions that the numbers made, without the kernel; those of find_nearer() are not counted.
@@ -74,10 +74,10 @@ class EdgeSurvey {
   }
   /// The signs and values of the lines of q at the corners of p, for interval_in_block(). False:
   /// all corners are on or beyond one of the lines, so that the two do not overlap.
-  bool find_values(std::uint32_t q, std::uint32_t p) requires(kInBlocks);
+  bool find_values(std::uint32_t q, std::uint32_t p);
   /// As interval(), from find_values(q, p).
   bool interval_in_block(std::uint32_t p, std::uint32_t k, std::uint32_t q,
-                         const LineThrough& through, Stretch<Numbers>& stretch) requires(kInBlocks);
+                         const LineThrough& through, Stretch<Numbers>& stretch);
   /// The interval of edge k of p in q, which its line goes `through`. False: there is none.
   bool interval(std::uint32_t p, std::uint32_t k, std::uint32_t q, const LineThrough& through,
                 Stretch<Numbers>& stretch);

@@ -8,7 +8,7 @@
 namespace gnomon {
 
 template <class Numbers, class Sides>
-bool EdgeSurvey<Numbers, Sides>::find_values(std::uint32_t q, std::uint32_t p) requires(kInBlocks) {
+bool EdgeSurvey<Numbers, Sides>::find_values(std::uint32_t q, std::uint32_t p) {
   const FacingPolygon& own = polygons_->polygons[p];
   const FacingPolygon& other = polygons_->polygons[q];
   const double reach = polygons_->reach[p];
@@ -27,7 +27,7 @@ bool EdgeSurvey<Numbers, Sides>::find_values(std::uint32_t q, std::uint32_t p) r
 template <class Numbers, class Sides>
 bool EdgeSurvey<Numbers, Sides>::interval_in_block(std::uint32_t p, std::uint32_t k,
                                                    std::uint32_t q, const LineThrough& through,
-                                                   Stretch<Numbers>& stretch) requires(kInBlocks) {
+                                                   Stretch<Numbers>& stretch) {
   const std::uint32_t next = k + 1 == polygons_->polygons[p].count ? 0 : k + 1;
   const auto sign = [&](std::uint32_t edge, std::uint32_t j) {
     const std::uint32_t bit = 4 * edge + j;

@@ -84,8 +84,7 @@ void EdgeSurvey<Numbers, Sides>::find_sign(std::uint32_t p, std::uint32_t k, std
 }
 
 template <class Numbers, class Sides>
-BlockSigns EdgeSurvey<Numbers, Sides>::block_signs(std::uint32_t p,
-                                                   std::uint32_t q) requires(kInBlocks) {
+BlockSigns EdgeSurvey<Numbers, Sides>::block_signs(std::uint32_t p, std::uint32_t q) {
   const FacingPolygon& own = polygons_->polygons[p];
   const FacingPolygon& other = polygons_->polygons[q];
   const double reach = polygons_->reach[q];

@@ -94,7 +94,7 @@ TileBorders::TileBorders(const PreparedScene& scene, const LightPoint& light,
     vertices.insert(vertices.end(), loop.begin(), loop.end());
   }
   std::ranges::sort(vertices);
-  vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   const Shadow shadow(scene.geometry, light);
   sign_ = sgn(shadow.depth());
   // In units of 2^-kBits: value * 2^kBits / (|d_z| 2^b), rounded outward.

@@ -45,8 +45,7 @@ Expected<std::vector<std::uint32_t>> members_of(
     members.push_back(found->second);
   }
   std::ranges::sort(members);
-  const auto repeated = std::ranges::unique(members);
-  members.erase(repeated.begin(), repeated.end());
+  members.erase(std::unique(members.begin(), members.end()), members.end());
   return members;
 }
 

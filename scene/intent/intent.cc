@@ -55,9 +55,10 @@ void measure_box(const PreparedScene& prepared, Intent& intent) {
   intent.diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
-/// Greatest distance of a vertex from the plane through the middle along the area vector.
+/// Greatest distance of a vertex from the plane that lies halfway between the outermost ones along the
+/// area vector.
 double bend_of(const PreparedScene& prepared, const LocalPoints& points, std::uint32_t polygon) {
-  Vector area, middle;
+  Vector area;
   std::vector<Vector> corners;
   for (std::uint32_t p = prepared.first_part[polygon]; p < prepared.first_part[polygon + 1]; ++p) {
     const auto loop = prepared.loop(prepared.parts[p]);

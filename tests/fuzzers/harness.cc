@@ -9,6 +9,7 @@
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/validate.h"
 #include "gnomon/scene/write.h"
+#include "scene/files/foreign_formats.h"
 
 namespace gnomon::fuzzers {
 
@@ -72,6 +73,8 @@ void check_error(const Error& error, std::string_view file, std::string_view tex
           "control characters in a message: " + shown);
   // In binary data a place is told as a byte.
   if (!in_text || error.what.find("(byte ") != std::string::npos) return;
+  // That a file is of another format is said of the whole of it.
+  if (error.where.line == 0 && foreign_format(text)) return;
   require(error.where.line > 0 && error.where.column > 0, "an error without a place: " + shown);
   const auto lines = static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n')) + 1;
   require(error.where.line <= lines, "an error behind the last line: " + shown);
