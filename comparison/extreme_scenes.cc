@@ -207,6 +207,16 @@ Scene detail(int k) {
   return draft.take();
 }
 
+/// Polygons with one corner among the houses and the others far from them.
+Scene mixed(int k) {
+  Draft draft = lit_houses();
+  const double far = std::ldexp(1, k);
+  draft.polygon({{-11, -11, 0}, {19 * far, -11, 0}, {7 * far, 23 * far, 0}});
+  draft.polygon({{-9, -9, 9}, {20 * far, 3, 9 + far}, {7 * far, 20 * far, 5}});
+  draft.polygon({{5, -10, 0}, {5, -10, 6}, {5 - 2 * far, -10 + 13 * far, 6}});
+  return draft.take();
+}
+
 Scene tiles(int k) {
   Draft draft = lit_houses();
   const int columns = 1 << ((k + 1) / 2), rows = 1 << (k / 2);
@@ -299,7 +309,7 @@ Scene area_light(int k) {
   return draft.take();
 }
 
-constexpr std::array<ExtremeAxis, 18> kAxes = {{
+constexpr std::array<ExtremeAxis, 19> kAxes = {{
     {"offset", "the scene, 24 wide, away from the origin by", "2^k", 0, 60, 3, offset},
     {"scale-up", "every length times", "2^k", 0, 1000, 50, scale},
     {"scale-down", "every length times", "2^-k", 0, 1000, 50, [](int k) { return scale(-k); }},
@@ -312,6 +322,7 @@ constexpr std::array<ExtremeAxis, 18> kAxes = {{
     {"gap", "a plate over floor and roof by", "2^-k", 0, 60, 3, gap},
     {"rotation", "turns of the scene, in doubles", "k", 0, 12, 1, rotated, false},
     {"detail", "boxes of a size of", "2^-k", 0, 48, 3, detail},
+    {"mixed", "polygons from 20 wide among the houses to", "20 * 2^k", 0, 60, 3, mixed},
     {"tiles", "plates of one plane, as many as", "2^k", 0, 11, 1, tiles},
     {"nested", "boxes in each other, as many as", "k", 1, 24, 2, nested},
     {"fan", "triangles that meet in one point, as many as", "2^k", 1, 9, 1, fan},

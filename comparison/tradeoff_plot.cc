@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "comparison/error_plot.h"
 #include "comparison/tradeoff_text.h"
 #include "report/pictures/svg.h"
 #include "report/text/number_text.h"
@@ -15,23 +16,8 @@ namespace gnomon::comparison {
 
 namespace {
 
-using report::Colour;
 using report::Paint;
 using report::PixelPoint;
-
-/// Errors below are drawn as 0, on the lowest line.
-constexpr int kLeastPower = -17;
-
-// Colours that people who see no red or green tell apart (Okabe and Ito 2008).
-constexpr std::array<Colour, 8> kColours = {{{0, 114, 178},
-                                             {213, 94, 0},
-                                             {0, 158, 115},
-                                             {204, 121, 167},
-                                             {230, 159, 0},
-                                             {86, 180, 233},
-                                             {110, 110, 110},
-                                             {0, 0, 0}}};
-constexpr Colour kInk{60, 60, 60}, kGrid{225, 225, 225};
 
 using Rows = std::vector<const TradeoffRow*>;
 
@@ -65,8 +51,8 @@ class Panel {
     last_ = std::max(first_ + 1, static_cast<int>(std::ceil(std::log10(most * kMilli))));
   }
 
-  void draw(const std::string& title, const std::map<std::string, Colour>& colours) {
-    picture_.text({kLeft, top_ + 20}, title, 14, kInk, "start", true);
+  void draw(const std::string& title, const KernelColours& colours) {
+    picture_.text({kLeft, top_ + 20}, title, 14, kPlotInk, "start", true);
     draw_grid();
     draw_front();
     for (const TradeoffRow* row : rows_) {
@@ -83,34 +69,24 @@ class Panel {
   double x_of(double milliseconds) const {
     return kLeft + (kRight - kLeft) * (std::log10(milliseconds) - first_) / (last_ - first_);
   }
-  double y_of(double error) const {
-    const double power = error > 0 ? std::max<double>(kLeastPower, std::log10(error)) : kLeastPower;
-    return top_ + kTop + (kBottom - kTop) * power / kLeastPower;
-  }
+  ErrorAxis errors() const { return {kLeft, kRight, top_ + kTop, top_ + kBottom}; }
   PixelPoint place(const TradeoffRow& row) const {
-    return {x_of(row.measurement.seconds * kMilli), y_of(*error_of(row.measurement))};
+    return {x_of(row.measurement.seconds * kMilli), errors().y_of(*error_of(row.measurement))};
   }
 
   void draw_grid() {
     Paint paint;
-    paint.stroke = report::colour_text(kGrid);
+    paint.stroke = report::colour_text(kPlotGrid);
     paint.stroke_width = 1;
     for (int power = first_; power <= last_; ++power) {
       const double x = x_of(std::pow(10, power));
       picture_.line({x, top_ + kTop}, {x, top_ + kBottom}, paint);
-      picture_.text({x, top_ + kBottom + 18}, report::shortest(std::pow(10, power)), 11, kInk,
+      picture_.text({x, top_ + kBottom + 18}, report::shortest(std::pow(10, power)), 11, kPlotInk,
                     "middle");
     }
-    for (int power = kLeastPower; power <= 0; power += power == kLeastPower ? 2 : 3) {
-      const double y = y_of(std::pow(10, power));
-      picture_.line({kLeft, y}, {kRight, y}, paint);
-      picture_.text({kLeft - 8, y + 4},
-                    power == kLeastPower ? "below 1e-17" : "1e" + std::to_string(power), 11, kInk,
-                    "end");
-    }
-    picture_.text({(kLeft + kRight) / 2, top_ + kBottom + 36}, "CPU time, milliseconds", 11, kInk,
-                  "middle");
-    picture_.text({kLeft, top_ + kTop - 6}, "wrong share of the worst polygon", 11, kInk);
+    errors().draw(picture_);
+    picture_.text({(kLeft + kRight) / 2, top_ + kBottom + 36}, "CPU time, milliseconds", 11,
+                  kPlotInk, "middle");
   }
 
   void draw_front() {
@@ -118,7 +94,7 @@ class Panel {
     std::ranges::copy_if(rows_, std::back_inserter(front), &TradeoffRow::on_front);
     std::ranges::sort(front, {}, [](const TradeoffRow* row) { return row->measurement.seconds; });
     Paint paint;
-    paint.stroke = report::colour_text(kInk);
+    paint.stroke = report::colour_text(kPlotInk);
     paint.stroke_width = 1.2;
     for (std::size_t i = 1; i < front.size(); ++i) {
       const PixelPoint a = place(*front[i - 1]), b = place(*front[i]);
@@ -136,24 +112,15 @@ class Panel {
 }  // namespace
 
 void write_tradeoff_plot(report::TextSink& sink, const Tradeoff& tradeoff) {
-  constexpr double kLegend = 40, kStep = 110;
+  constexpr double kLegend = 40;
   const std::map<std::string, Rows> panels = panels_of(tradeoff);
-  std::map<std::string, Colour> colours;
-  for (const TradeoffRow& row : tradeoff.rows) {
-    colours.try_emplace(row.request.kernel, kColours[colours.size() % kColours.size()]);
-  }
-  const double columns = std::max<double>(5, static_cast<double>(colours.size()));
-  report::SvgPicture picture(std::max(Panel::kWidth, 40 + kStep * columns),
+  std::set<std::string> kernels;
+  for (const TradeoffRow& row : tradeoff.rows) kernels.insert(row.request.kernel);
+  const KernelColours colours = kernel_colours(kernels);
+  report::SvgPicture picture(std::max(Panel::kWidth, legend_width(colours)),
                              kLegend + Panel::kHeight * static_cast<double>(panels.size()),
                              "Time and error of kernels and methods");
-  double x = 20;
-  for (const auto& [kernel, colour] : colours) {
-    Paint paint;
-    paint.fill = report::colour_text(colour);
-    picture.circle({x, 18}, 5, paint);
-    picture.text({x + 10, 22}, kernel, 12, kInk);
-    x += kStep;
-  }
+  draw_legend(picture, colours);
   double top = kLegend;
   for (const auto& [name, rows] : panels) {
     Panel(picture, top, rows).draw(name, colours);

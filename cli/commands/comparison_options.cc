@@ -154,6 +154,19 @@ void add_log_option(CLI::App& command, std::string& file) {
       ->type_name("FILE");
 }
 
+void add_plot_option(CLI::App& command, std::string& file, const std::string& what) {
+  command.add_option("--plot", file, what)->type_name("FILE.svg");
+}
+
+Expected<void> write_plot(const std::string& file,
+                          const std::function<void(report::TextSink&)>& draw) {
+  if (file.empty()) return {};
+  auto output = Output::open(file);
+  if (!output) return tl::unexpected(output.error());
+  draw(*output);
+  return output->finish();
+}
+
 void add_thickness_option(CLI::App& command, std::vector<double>& thicknesses,
                           const std::string& absent) {
   repeatable(command.add_option("--try", thicknesses,

@@ -46,6 +46,10 @@ ExitStatus status_of(bool interrupted, const std::vector<std::string>& contradic
 /// One that keeps nothing if no file is named.
 Expected<comparison::RunLog> open_log(const std::string& file);
 void add_log_option(CLI::App& command, std::string& file);
+/// `--plot FILE.svg`, written by write_plot() if it was given.
+void add_plot_option(CLI::App& command, std::string& file, const std::string& what);
+Expected<void> write_plot(const std::string& file,
+                          const std::function<void(report::TextSink&)>& draw);
 /// `--try T`; `absent`: what is tried else, in words.
 void add_thickness_option(CLI::App& command, std::vector<double>& thicknesses,
                           const std::string& absent);

@@ -27,7 +27,7 @@ struct ExtremesOptions : ComparisonOptions {
   std::vector<double> thicknesses;
   std::optional<int> from, to, steps;
   bool sheared = false, bisect = false, list = false, curves = false;
-  std::string log;
+  std::string plot, log;
 };
 
 Expected<comparison::ExtremesPlan> plan_of(const ExtremesOptions& options) {
@@ -95,6 +95,10 @@ int run_extremes(const ExtremesOptions& options) {
       [&](report::TextSink& sink) { comparison::write_extremes_json(sink, *extremes); },
       [&] { return comparison::extremes_csv(*extremes); });
   if (!written) return report_error(written.error());
+  const auto drawn = write_plot(options.plot, [&](report::TextSink& sink) {
+    comparison::write_extremes_plot(sink, *extremes);
+  });
+  if (!drawn) return report_error(drawn.error());
   return status_of(extremes->runs.interrupted, extremes->runs.contradictions);
 }
 
@@ -124,6 +128,7 @@ void add_extremes_command(CLI::App& app, Action& action) {
                    "Under an exact map of space that keeps no plane parallel to an axis");
   command.add_flag("--curves", options->curves, "Print the worst share of every step");
   add_thickness_option(command, options->thicknesses, "1e-12");
+  add_plot_option(command, options->plot, "Write the worst share of every step as a picture");
   add_log_option(command, options->log);
   add_run_options(command, *options, "float, double, double+identity, longdouble, epick and plane",
                   "sectors, svbsp, receiver, merged");

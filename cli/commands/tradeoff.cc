@@ -103,12 +103,10 @@ int run_tradeoff(const TradeoffOptions& options) {
       [&](report::TextSink& sink) { comparison::write_tradeoff_json(sink, *tradeoff); },
       [&] { return comparison::tradeoff_csv(*tradeoff); });
   if (!written) return report_error(written.error());
-  if (!options.plot.empty()) {
-    auto output = Output::open(options.plot);
-    if (!output) return report_error(output.error());
-    comparison::write_tradeoff_plot(*output, *tradeoff);
-    if (auto done = output->finish(); !done) return report_error(done.error());
-  }
+  const auto drawn = write_plot(options.plot, [&](report::TextSink& sink) {
+    comparison::write_tradeoff_plot(sink, *tradeoff);
+  });
+  if (!drawn) return report_error(drawn.error());
   return status_of(tradeoff->interrupted, tradeoff->contradictions);
 }
 
@@ -139,8 +137,7 @@ void add_tradeoff_command(CLI::App& app, Action& action) {
                                 "Only this change of --invariances (repeatable)"))
       ->excludes(thickness)
       ->type_name("NAME");
-  command.add_option("--plot", options->plot, "Write time and error as a picture")
-      ->type_name("FILE.svg");
+  add_plot_option(command, options->plot, "Write time and error as a picture");
   add_log_option(command, options->log);
   command.callback([options, &action] { action = [options] { return run_tradeoff(*options); }; });
 }

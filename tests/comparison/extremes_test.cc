@@ -17,6 +17,7 @@
 namespace gnomon::comparison {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 RunRequest request_of(const ExtremeAxis& axis, int step, bool sheared, const std::string& kernel,
@@ -143,6 +144,10 @@ TEST_F(Sweeps, BisectionFindsTheStep) {
   report::StringSink json;
   write_extremes_json(json, *fine);
   EXPECT_THAT(json.text(), HasSubstr("\"first_failure\": 22"));
+  report::StringSink plot;
+  write_extremes_plot(plot, *fine);
+  EXPECT_THAT(plot.text(), AllOf(HasSubstr("offset, sectors"), HasSubstr("double"),
+                                 HasSubstr("below 1e-17"), HasSubstr("</svg>")));
 }
 
 TEST_F(Sweeps, ARangeThatAnAxisLacksIsAnError) {
