@@ -15,18 +15,8 @@ namespace gnomon {
 template <class Numbers, class Sides>
 bool ContourWalk<Numbers, Sides>::find_crease(std::uint32_t q, Crease<Numbers>& crease) {
   const FacingPolygon& own = polygons_->polygons[p_];
-  bool nearer = false, behind = false;
-  for (std::uint32_t j = 0; j < own.count && !(nearer && behind); ++j) {
-    const int sign = nearer_corner(q, j);
-    nearer |= sign > 0;
-    behind |= sign < 0;
-  }
-  if (!nearer || !behind) return false;
-  if (const FacingPolygon& other = polygons_->polygons[q]; other.count <= CornerSet::kMost) {
-    const CornerSet sides = survey_.find_nearer(p_, q);
-    const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - other.count);
-    if (sides.left == all || sides.right == all) return false;
-  }
+  if (!survey_.sides_of_plane(p_, q, nearer_).both()) return false;
+  if (!survey_.sides_of_plane(q, p_).both()) return false;
   const LineThrough chord = survey_.through_plane(p_, q);
   if (chord.cover != LineCover::kBoth) return false;
   if (survey_.through_plane(q, p_).cover != LineCover::kBoth) return false;

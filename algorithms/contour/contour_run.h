@@ -49,7 +49,11 @@ class ContourRun {
         // Rounded sums would depend on which thread adds what.
         jobs_(Space::kParallel && Numbers::kTrust != Trust::kRounded ? options.tuning.jobs : 1),
         lanes_(lanes),
-        pairs_(lanes) {}
+        pairs_(lanes) {
+    if (KnowsInputSides<Space>) {
+      memos_ = std::make_unique<SceneMemos>(scene.parts.size());
+    }
+  }
 
   /// Classifies one light; `progress` gets the share of the work that is done.
   RunOutcome run(std::uint32_t light, const std::function<void(double)>& progress);
@@ -71,8 +75,8 @@ class ContourRun {
     Worker(const ContourRun& run, const Sides& from, std::uint32_t count)
         : sides(from.fork()),
           sums(count),
-          walk(run.rays_, run.polygons_, run.measure_, run.charts_.depths(), run.dark_, run.rules_,
-               sides, run.lanes_, sums) {}
+          walk(run.rays_, run.polygons_, run.measure_, run.dark_, run.rules_, sides, run.lanes_,
+               sums) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
@@ -87,6 +91,12 @@ class ContourRun {
     } else {
       return 0;
     }
+  }
+  /// What the numbers decided, and what was remembered.
+  void count_stages(std::uint64_t filtered, std::uint64_t remembered) {
+    if (!options_.output.stage_counts) return;
+    stages_.filter += filtered;
+    stages_.identity += remembered;
   }
   bool find_pairs(const Space& space, const LightPoint& point);
   void find_dark(const Sides& sides);
@@ -110,6 +120,7 @@ class ContourRun {
   ContourMeasure<Numbers> measure_;
   std::vector<Sum> sums_;
   LightCharts charts_;
+  std::unique_ptr<SceneMemos> memos_;  // of kernels that know inputs
   const Lanes& lanes_;
   PairSearch pairs_;
   std::vector<std::uint8_t> casts_;  // of each polygon
@@ -166,7 +177,7 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   result_.facing_parts = facing_->parts.size();
   result_.facing_edges = facing_->edges;
   if (!find_pairs(space, point)) return RunOutcome::kTooManyFragments;
-  Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
+  Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_, memos_.get());
   find_dark(sides);
   if (const RunOutcome outcome = walk_all(sides, progress); outcome != RunOutcome::kDone) {
     return outcome;
@@ -194,7 +205,10 @@ bool ContourRun<Space, Numbers>::find_pairs(const Space& space, const LightPoint
   });
   charts_.find(polygons_, rays_, jobs_);
   casts_.resize(count);
-  for (std::uint32_t i = 0; i < count; ++i) casts_[i] = polygons_.polygons[i].casts;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    casts_[i] = polygons_.polygons[i].casts;
+    polygons_.polygons[i].depth = charts_.depths()[i];
+  }
   return pairs_.run(charts_.charts(), count, {.casts = casts_, .jobs = jobs_});
 }
 
@@ -235,7 +249,7 @@ std::uint32_t ContourRun<Space, Numbers>::prove_dark(const Sides& sides, std::ui
     found += here;
     const std::lock_guard lock(stages_mutex);
     stages_ += mine.space().stage_counts();
-    if (options_.output.stage_counts) stages_.filter += proof.filtered();
+    count_stages(proof.filtered(), mine.remembered());
   });
   return found;
 }
@@ -285,7 +299,7 @@ RunOutcome ContourRun<Space, Numbers>::walk_all(const Sides& sides,
       for (std::uint32_t i = begin; i < end; ++i) sums_[i] += worker->sums[i];
     });
     stages_ += worker->sides.space().stage_counts();
-    if (options_.output.stage_counts) stages_.filter += worker->walk.filtered();
+    count_stages(worker->walk.filtered(), worker->sides.remembered());
     result_.work[Counter::kIntervals] += worker->walk.intervals();
     result_.work[Counter::kSegments] += worker->walk.segments();
   }

@@ -191,6 +191,20 @@ TEST(Contour, ThreadsChangeNoBit) {
   expect_same_bits("city", 4200, KernelId::kPlane, false);  // in space order
 }
 
+void expect_lights_to_be_alone(const PreparedScene& scene) {
+  ShadowOptions options;
+  options.method.point = MethodId::kContour;
+  const auto together = compute_shadows(scene, options);
+  ASSERT_TRUE(together);
+  for (std::uint32_t light = 0; light < together->lights.size(); ++light) {
+    options.lights = {light};
+    const auto alone = compute_shadows(scene, options);
+    ASSERT_TRUE(alone);
+    EXPECT_TRUE(same_bits(together->lights[light], alone->lights[0])) << light;
+    EXPECT_EQ(together->lights[light].work, alone->lights[0].work) << light;
+  }
+}
+
 /// What is kept from one light to the next changes nothing.
 TEST(Contour, LightsDoNotKnowOfEachOther) {
   ScenePen pen;
@@ -200,15 +214,29 @@ TEST(Contour, LightsDoNotKnowOfEachOther) {
   pen.sun({1, 2, 30}).lamp({2, 2, 2}).sun({0, 0, -1}).lamp({500, 1, 40}).sun({0, 0, 1});
   const auto scene = Case::make(pen.take());
   ASSERT_TRUE(scene);
-  ShadowOptions options;
-  options.method.point = MethodId::kContour;
-  const auto together = compute_shadows(scene->prepared(), options);
-  ASSERT_TRUE(together);
-  for (std::uint32_t light = 0; light < together->lights.size(); ++light) {
-    options.lights = {light};
-    const auto alone = compute_shadows(scene->prepared(), options);
-    ASSERT_TRUE(alone);
-    EXPECT_TRUE(same_bits(together->lights[light], alone->lights[0])) << light;
+  expect_lights_to_be_alone(scene->prepared());
+}
+
+/// The same of walls that stand on the ground and roofs at one height, so that integers are asked,
+/// and of a scene that suns have in space order.
+TEST(Contour, SunsOverACityDoNotKnowOfEachOther) {
+  for (const int houses : {60, 840}) {
+    Expected<Scene> made = generate("city", {{"n", houses}}, 5);
+    ASSERT_TRUE(made);
+    const Light lamp = made->lights.front();
+    for (const Triple& to_light : std::vector<Triple>{
+             {1, 0, 1}, {3, 4, 2}, {-30, 1, 5}, {30, 1, 5}, {0, 0, 1}, {1, 40, 9}}) {
+      Light sun = lamp;
+      sun.id = "sun" + std::to_string(made->lights.size());
+      sun.type = LightType::kDirectional;
+      for (int k = 0; k < 3; ++k) sun.position[k] = Number(static_cast<double>(to_light[k]));
+      made->lights.push_back(sun);
+    }
+    made->lights.push_back(lamp);
+    made->lights.back().id = "again";
+    const Expected<PreparedScene> scene = prepare(*made);
+    ASSERT_TRUE(scene);
+    expect_lights_to_be_alone(*scene);
   }
 }
 
