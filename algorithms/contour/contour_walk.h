@@ -30,7 +30,6 @@
 #include "algorithms/contour/contour_sums.h"
 #include "algorithms/contour/edge_lists.h"
 #include "algorithms/contour/edge_survey.h"
-#include "algorithms/contour/light_charts.h"
 #include "algorithms/partition/rules.h"
 
 namespace gnomon {
