@@ -118,13 +118,16 @@ void ContourWalk<Numbers, Sides>::hide_crease(const Crease<Numbers>& crease, std
       return sign_of_value(T(dot_product(light_->depths[plane(a)], crease.line) -
                              dot_product(light_->depths[plane(b)], crease.line)));
     };
-    const int own_above = slope(p_, other);
+    // On the outer side the nearest caster's crease, or its edge, is the border; of several casters
+    // of its plane that go across, the first one's.
+    const int order_inside = slope(other, crease.other);
     if (through.cover == LineCover::kOuter) {
-      if (slope(other, crease.other) < 0) covers_.push_back(stretch);
-    } else if (own_above < 0) {
+      if (order_inside < 0) covers_.push_back(stretch);
+    } else if (slope(p_, other) < 0) {
       covers_.push_back(stretch);
-    } else if (through.cover == LineCover::kBoth && other < crease.other) {
-      covers_.push_back(stretch);  // its crease with this polygon is the same
+    } else if (through.cover == LineCover::kBoth &&
+               (order_inside < 0 || (order_inside == 0 && other < crease.other))) {
+      covers_.push_back(stretch);
     }
     return;
   }

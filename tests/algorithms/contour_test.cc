@@ -67,6 +67,26 @@ TEST(Contour, PolygonsOfManyCorners) {
   }
 }
 
+/// Two sheets cross a third one in one line, which is the edge of yet another in the plane of the
+/// nearer of the two: the crease with that one is the border, whichever comes first.
+TEST(Contour, CreasesInOneLine) {
+  std::vector<std::vector<Triple>> sheets = {
+      {{32, 0, 0}, {0, 16, 0}, {0, 32, 0}, {32, 16, 0}},
+      {{0, 0, 32}, {16, 32, 0}, {48, 32, -32}, {32, 0, 0}},
+      {{0, 64, 0}, {-16, 80, 16}, {-16, 64, 32}, {0, 32, 32}, {32, 0, 0}},
+      {{0, 32, 32}, {64, -32, -32}, {8, 32, 16}}};
+  std::ranges::sort(sheets);
+  do {
+    ScenePen pen;
+    pen.two_sided(true);
+    for (const std::vector<Triple>& sheet : sheets) pen.polygon(sheet);
+    pen.lamp({-5, 48, 27});
+    const auto scene = Case::make(pen.take());
+    ASSERT_TRUE(scene);
+    ASSERT_EQ(check_contour(*scene), "") << text_of(scene->scene());
+  } while (std::ranges::next_permutation(sheets).found);
+}
+
 /// Boxes around a lamp, and a room around all of it: polygons on all sides of the light.
 TEST(Contour, LampsInsideScenes) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
