@@ -274,17 +274,12 @@ int ContourWalk<Numbers, Sides>::level_order(std::uint32_t k, std::uint32_t a, s
 // overlap: 1 if a is, -1 if b is. 0: they may pass.
 template <class Numbers, class Sides>
 int ContourWalk<Numbers, Sides>::known_order(std::uint32_t a, std::uint32_t b) {
-  const auto sides_of = [&](std::uint32_t q, std::uint32_t other) {
-    bool nearer = false, behind = false;
-    for (std::uint32_t j = 0; j < polygons_->polygons[q].count; ++j) {
-      const int sign = survey_.nearer(other, q, j, survey_.depth(other, q, j));
-      nearer |= sign > 0;
-      behind |= sign < 0;
-    }
-    return nearer == behind ? 0 : nearer ? 1 : -1;
+  const auto order_of = [&](std::uint32_t q, std::uint32_t other) {
+    const auto sides = survey_.sides_of_plane(q, other);
+    return sides.nearer == sides.behind ? 0 : sides.nearer ? 1 : -1;
   };
-  if (const int order = sides_of(a, b); order != 0) return order;
-  return -sides_of(b, a);
+  if (const int order = order_of(a, b); order != 0) return order;
+  return -order_of(b, a);
 }
 
 // Where two depths are equal that are not in the same order at `low` and at `high`.

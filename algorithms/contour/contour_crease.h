@@ -15,18 +15,8 @@ namespace gnomon {
 template <class Numbers, class Sides>
 bool ContourWalk<Numbers, Sides>::find_crease(std::uint32_t q, Crease<Numbers>& crease) {
   const FacingPolygon& own = polygons_->polygons[p_];
-  bool nearer = false, behind = false;
-  for (std::uint32_t j = 0; j < own.count && !(nearer && behind); ++j) {
-    const int sign = nearer_corner(q, j);
-    nearer |= sign > 0;
-    behind |= sign < 0;
-  }
-  if (!nearer || !behind) return false;
-  if (const FacingPolygon& other = polygons_->polygons[q]; other.count <= CornerSet::kMost) {
-    const CornerSet sides = survey_.find_nearer(p_, q);
-    const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - other.count);
-    if (sides.left == all || sides.right == all) return false;
-  }
+  if (!survey_.sides_of_plane(p_, q, nearer_).both()) return false;
+  if (!survey_.sides_of_plane(q, p_).both()) return false;
   const LineThrough chord = survey_.through_plane(p_, q);
   if (chord.cover != LineCover::kBoth) return false;
   if (survey_.through_plane(q, p_).cover != LineCover::kBoth) return false;
@@ -128,13 +118,16 @@ void ContourWalk<Numbers, Sides>::hide_crease(const Crease<Numbers>& crease, std
       return sign_of_value(T(dot_product(light_->depths[plane(a)], crease.line) -
                              dot_product(light_->depths[plane(b)], crease.line)));
     };
-    const int own_above = slope(p_, other);
+    // On the outer side the nearest caster's crease, or its edge, is the border; of several casters
+    // of its plane that go across, the first one's.
+    const int order_inside = slope(other, crease.other);
     if (through.cover == LineCover::kOuter) {
-      if (slope(other, crease.other) < 0) covers_.push_back(stretch);
-    } else if (own_above < 0) {
+      if (order_inside < 0) covers_.push_back(stretch);
+    } else if (slope(p_, other) < 0) {
       covers_.push_back(stretch);
-    } else if (through.cover == LineCover::kBoth && other < crease.other) {
-      covers_.push_back(stretch);  // its crease with this polygon is the same
+    } else if (through.cover == LineCover::kBoth &&
+               (order_inside < 0 || (order_inside == 0 && other < crease.other))) {
+      covers_.push_back(stretch);
     }
     return;
   }

@@ -12,6 +12,7 @@ namespace gnomon {
 
 template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::walk(std::uint32_t p, std::span<const std::uint32_t> neighbours) {
+  constexpr std::size_t kAhead = 3;
   p_ = p;
   neighbours_ = neighbours;
   const std::uint32_t n = polygons_->polygons[p].count;
@@ -19,8 +20,9 @@ void ContourWalk<Numbers, Sides>::walk(std::uint32_t p, std::span<const std::uin
   for (std::uint32_t k = 0; k < n; ++k) lists_[k].clear();
   find_silent_edges();
   hidden_edges_ = 0;
-  for (const std::uint32_t q : neighbours) {
-    if (dark_[q] == 0) meet(q);
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    if (i + kAhead < neighbours.size()) polygons_->prefetch_corners(neighbours[i + kAhead]);
+    if (dark_[neighbours[i]] == 0) meet(neighbours[i]);
   }
   for (std::uint32_t k = 0; k < n; ++k) walk_edge(k);
 }
@@ -28,21 +30,21 @@ void ContourWalk<Numbers, Sides>::walk(std::uint32_t p, std::span<const std::uin
 template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::find_silent_edges() {
   const FacingPolygon& own = polygons_->polygons[p_];
-  silent_.assign(own.count, 1);
+  if (silent_.size() < own.count) silent_.resize(own.count);
   all_edges_silent_ = true;
   silent_edges_ = 0x1111;
-  if (!own.casts) return;
   for (std::uint32_t k = 0; k < own.count; ++k) {
-    silent_[k] = polygons_->is_shared[own.first + k];
-    all_edges_silent_ = all_edges_silent_ && silent_[k] != 0;
-    if (silent_[k] == 0 && k < 4) silent_edges_ &= ~(1u << 4 * k);
+    const std::uint8_t silent = own.casts ? polygons_->is_shared[own.first + k] : 1;
+    silent_[k] = silent;
+    all_edges_silent_ = all_edges_silent_ && silent != 0;
+    if (silent == 0 && k < 4) silent_edges_ &= ~(1u << 4 * k);
   }
 }
 
 template <class Numbers, class Sides>
-void ContourWalk<Numbers, Sides>::meet(std::uint32_t q) {
+[[gnu::always_inline]] inline void ContourWalk<Numbers, Sides>::meet(std::uint32_t q) {
   const FacingPolygon& own = polygons_->polygons[p_];
-  const DepthRange mine = depths_[p_], its = depths_[q];
+  const DepthRange mine = own.depth, its = polygons_->polygons[q].depth;
   const bool below = its.high < mine.low, above = mine.high < its.low;
   if (!casts(q) && (above || !own.casts)) return;
   if (below && all_edges_silent_) return;
@@ -80,30 +82,26 @@ void ContourWalk<Numbers, Sides>::find_order(std::uint32_t q) {
 
 // As meet(), of two polygons of at most four corners.
 template <class Numbers, class Sides>
-void ContourWalk<Numbers, Sides>::meet_block(std::uint32_t q) {
+[[gnu::always_inline]] inline void ContourWalk<Numbers, Sides>::meet_block(std::uint32_t q) {
+  polygons_->prefetch_lines(q);
   const BlockSigns signs = survey_.block_signs(p_, q);
   const std::uint32_t n = polygons_->polygons[p_].count;
-  // Bit 4 k: of edge k, whether any corner is in a set, and whether two are.
-  const auto any = [](unsigned set) { return (set | set >> 1 | set >> 2 | set >> 3) & 0x1111u; };
-  const auto two = [](unsigned set) {
-    const unsigned sum =
-        (set & 0x1111u) + (set >> 1 & 0x1111u) + (set >> 2 & 0x1111u) + (set >> 3 & 0x1111u);
-    return (sum >> 1 | sum >> 2) & 0x1111u;
-  };
   const unsigned lines = 0x1111u >> 4 * (4 - n);
-  const unsigned some_left = any(signs.positive);
+  const unsigned some_left = lines_with_any(signs.positive);
   bool overlaps = some_left == lines;
   if (!overlaps && (!casts(q) || all_edges_silent_)) return;
   // Where all corners are on one side, the polygon is beside the edge if two are on its line.
   const unsigned on_line = valid_signs(n, polygons_->polygons[q].count) &
                            ~static_cast<unsigned>(signs.positive | signs.negative);
-  const unsigned along = two(on_line);
-  unsigned met = overlaps ? (some_left & any(signs.negative)) | along : along;
+  const unsigned along = lines_with_two(on_line);
+  unsigned met = overlaps ? (some_left & lines_with_any(signs.negative)) | along : along;
   met &= ~hidden_edges_;
   // A silent edge is beside nobody, and casts nothing on what is below.
   if (!overlaps || order_ > 0) met &= ~silent_edges_;
   if (met == 0 && (!overlaps || order_ != 0)) return;
   if (order_ == 0) {
+    // As the ground meets a wall.
+    if (met == 0 && (!casts(q) || !survey_.sides_of_plane(q, p_).both())) return;
     find_order(q);
     if (order_ > 0) met &= ~silent_edges_;
   }
@@ -137,7 +135,8 @@ void ContourWalk<Numbers, Sides>::meet_outside(std::uint32_t q) {
 }
 
 template <class Numbers, class Sides>
-int ContourWalk<Numbers, Sides>::nearer_corner(std::uint32_t q, std::uint32_t j) {
+[[gnu::always_inline]] inline int ContourWalk<Numbers, Sides>::nearer_corner(std::uint32_t q,
+                                                                             std::uint32_t j) {
   if (j < CornerSet::kMost) {
     if (nearer_.left >> j & 1) return 1;
     if (nearer_.right >> j & 1) return -1;
@@ -248,6 +247,16 @@ void ContourWalk<Numbers, Sides>::meet_in_plane(EdgeLists<Numbers>& lists, std::
   }
 }
 
+// As the survey has it; all corners that are not on the plane of q are on one side of it.
+template <class Numbers, class Sides>
+int ContourWalk<Numbers, Sides>::nearer_beside(std::uint32_t q) {
+  if constexpr (Numbers::kCertified) {
+    if (nearer_.left != 0) return 1;
+    if (nearer_.right != 0) return -1;
+  }
+  return survey_.nearer_beside(q, p_);
+}
+
 // The edge lies in the plane of q: their slopes tell who is nearer on the inner side.
 template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::meet_level(EdgeLists<Numbers>& lists, std::uint32_t k,
@@ -255,7 +264,7 @@ void ContourWalk<Numbers, Sides>::meet_level(EdgeLists<Numbers>& lists, std::uin
                                              const Behind<Numbers>& entry) {
   if (cover == LineCover::kOuter) {
     if (casts(q) && casts(p_)) lists.beside.push_back(entry);
-  } else if ((rules_.equal_depth_by_its_planes ? survey_.nearer_beside(q, p_)
+  } else if ((rules_.equal_depth_by_its_planes ? nearer_beside(q)
                                                : survey_.nearer_by_far_corner(q, p_, k)) < 0) {
     if (casts(q)) lists.hidden.push_back({entry.low, entry.high});
   } else if (cover == LineCover::kBoth && casts(p_)) {

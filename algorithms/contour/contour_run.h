@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The contour method from a prepared scene to shares and classes, light by light.
+// The contour method from a prepared scene to shares and classes of one light after another.
 //
 // Everything that does not depend on the number of the lights is kept from one to the next.
 // Certified shares are sums of enclosures; polygons that the bounds leave open are found by exact
@@ -15,46 +15,20 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "algorithms/contour/by_contour.h"
 #include "algorithms/contour/contour_walk.h"
 #include "algorithms/contour/dark_polygons.h"
 #include "algorithms/contour/in_parallel.h"
-#include "algorithms/contour/lanes/simd_level.h"
 #include "algorithms/contour/light_charts.h"
 #include "algorithms/contour/pair_search.h"
-#include "algorithms/contour/space_order.h"
 #include "algorithms/partition/run_task.h"
 #include "algorithms/sectors/sector_run.h"
 #include "kernel/concept/kernel_model.h"
 
 namespace gnomon {
-
-/// The numbers of a kernel: its own where it rounds, doubles with bounds where it decides about
-/// input corners by their numbers alone, and rationals on other exact kernels or where exact shares
-/// are asked for.
-template <class Space, bool exact_shares>
-struct ContourNumbersOf {
-  static auto choose() {
-    if constexpr (exact_shares || (Space::kExact && !KnowsInputSides<Space>)) {
-      return ContourNumbers<mpq_class, Trust::kExact>();
-    } else if constexpr (Space::kExact) {
-      return ContourNumbers<double, Trust::kCertified>();
-    } else if constexpr (requires(typename Space::Vertex v) {
-                           requires std::is_floating_point_v<std::remove_cvref_t<decltype(v.x[0])>>;
-                         }) {
-      using T = std::remove_cvref_t<decltype(std::declval<typename Space::Vertex>().x[0])>;
-      return ContourNumbers<T, Trust::kRounded>();
-    } else {
-      return ContourNumbers<double, Trust::kRounded, true>();
-    }
-  }
-  using type = decltype(choose());
-};
 
 template <SectorSpaceModel Space, class Numbers>
 class ContourRun {
@@ -75,7 +49,11 @@ class ContourRun {
         // Rounded sums would depend on which thread adds what.
         jobs_(Space::kParallel && Numbers::kTrust != Trust::kRounded ? options.tuning.jobs : 1),
         lanes_(lanes),
-        pairs_(lanes) {}
+        pairs_(lanes) {
+    if (KnowsInputSides<Space>) {
+      memos_ = std::make_unique<SceneMemos>(scene.parts.size());
+    }
+  }
 
   /// Classifies one light; `progress` gets the share of the work that is done.
   RunOutcome run(std::uint32_t light, const std::function<void(double)>& progress);
@@ -97,8 +75,8 @@ class ContourRun {
     Worker(const ContourRun& run, const Sides& from, std::uint32_t count)
         : sides(from.fork()),
           sums(count),
-          walk(run.rays_, run.polygons_, run.measure_, run.charts_.depths(), run.dark_, run.rules_,
-               sides, run.lanes_, sums) {}
+          walk(run.rays_, run.polygons_, run.measure_, run.dark_, run.rules_, sides, run.lanes_,
+               sums) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
 
@@ -113,6 +91,12 @@ class ContourRun {
     } else {
       return 0;
     }
+  }
+  /// What the numbers decided, and what was remembered.
+  void count_stages(std::uint64_t filtered, std::uint64_t remembered) {
+    if (!options_.output.stage_counts) return;
+    stages_.filter += filtered;
+    stages_.identity += remembered;
   }
   bool find_pairs(const Space& space, const LightPoint& point);
   void find_dark(const Sides& sides);
@@ -136,6 +120,7 @@ class ContourRun {
   ContourMeasure<Numbers> measure_;
   std::vector<Sum> sums_;
   LightCharts charts_;
+  std::unique_ptr<SceneMemos> memos_;  // of kernels that know inputs
   const Lanes& lanes_;
   PairSearch pairs_;
   std::vector<std::uint8_t> casts_;  // of each polygon
@@ -192,7 +177,7 @@ RunOutcome ContourRun<Space, Numbers>::run(std::uint32_t light,
   result_.facing_parts = facing_->parts.size();
   result_.facing_edges = facing_->edges;
   if (!find_pairs(space, point)) return RunOutcome::kTooManyFragments;
-  Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_);
+  Sides sides(scene_, scene_space_, std::move(space), *facing_, polygons_, memos_.get());
   find_dark(sides);
   if (const RunOutcome outcome = walk_all(sides, progress); outcome != RunOutcome::kDone) {
     return outcome;
@@ -220,7 +205,10 @@ bool ContourRun<Space, Numbers>::find_pairs(const Space& space, const LightPoint
   });
   charts_.find(polygons_, rays_, jobs_);
   casts_.resize(count);
-  for (std::uint32_t i = 0; i < count; ++i) casts_[i] = polygons_.polygons[i].casts;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    casts_[i] = polygons_.polygons[i].casts;
+    polygons_.polygons[i].depth = charts_.depths()[i];
+  }
   return pairs_.run(charts_.charts(), count, {.casts = casts_, .jobs = jobs_});
 }
 
@@ -261,7 +249,7 @@ std::uint32_t ContourRun<Space, Numbers>::prove_dark(const Sides& sides, std::ui
     found += here;
     const std::lock_guard lock(stages_mutex);
     stages_ += mine.space().stage_counts();
-    if (options_.output.stage_counts) stages_.filter += proof.filtered();
+    count_stages(proof.filtered(), mine.remembered());
   });
   return found;
 }
@@ -311,7 +299,7 @@ RunOutcome ContourRun<Space, Numbers>::walk_all(const Sides& sides,
       for (std::uint32_t i = begin; i < end; ++i) sums_[i] += worker->sums[i];
     });
     stages_ += worker->sides.space().stage_counts();
-    if (options_.output.stage_counts) stages_.filter += worker->walk.filtered();
+    count_stages(worker->walk.filtered(), worker->sides.remembered());
     result_.work[Counter::kIntervals] += worker->walk.intervals();
     result_.work[Counter::kSegments] += worker->walk.segments();
   }
@@ -321,57 +309,6 @@ RunOutcome ContourRun<Space, Numbers>::walk_all(const Sides& sides,
 template <SectorSpaceModel Space, class Numbers>
 LightResult ContourRun<Space, Numbers>::finish() {
   return std::move(result_);
-}
-
-template <SectorSpaceModel Space, class Numbers>
-Expected<ShadowResult> compute_by_contour_here(const RunTask& task) {
-  const ShadowOptions& options = task.options;
-  const LightList& lights = task.lights;
-  ShadowResult result = empty_result(options);
-  const double start = cpu_seconds();
-  const Expected<SimdLevel> level = chosen_simd_level();
-  if (!level) return tl::unexpected<Error>(level.error());
-  // Rounded answers would depend on the order.
-  std::optional<SpaceOrder> order;
-  if (Space::kExact && SpaceOrder::pays(task.scene)) order.emplace(task.scene, options.tuning.jobs);
-  const PreparedScene& scene = order ? order->scene() : task.scene;
-  typename Space::SceneSpace scene_space(scene.geometry, options.kernel.options());
-  ContourRun<Space, Numbers> run(scene, options, task.rules, scene_space, lanes(*level));
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    std::function<void(double)> progress;
-    if (options.control.progress) {
-      progress = [&](double share) {
-        options.control.progress((static_cast<double>(i) + share) /
-                                 static_cast<double>(lights.size()));
-      };
-    }
-    const RunOutcome outcome = run.run(lights[i], progress);
-    if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
-    LightResult found = run.finish();
-    if (order) order->restore(found);
-    if (!put_light(options, std::move(found), result)) {
-      return stopped_by(RunOutcome::kInterrupted, options);
-    }
-  }
-  result.stages += run.stage_counts();
-  result.stages += scene_space.stage_counts();
-  result.shadow_seconds = cpu_seconds() - start;
-  return result;
-}
-
-template <class Kernel>
-Expected<ShadowResult> ByContour<Kernel>::run(const RunTask& task) {
-  tbb::task_arena arena(thread_count(task.options.tuning.jobs));
-  return arena.execute([&] {
-    return with_light_space<Kernel>(task.options.output.stage_counts, [&]<class Space>() {
-      if constexpr (Space::kExact) {
-        if (task.options.output.exact_fractions) {
-          return compute_by_contour_here<Space, typename ContourNumbersOf<Space, true>::type>(task);
-        }
-      }
-      return compute_by_contour_here<Space, typename ContourNumbersOf<Space, false>::type>(task);
-    });
-  });
 }
 
 }  // namespace gnomon

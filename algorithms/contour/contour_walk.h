@@ -30,7 +30,6 @@
 #include "algorithms/contour/contour_sums.h"
 #include "algorithms/contour/edge_lists.h"
 #include "algorithms/contour/edge_survey.h"
-#include "algorithms/contour/light_charts.h"
 #include "algorithms/partition/rules.h"
 
 namespace gnomon {
@@ -51,13 +50,12 @@ class ContourWalk {
   using Survey = EdgeSurvey<Numbers, Sides>;
 
   ContourWalk(const LightRays<Numbers>& light, const FacingPolygons<Numbers>& polygons,
-              const ContourMeasure<Numbers>& measure, std::span<const DepthRange> depths,
-              std::span<const std::uint8_t> dark, const Rules& rules, Sides& sides,
-              const Lanes& lanes, std::span<ContourSum<Numbers>> sums)
+              const ContourMeasure<Numbers>& measure, std::span<const std::uint8_t> dark,
+              const Rules& rules, Sides& sides, const Lanes& lanes,
+              std::span<ContourSum<Numbers>> sums)
       : light_(&light),
         polygons_(&polygons),
         measure_(&measure),
-        depths_(depths),
         dark_(dark),
         rules_(rules),
         survey_(light, polygons, sides, lanes),
@@ -100,6 +98,7 @@ class ContourWalk {
                      const Behind<Numbers>& entry);
   void meet_level(EdgeLists<Numbers>& lists, std::uint32_t k, std::uint32_t q, LineCover cover,
                   const Behind<Numbers>& entry);
+  int nearer_beside(std::uint32_t q);
   int nearer_corner(std::uint32_t q, std::uint32_t j);
   bool find_interval(std::uint32_t k, std::uint32_t q, const LineThrough& through,
                      Stretch<Numbers>& stretch) {
@@ -129,8 +128,9 @@ class ContourWalk {
                   const PlaceOnEdge& place) const;
   /// 1 if all of a is nearer than all of b, -1 if it is behind it.
   int range_order(std::uint32_t a, std::uint32_t b) const {
-    if (depths_[a].low > depths_[b].high) return 1;
-    return depths_[a].high < depths_[b].low ? -1 : 0;
+    const DepthRange of_a = polygons_->polygons[a].depth, of_b = polygons_->polygons[b].depth;
+    if (of_a.low > of_b.high) return 1;
+    return of_a.high < of_b.low ? -1 : 0;
   }
   bool is_first(std::uint32_t k, const Behind<Numbers>& a, const Behind<Numbers>& b,
                 const PlaceOnEdge& low, const PlaceOnEdge& high);
@@ -163,7 +163,6 @@ class ContourWalk {
   const LightRays<Numbers>* light_;
   const FacingPolygons<Numbers>* polygons_;
   const ContourMeasure<Numbers>* measure_;
-  std::span<const DepthRange> depths_;
   std::span<const std::uint8_t> dark_;  // polygons that need not be met
   const Rules& rules_;
   Survey survey_;

@@ -66,13 +66,8 @@ void DarkScene::make(const FacingPolygons<Numbers>& polygons, const LightCharts&
   in_parallel(jobs, polygons.size(), 1024, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) {
       const FacingPolygon& p = polygons.polygons[i];
-      seen_[i] = {boxes.low_u[i],
-                  boxes.low_v[i],
-                  boxes.high_u[i],
-                  boxes.high_v[i],
-                  charts.depths()[i],
-                  p.casts,
-                  0};
+      seen_[i] = {
+          boxes.low_u[i], boxes.low_v[i], boxes.high_u[i], boxes.high_v[i], p.depth, p.casts, 0};
       for (std::uint32_t k = 0; k < p.count; ++k) {
         const PlaneRef edge = polygons.edge(p, k);
         // Of a shared edge each direction has one polygon.

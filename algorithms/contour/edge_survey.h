@@ -90,6 +90,13 @@ class EdgeSurvey {
   /// The corners of p that are nearer than the plane of q, to the left, and those that are behind
   /// it, to the right, as far as the numbers tell. Requires: at most CornerSet::kMost corners.
   CornerSet find_nearer(std::uint32_t q, std::uint32_t p) const;
+  /// Whether p has corners that are nearer than the plane of q, and such that are behind it; what
+  /// comes after both is not asked for. `known`: find_nearer(q, p), or nothing.
+  SidesOfPlane sides_of_plane(std::uint32_t p, std::uint32_t q, const CornerSet& known);
+  SidesOfPlane sides_of_plane(std::uint32_t p, std::uint32_t q) {
+    const bool few = polygons_->polygons[p].count <= CornerSet::kMost;
+    return sides_of_plane(p, q, few ? find_nearer(q, p) : CornerSet{});
+  }
   /// How much nearer corner j of p is than the plane of q, in units of depth, and the bound of
   /// that.
   T depth_over(std::uint32_t p, std::uint32_t q, std::uint32_t j) const;
@@ -115,6 +122,7 @@ class EdgeSurvey {
   double crease_depth_error(const Crease<Numbers>& crease, std::uint32_t p, std::uint32_t q) const;
 
  private:
+  unsigned ends_on_lines(const FacingPolygon& own, const FacingPolygon& other) const;
   LineThrough name_ends(std::uint32_t q, LineCover cover, bool zero_is_left) const;
   void find_sign(std::uint32_t p, std::uint32_t k, std::uint32_t q, std::uint32_t j,
                  CornerSet& set);
@@ -136,7 +144,6 @@ class EdgeSurvey {
     BlockSigns signs;
     std::uint16_t zero;  // decided to be so
     std::array<double, 16> values;
-    std::array<double, 4> bounds;
   } block_{};
   std::vector<CornerSet> sets_;     // of each edge of a polygon: the corners of another
   std::vector<std::int8_t> signs_;  // of the corners of a polygon against a line

@@ -19,12 +19,19 @@
 
 namespace gnomon {
 
+/// A range of depths that can be compared with those of all other polygons: larger is nearer.
+struct DepthRange {
+  float low = -std::numeric_limits<float>::infinity();
+  float high = std::numeric_limits<float>::infinity();
+};
+
 /// One polygon; its corners are [first, first + count) of the arrays by corner.
 struct FacingPolygon {
   std::uint32_t part = 0, first = 0, count = 0;
   std::uint32_t block = 0;  // its first block of four corners
   PlaneId plane = 0;
   bool casts = true, reversed = false;
+  DepthRange depth;  // once the light's charts are known
 
   std::uint32_t blocks() const { return (count + 3) / 4; }
 };
@@ -47,7 +54,7 @@ struct FacingPolygons {
   using T = typename Numbers::T;
 
   std::vector<FacingPolygon> polygons;
-  std::vector<VertexId> vertices;  // by corner
+  std::vector<VertexId> vertices;  // by corner, and three more that are read with the last ones
   std::vector<PlaneRef> edges;     // by corner: the edge from it to the next, by EdgeId
   /// By corner: whether its edge is that of two casters that go on from each other there, and no
   /// third one's. Where only the edges of meshes are looked at, none but silhouettes cast shadows.
@@ -66,6 +73,9 @@ struct FacingPolygons {
   double error_of_line(const FacingPolygon& p, std::uint32_t k) const {
     return line_error[4 * std::size_t{p.block} + k];
   }
+  /// Tell the caches that a polygon's first corners, or its first lines, are asked for soon.
+  void prefetch_corners(std::uint32_t polygon) const { prefetch(corners[polygons[polygon].block]); }
+  void prefetch_lines(std::uint32_t polygon) const { prefetch(lines[polygons[polygon].block]); }
   VertexId vertex(const FacingPolygon& p, std::uint32_t k) const { return vertices[p.first + k]; }
   PlaneRef edge(const FacingPolygon& p, std::uint32_t k) const { return edges[p.first + k]; }
 
@@ -77,6 +87,12 @@ struct FacingPolygons {
 
  private:
   static constexpr std::uint32_t kGrain = 4096;  // polygons of one thread
+
+  static void prefetch(const VectorBlock<T>& block) {
+    const char* bytes = reinterpret_cast<const char*>(&block);
+    __builtin_prefetch(bytes);
+    __builtin_prefetch(bytes + sizeof(block) - 1);
+  }
   void name_corners(const PreparedScene& scene, const FacingPolygon& p);
 
   std::vector<std::uint8_t> edge_users_;
@@ -86,14 +102,14 @@ template <class Numbers>
 void FacingPolygons<Numbers>::lay_out(const PreparedScene& scene, const FacingParts& facing,
                                       unsigned jobs) {
   polygons.resize(facing.parts.size());
-  vertices.resize(facing.edges);
+  vertices.resize(facing.edges + 3);
   edges.resize(facing.edges);
   std::uint32_t first = 0, block = 0;
   for (std::size_t i = 0; i < facing.parts.size(); ++i) {
     const std::uint32_t index = facing.parts[i];
     const Part& part = scene.parts[index];
     const bool reversed = facing.facing[index].side == Side::kBack;
-    polygons[i] = {index, first, part.count, block, part.plane, part.casts, reversed};
+    polygons[i] = {index, first, part.count, block, part.plane, part.casts, reversed, {}};
     first += part.count;
     block += polygons[i].blocks();
   }

@@ -26,12 +26,6 @@
 
 namespace gnomon {
 
-/// A range of depths that can be compared with those of all other polygons: larger is nearer.
-struct DepthRange {
-  float low = -std::numeric_limits<float>::infinity();
-  float high = std::numeric_limits<float>::infinity();
-};
-
 /// A direction in doubles.
 using Direction = std::array<double, 3>;
 
@@ -154,8 +148,7 @@ bool LightCharts::fill_one_chart(const FacingPolygons<Numbers>& polygons,
           u = r[0];
           v = r[1];
           z = dot_product(depth, r);
-          const double reach = std::max({std::fabs(u), std::fabs(v), std::fabs(r[2])});
-          most = std::max(most, reach);
+          most = std::fabs(r[2]);  // the same of all corners
         } else {
           const double w = dot_product(frame.w, r);
           const double size = std::fabs(r[0]) + std::fabs(r[1]) + std::fabs(r[2]);
@@ -174,6 +167,10 @@ bool LightCharts::fill_one_chart(const FacingPolygons<Numbers>& polygons,
         high_v = std::max(high_v, v);
         low_z = std::min(low_z, z);
         high_z = std::max(high_z, z);
+      }
+      if (light.directional) {
+        most = std::max(
+            {most, std::fabs(low_u), std::fabs(high_u), std::fabs(low_v), std::fabs(high_v)});
       }
       const double margin = 0x1p-40 * most;
       if (!(margin < kInfinity) || !(high_u - low_u < kInfinity) || !(high_v - low_v < kInfinity)) {

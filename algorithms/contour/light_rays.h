@@ -69,21 +69,20 @@ struct LightRays {
   using T = typename Numbers::T;
 
   bool directional = false;
-  /// Certified, of a sun: positions as doubles, exactly, scaled to [0, 1]; empty where they are
-  /// not.
+  /// Certified, of a sun: positions as doubles, exactly, scaled to [0, 1], along the axes of its
+  /// rays; empty where they are no doubles.
   std::vector<Vector<double>> positions;
-  Vector<double> to_light{};  // of a sun, as its rays have it
-  std::array<int, 3> axes{0, 1, 2};
+  std::array<int, 3> axes{0, 1, 2};  // of positions
+  Vector<double> to_light{};         // of a sun, as its rays have it, along the same axes
 
   /// The ray of vertex v less that of vertex w, from their exact positions: off by 10u of the
   /// largest component of the difference, `size`.
-  Vector<double> difference(VertexId v, VertexId w, double& size) const {
+  [[gnu::always_inline]] Vector<double> difference(VertexId v, VertexId w, double& size) const {
     const Vector<double>&p = positions[v], &q = positions[w];
     const Vector<double> step{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
     size = largest(step);
-    const auto [x, y, z] = axes;
-    return {step[x] * to_light[z] - step[z] * to_light[x],
-            step[y] * to_light[z] - step[z] * to_light[y], 0};
+    return {step[0] * to_light[2] - step[2] * to_light[0],
+            step[1] * to_light[2] - step[2] * to_light[1], 0};
   }
 
   double reach = 0;  // certified: a bound of |r_k| by which errors count; 0: that of each polygon
@@ -279,14 +278,12 @@ inline void fill_certified_sun(const LightIntegers& light, unsigned jobs,
   const Geometry& geometry = *light.geometry;
   const Vector<double>& d = result.to_light;
   result.reach = ContourBounds::kSunReach;
-  const auto [x, y, z] = std::array<int, 3>{light.axes.x, light.axes.y, light.axes.z};
-  in_parallel(jobs, size_of(result.rays), kRayGrain,
-              [&, x = x, y = y, z = z](std::uint32_t begin, std::uint32_t end) {
-                for (VertexId v = begin; v < end; ++v) {
-                  const Vector<double>& p = result.positions[v];
-                  result.rays[v] = {p[x] * d[z] - p[z] * d[x], p[y] * d[z] - p[z] * d[y], d[z]};
-                }
-              });
+  in_parallel(jobs, size_of(result.rays), kRayGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (VertexId v = begin; v < end; ++v) {
+      const Vector<double>& p = result.positions[v];
+      result.rays[v] = {p[0] * d[2] - p[2] * d[0], p[1] * d[2] - p[2] * d[1], d[2]};
+    }
+  });
   in_parallel(jobs, size_of(geometry.edges), kRayGrain,
               [&](std::uint32_t begin, std::uint32_t end) {
                 for (EdgeId e = begin; e < end; ++e) {
@@ -299,7 +296,7 @@ inline void fill_certified_sun(const LightIntegers& light, unsigned jobs,
               });
 }
 
-/// Positions as doubles, for a sun, where each is one. Kept from sun to sun.
+/// Positions as doubles, for a sun, where each is one. Kept from sun to sun of the same axes.
 inline void fill_positions(const LightIntegers& light,
                            LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   constexpr unsigned kDoubleBits = 53;
@@ -308,17 +305,19 @@ inline void fill_positions(const LightIntegers& light,
     result.positions.clear();
     return;
   }
-  if (result.positions.empty()) {
+  const std::array<int, 3> axes{light.axes.x, light.axes.y, light.axes.z};
+  if (result.positions.empty() || result.axes != axes) {
     const double scale = std::ldexp(1.0, -static_cast<int>(light.grid_bits()));
+    result.axes = axes;
     result.positions.resize(geometry.positions.size());
     for (VertexId v = 0; v < result.positions.size(); ++v) {
       const std::int64_t* p = geometry.grid.narrow_point(v);
-      for (int k = 0; k < 3; ++k) result.positions[v][k] = static_cast<double>(p[k]) * scale;
+      for (int k = 0; k < 3; ++k) result.positions[v][k] = static_cast<double>(p[axes[k]]) * scale;
     }
   }
-  result.axes = {light.axes.x, light.axes.y, light.axes.z};
   for (int k = 0; k < 3; ++k) {
-    result.to_light[k] = to_double_scaled(light.light.grid[k], static_cast<long>(light.light_bits));
+    result.to_light[k] =
+        to_double_scaled(light.light.grid[axes[k]], static_cast<long>(light.light_bits));
   }
 }
 

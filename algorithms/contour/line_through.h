@@ -55,6 +55,13 @@ IntervalEnds ends_of_interval(const SignOf& sign) {
   return ends;
 }
 
+/// The same where no sign is zero, from those that are positive.
+constexpr IntervalEnds ends_of_known_interval(bool enters_from, bool enters_to, bool leaves_from,
+                                              bool leaves_to) {
+  const bool meets = (enters_from | enters_to) & ((!enters_from & leaves_to) | leaves_from);
+  return {meets, enters_from, leaves_to};
+}
+
 /// A sign that bounds may leave open.
 struct MaybeSign {
   int sign = 0;
@@ -82,9 +89,30 @@ inline constexpr auto kBlockEnds = [] {
   }
   return table;
 }();
-/// The bits of BlockSigns that are of lines and corners that there are.
+/// The bits of BlockSigns that are of lines and corners that there are, and the lowest bit of each
+/// of its lines for which any corner is in a set.
+inline constexpr auto kValidSigns = [] {
+  std::array<std::array<std::uint16_t, 5>, 5> table{};
+  for (unsigned lines = 1; lines <= 4; ++lines) {
+    for (unsigned corners = 1; corners <= 4; ++corners) {
+      table[lines][corners] =
+          static_cast<std::uint16_t>((0x1111u >> 4 * (4 - lines)) * ((1u << corners) - 1));
+    }
+  }
+  return table;
+}();
 constexpr unsigned valid_signs(std::uint32_t lines, std::uint32_t corners) {
-  return (0x1111u >> 4 * (4 - lines)) * ((1u << corners) - 1);
+  return kValidSigns[lines][corners];
+}
+constexpr unsigned lines_with_any(unsigned set) {
+  return (set | set >> 1 | set >> 2 | set >> 3) & 0x1111u;
+}
+/// The same of lines for which two corners are.
+constexpr unsigned lines_with_two(unsigned set) {
+  if (set == 0) return 0;
+  const unsigned sum =
+      (set & 0x1111u) + (set >> 1 & 0x1111u) + (set >> 2 & 0x1111u) + (set >> 3 & 0x1111u);
+  return (sum >> 1 | sum >> 2) & 0x1111u;
 }
 
 }  // namespace gnomon

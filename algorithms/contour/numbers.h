@@ -114,8 +114,9 @@ bool certainly_no_gap(const Place<Numbers>& p, const Place<Numbers>& q) {
 /// g, so that t = s / (s - s') is off by at most e (|s| + |s'|) / (g 3/4 g) = 1.67 e / g; the gap
 /// and the quotient round by 2u.
 template <class Numbers>
-Place<Numbers> zero_between(const typename Numbers::T& at_from, const typename Numbers::T& at_to,
-                            double error, PlaceName name) {
+[[gnu::always_inline]] inline Place<Numbers> zero_between(const typename Numbers::T& at_from,
+                                                          const typename Numbers::T& at_to,
+                                                          double error, PlaceName name) {
   using T = typename Numbers::T;
   Place<Numbers> place;
   const T gap = at_from - at_to;

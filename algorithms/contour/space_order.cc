@@ -213,9 +213,9 @@ struct Names {
 
 }  // namespace
 
-bool SpaceOrder::pays(const PreparedScene& scene) {
-  constexpr std::size_t kFewestParts = 20000;
-  return scene.parts.size() >= kFewestParts;
+bool SpaceOrder::pays(const PreparedScene& scene, bool directional) {
+  constexpr std::size_t kFewestParts = 20000, kFewestUnderSun = 4000;
+  return scene.parts.size() >= (directional ? kFewestUnderSun : kFewestParts);
 }
 
 SpaceOrder::SpaceOrder(const PreparedScene& scene, unsigned jobs)

@@ -19,8 +19,10 @@ namespace gnomon {
 
 class SpaceOrder {
  public:
-  /// Whether the scene is so large that the caches do not hold it in any order.
-  static bool pays(const PreparedScene& scene);
+  /// Whether the scene is so large that the caches do not hold it in any order. A run that has a
+  /// sun most often has many of them, for which the order is made once; so it pays sooner for them.
+  /// It must not depend on how many there are, since an order changes the last bits of bounds.
+  static bool pays(const PreparedScene& scene, bool directional);
 
   /// With `jobs` other than 1 on the threads of the caller's arena; the same for every number.
   explicit SpaceOrder(const PreparedScene& scene, unsigned jobs = 1);

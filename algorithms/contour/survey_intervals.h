@@ -11,17 +11,12 @@ template <class Numbers, class Sides>
 bool EdgeSurvey<Numbers, Sides>::find_values(std::uint32_t q, std::uint32_t p) {
   const FacingPolygon& own = polygons_->polygons[p];
   const FacingPolygon& other = polygons_->polygons[q];
-  const double reach = polygons_->reach[p];
-  const double* errors = &polygons_->line_error[4 * std::size_t{other.block}];
-  for (int i = 0; i < 4; ++i) block_.bounds[i] = errors[i] * reach;
-  block_.signs = lanes_->block_values(polygons_->lines[other.block].x, block_.bounds.data(),
-                                      polygons_->corners[own.block].x, block_.values.data());
+  block_.signs = lanes_->block_values(
+      polygons_->lines[other.block].x, &polygons_->line_error[4 * std::size_t{other.block}],
+      polygons_->reach[p], polygons_->corners[own.block].x, block_.values.data());
   block_.zero = 0;
-  const unsigned corners = (1u << own.count) - 1;
-  for (std::uint32_t i = 0; i < other.count; ++i) {
-    if ((block_.signs.negative >> 4 * i & corners) == corners) return false;
-  }
-  return true;
+  const unsigned valid = valid_signs(other.count, own.count);
+  return lines_with_any(valid & ~unsigned{block_.signs.negative}) == (valid & 0x1111u);
 }
 
 template <class Numbers, class Sides>
@@ -41,13 +36,23 @@ bool EdgeSurvey<Numbers, Sides>::interval_in_block(std::uint32_t p, std::uint32_
     set = static_cast<std::uint16_t>(set | 1u << bit);
     return decided;
   };
-  const IntervalEnds ends = ends_of_interval([&](bool leaves, bool at_to) {
-    return sign(leaves ? through.out : through.in, at_to ? next : k);
-  });
+  const unsigned inside = block_.signs.positive, known = inside | block_.signs.negative;
+  const unsigned in_from = 1u << (4 * through.in + k), in_to = 1u << (4 * through.in + next);
+  const unsigned out_from = 1u << (4 * through.out + k), out_to = 1u << (4 * through.out + next);
+  IntervalEnds ends;
+  if ((~known & (in_from | in_to | out_from | out_to)) == 0) {
+    ends = ends_of_known_interval((inside & in_from) != 0, (inside & in_to) != 0,
+                                  (inside & out_from) != 0, (inside & out_to) != 0);
+  } else {
+    ends = ends_of_interval([&](bool leaves, bool at_to) {
+      return sign(leaves ? through.out : through.in, at_to ? next : k);
+    });
+  }
   if (!ends.meets) return false;
   const auto place = [&](std::uint32_t edge, std::uint32_t corner) {
     return meeting(p, k, q, edge, corner, block_.values[4 * edge + k],
-                   block_.values[4 * edge + next], block_.bounds[edge]);
+                   block_.values[4 * edge + next],
+                   polygons_->error_of_line(polygons_->polygons[q], edge) * polygons_->reach[p]);
   };
   stretch.low = ends.starts_inside ? Place<Numbers>::from() : place(through.in, through.in_corner);
   stretch.high = ends.ends_inside ? Place<Numbers>::to() : place(through.out, through.out_corner);

@@ -83,23 +83,42 @@ void EdgeSurvey<Numbers, Sides>::find_sign(std::uint32_t p, std::uint32_t k, std
   set.right |= std::uint64_t{sign < 0} << j;
 }
 
+// Which corners of the second polygon are ends of edges of the first one, as BlockSigns; anything
+// of corners that there are not.
 template <class Numbers, class Sides>
-BlockSigns EdgeSurvey<Numbers, Sides>::block_signs(std::uint32_t p, std::uint32_t q) {
+unsigned EdgeSurvey<Numbers, Sides>::ends_on_lines(const FacingPolygon& own,
+                                                   const FacingPolygon& other) const {
+  typedef VertexId Four __attribute__((vector_size(16), aligned(4), may_alias));
+  constexpr Four kBits = {1, 2, 4, 8};
+  const VertexId* vertices = &polygons_->vertices[own.first];
+  const Four others = *reinterpret_cast<const Four*>(&polygons_->vertices[other.first]);
+  Four same = {0, 0, 0, 0};
+  for (std::uint32_t k = 0; k < own.count; ++k) {
+    const Four vertex = {vertices[k], vertices[k], vertices[k], vertices[k]};
+    same |= (Four)(others == vertex) & (kBits << 4 * k);
+  }
+  const unsigned starts = (same[0] | same[1]) | (same[2] | same[3]);
+  // Edge k ends in the corner after k.
+  return starts | starts >> 4 | starts << 4 * (own.count - 1);
+}
+
+template <class Numbers, class Sides>
+[[gnu::always_inline]] inline BlockSigns EdgeSurvey<Numbers, Sides>::block_signs(std::uint32_t p,
+                                                                                 std::uint32_t q) {
   const FacingPolygon& own = polygons_->polygons[p];
   const FacingPolygon& other = polygons_->polygons[q];
-  const double reach = polygons_->reach[q];
-  const double* errors = &polygons_->line_error[4 * std::size_t{own.block}];
-  const double bounds[4] = {errors[0] * reach, errors[1] * reach, errors[2] * reach,
-                            errors[3] * reach};
-  BlockSigns signs =
-      lanes_->block_signs(polygons_->lines[own.block].x, bounds, polygons_->corners[other.block].x);
+  BlockSigns signs = lanes_->block_signs(polygons_->lines[own.block].x,
+                                         &polygons_->line_error[4 * std::size_t{own.block}],
+                                         polygons_->reach[q], polygons_->corners[other.block].x);
   const unsigned valid = valid_signs(own.count, other.count);
   signs.positive = static_cast<std::uint16_t>(signs.positive & valid);
   signs.negative = static_cast<std::uint16_t>(signs.negative & valid);
   filtered_ += own.count * other.count;
   if constexpr (Numbers::kCertified) {
-    for (unsigned open = valid & ~(signs.positive | signs.negative); open != 0; open &= open - 1) {
-      --filtered_;
+    unsigned open = valid & ~(signs.positive | signs.negative);
+    if (open == 0) return signs;
+    filtered_ -= static_cast<unsigned>(std::popcount(open));
+    for (open &= ~ends_on_lines(own, other); open != 0; open &= open - 1) {
       const auto bit = static_cast<std::uint32_t>(std::countr_zero(open));
       const int sign = undecided_side(p, bit / 4, q, bit % 4);
       if (sign > 0) signs.positive = static_cast<std::uint16_t>(signs.positive | 1u << bit);
@@ -110,8 +129,8 @@ BlockSigns EdgeSurvey<Numbers, Sides>::block_signs(std::uint32_t p, std::uint32_
 }
 
 template <class Numbers, class Sides>
-LineThrough EdgeSurvey<Numbers, Sides>::through_block(std::uint32_t q, unsigned left,
-                                                      unsigned right) const {
+[[gnu::always_inline]] inline LineThrough EdgeSurvey<Numbers, Sides>::through_block(
+    std::uint32_t q, unsigned left, unsigned right) const {
   const std::uint32_t n = polygons_->polygons[q].count;
   if ((left | right) == (1u << n) - 1) {
     if (left == 0 || right == 0) return {};
@@ -147,10 +166,8 @@ bool EdgeSurvey<Numbers, Sides>::find_signs(std::uint32_t p, std::uint32_t q) {
     if (other.count <= 4) {
       for (std::uint32_t k = 0; k < own.count; k += 4) {
         const double* errors = &polygons_->line_error[4 * std::size_t{own.block} + k];
-        const double bounds[4] = {errors[0] * reach, errors[1] * reach, errors[2] * reach,
-                                  errors[3] * reach};
         const BlockSigns signs =
-            lanes_->block_signs(polygons_->lines[own.block + k / 4].x, bounds, corners);
+            lanes_->block_signs(polygons_->lines[own.block + k / 4].x, errors, reach, corners);
         for (std::uint32_t i = 0; i < 4 && k + i < own.count; ++i) {
           settle(k + i, {std::uint64_t{signs.positive} >> 4 * i & 15,
                          std::uint64_t{signs.negative} >> 4 * i & 15});
@@ -246,8 +263,9 @@ LineThrough EdgeSurvey<Numbers, Sides>::through_signs(std::uint32_t q, std::uint
 // --- Depths. ---
 
 template <class Numbers, class Sides>
-auto EdgeSurvey<Numbers, Sides>::depth(std::uint32_t q, std::uint32_t p, std::uint32_t j) const
-    -> T {
+[[gnu::always_inline]] inline auto EdgeSurvey<Numbers, Sides>::depth(std::uint32_t q,
+                                                                     std::uint32_t p,
+                                                                     std::uint32_t j) const -> T {
   return dot_product(light_->depths[polygons_->polygons[q].plane],
                      polygons_->corner(polygons_->polygons[p], j));
 }
@@ -281,6 +299,7 @@ int EdgeSurvey<Numbers, Sides>::nearer(std::uint32_t q, std::uint32_t p, std::ui
 template <class Numbers, class Sides>
 int EdgeSurvey<Numbers, Sides>::undecided_nearer(std::uint32_t q, std::uint32_t p,
                                                  std::uint32_t j) {
+  if (sides_->has_memo()) return sides_->of_support(q, p, j);
   const VertexId vertex = polygons_->vertex(polygons_->polygons[p], j);
   const FacingPolygon& other = polygons_->polygons[q];
   for (std::uint32_t i = 0; i < other.count; ++i) {
@@ -324,6 +343,27 @@ CornerSet EdgeSurvey<Numbers, Sides>::find_nearer(std::uint32_t q, std::uint32_t
     const std::uint64_t all = ~std::uint64_t{0} >> (CornerSet::kMost - own.count);
     return {signs.positive & all, signs.negative & all};
   }
+}
+
+// Corners that the numbers leave open are asked for last: most often they are on the plane.
+template <class Numbers, class Sides>
+SidesOfPlane EdgeSurvey<Numbers, Sides>::sides_of_plane(std::uint32_t p, std::uint32_t q,
+                                                        const CornerSet& known) {
+  const std::uint32_t n = polygons_->polygons[p].count;
+  SidesOfPlane sides{known.left != 0, known.right != 0};
+  if (sides.both()) return sides;
+  if constexpr (Numbers::kCertified) {
+    const bool told = n <= CornerSet::kMost &&
+                      (known.left | known.right) == ~std::uint64_t{0} >> (CornerSet::kMost - n);
+    if (!told && sides_->has_memo()) return sides_->of_support(q, p);
+  }
+  for (std::uint32_t j = 0; j < n && !sides.both(); ++j) {
+    if (j < CornerSet::kMost && ((known.left | known.right) >> j & 1) != 0) continue;
+    const int sign = nearer(q, p, j, depth(q, p, j));
+    sides.nearer |= sign > 0;
+    sides.behind |= sign < 0;
+  }
+  return sides;
 }
 
 template <class Numbers, class Sides>

@@ -67,6 +67,26 @@ TEST(Contour, PolygonsOfManyCorners) {
   }
 }
 
+/// Two sheets cross a third one in one line, which is the edge of yet another in the plane of the
+/// nearer of the two: the crease with that one is the border, whichever comes first.
+TEST(Contour, CreasesInOneLine) {
+  std::vector<std::vector<Triple>> sheets = {
+      {{32, 0, 0}, {0, 16, 0}, {0, 32, 0}, {32, 16, 0}},
+      {{0, 0, 32}, {16, 32, 0}, {48, 32, -32}, {32, 0, 0}},
+      {{0, 64, 0}, {-16, 80, 16}, {-16, 64, 32}, {0, 32, 32}, {32, 0, 0}},
+      {{0, 32, 32}, {64, -32, -32}, {8, 32, 16}}};
+  std::ranges::sort(sheets);
+  do {
+    ScenePen pen;
+    pen.two_sided(true);
+    for (const std::vector<Triple>& sheet : sheets) pen.polygon(sheet);
+    pen.lamp({-5, 48, 27});
+    const auto scene = Case::make(pen.take());
+    ASSERT_TRUE(scene);
+    ASSERT_EQ(check_contour(*scene), "") << text_of(scene->scene());
+  } while (std::ranges::next_permutation(sheets).found);
+}
+
 /// Boxes around a lamp, and a room around all of it: polygons on all sides of the light.
 TEST(Contour, LampsInsideScenes) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
@@ -191,6 +211,20 @@ TEST(Contour, ThreadsChangeNoBit) {
   expect_same_bits("city", 4200, KernelId::kPlane, false);  // in space order
 }
 
+void expect_lights_to_be_alone(const PreparedScene& scene) {
+  ShadowOptions options;
+  options.method.point = MethodId::kContour;
+  const auto together = compute_shadows(scene, options);
+  ASSERT_TRUE(together);
+  for (std::uint32_t light = 0; light < together->lights.size(); ++light) {
+    options.lights = {light};
+    const auto alone = compute_shadows(scene, options);
+    ASSERT_TRUE(alone);
+    EXPECT_TRUE(same_bits(together->lights[light], alone->lights[0])) << light;
+    EXPECT_EQ(together->lights[light].work, alone->lights[0].work) << light;
+  }
+}
+
 /// What is kept from one light to the next changes nothing.
 TEST(Contour, LightsDoNotKnowOfEachOther) {
   ScenePen pen;
@@ -200,15 +234,29 @@ TEST(Contour, LightsDoNotKnowOfEachOther) {
   pen.sun({1, 2, 30}).lamp({2, 2, 2}).sun({0, 0, -1}).lamp({500, 1, 40}).sun({0, 0, 1});
   const auto scene = Case::make(pen.take());
   ASSERT_TRUE(scene);
-  ShadowOptions options;
-  options.method.point = MethodId::kContour;
-  const auto together = compute_shadows(scene->prepared(), options);
-  ASSERT_TRUE(together);
-  for (std::uint32_t light = 0; light < together->lights.size(); ++light) {
-    options.lights = {light};
-    const auto alone = compute_shadows(scene->prepared(), options);
-    ASSERT_TRUE(alone);
-    EXPECT_TRUE(same_bits(together->lights[light], alone->lights[0])) << light;
+  expect_lights_to_be_alone(scene->prepared());
+}
+
+/// The same of walls that stand on the ground and roofs at one height, so that integers are asked,
+/// and of a scene that suns have in space order.
+TEST(Contour, SunsOverACityDoNotKnowOfEachOther) {
+  for (const int houses : {60, 840}) {
+    Expected<Scene> made = generate("city", {{"n", houses}}, 5);
+    ASSERT_TRUE(made);
+    const Light lamp = made->lights.front();
+    for (const Triple& to_light : std::vector<Triple>{
+             {1, 0, 1}, {3, 4, 2}, {-30, 1, 5}, {30, 1, 5}, {0, 0, 1}, {1, 40, 9}}) {
+      Light sun = lamp;
+      sun.id = "sun" + std::to_string(made->lights.size());
+      sun.type = LightType::kDirectional;
+      for (int k = 0; k < 3; ++k) sun.position[k] = Number(static_cast<double>(to_light[k]));
+      made->lights.push_back(sun);
+    }
+    made->lights.push_back(lamp);
+    made->lights.back().id = "again";
+    const Expected<PreparedScene> scene = prepare(*made);
+    ASSERT_TRUE(scene);
+    expect_lights_to_be_alone(*scene);
   }
 }
 

@@ -98,15 +98,17 @@ TEST_P(Lines, BlocksOfLinesAreThoseOfPlainCode) {
   Random random(2);
   for (int round = 0; round < 20000; ++round) {
     std::array<double, kBlockDoubles> lines{}, corners{};
-    std::array<double, 4> bounds{};
+    std::array<double, 4> errors{}, bounds{};
     for (double& value : lines) value = any_double(random);
     for (double& value : corners) value = any_double(random);
+    const double reach = std::ldexp(1 + round % 5, round % 40 - 20);
     for (std::size_t i = 0; i < 4; ++i) {
-      bounds[i] = any_bound(random, value_at(lines.data() + i, 4, corners.data(), i));
+      errors[i] = any_bound(random, value_at(lines.data() + i, 4, corners.data(), i)) / reach;
+      bounds[i] = errors[i] * reach;
     }
     std::array<double, 16> values{};
     const BlockSigns found =
-        tested.block_values(lines.data(), bounds.data(), corners.data(), values.data());
+        tested.block_values(lines.data(), errors.data(), reach, corners.data(), values.data());
     std::uint32_t positive = 0, negative = 0;
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t k = 0; k < 4; ++k) {
@@ -122,7 +124,7 @@ TEST_P(Lines, BlocksOfLinesAreThoseOfPlainCode) {
     }
     ASSERT_EQ(found.positive, positive) << round;
     ASSERT_EQ(found.negative, negative) << round;
-    const BlockSigns alone = tested.block_signs(lines.data(), bounds.data(), corners.data());
+    const BlockSigns alone = tested.block_signs(lines.data(), errors.data(), reach, corners.data());
     ASSERT_EQ(alone.positive, positive) << round;
     ASSERT_EQ(alone.negative, negative) << round;
   }
@@ -140,7 +142,7 @@ TEST_P(Lines, NoProductIsFusedWithASum) {
   const std::array<double, 4> bounds = {0, 0, 0, 0};
   std::array<double, 16> values{};
   const BlockSigns signs =
-      lanes(GetParam()).block_values(lines.data(), bounds.data(), corners.data(), values.data());
+      lanes(GetParam()).block_values(lines.data(), bounds.data(), 1, corners.data(), values.data());
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(values[5 * i], 0);
     EXPECT_EQ((signs.positive | signs.negative) >> 5 * i & 1, 0);

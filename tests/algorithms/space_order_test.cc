@@ -96,7 +96,8 @@ TEST(SpaceOrder, ChangesNoAnswer) {
 // A run in space order (the scene is large enough) and one by sectors agree.
 TEST(SpaceOrder, IsUndoneForTheCaller) {
   const PreparedScene scene = made("city", "n", 4200);
-  ASSERT_TRUE(SpaceOrder::pays(scene));
+  ASSERT_TRUE(SpaceOrder::pays(scene, false));
+  ASSERT_TRUE(SpaceOrder::pays(made("city", "n", 840), true));
   ShadowOptions options;
   options.method.point = MethodId::kContour;
   const auto found = compute_shadows(scene, options);

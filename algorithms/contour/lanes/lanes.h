@@ -77,12 +77,14 @@ struct Lanes {
   CornerSigns (*corner_signs)(const double* line, double bound, const double* corners,
                               std::uint32_t blocks);
 
-  /// The same for a block of four lines and one block of corners; bounds[i] is that of line i.
-  BlockSigns (*block_signs)(const double* lines, const double* bounds, const double* corners);
+  /// The same for a block of four lines and one block of corners; the bound of line i is errors[i]
+  /// * reach.
+  BlockSigns (*block_signs)(const double* lines, const double* errors, double reach,
+                            const double* corners);
 
   /// The same, which also puts the value of line i at corner k into values[4 i + k].
-  BlockSigns (*block_values)(const double* lines, const double* bounds, const double* corners,
-                             double* values);
+  BlockSigns (*block_values)(const double* lines, const double* errors, double reach,
+                             const double* corners, double* values);
 
   /// Writes the pairs of a query and a target whose closed boxes overlap and which have all traits
   /// between them, as numbers of the lists, by queries and then by targets; adds the number of

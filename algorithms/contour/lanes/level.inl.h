@@ -175,11 +175,12 @@ CornerSigns corner_signs(const double* line, double bound, const double* corners
 }
 
 template <bool kStore>
-GNOMON_INLINE BlockSigns signs_of_block(const double* lines, const double* bounds,
+GNOMON_INLINE BlockSigns signs_of_block(const double* lines, const double* errors, double reach,
                                         const double* corners, double* place) {
   std::uint32_t positive = 0, negative = 0;
   for (int i = 0; i < 4; ++i) {
-    const Doubles upper = {bounds[i], bounds[i], bounds[i], bounds[i]}, lower = -upper;
+    const double bound = errors[i] * reach;
+    const Doubles upper = {bound, bound, bound, bound}, lower = -upper;
     Doubles values;
     put_values(lines[i], lines[4 + i], lines[8 + i], corners, values);
     if constexpr (kStore) *reinterpret_cast<Doubles*>(place + 4 * i) = values;
@@ -189,13 +190,14 @@ GNOMON_INLINE BlockSigns signs_of_block(const double* lines, const double* bound
   return {static_cast<std::uint16_t>(positive), static_cast<std::uint16_t>(negative)};
 }
 
-BlockSigns block_signs(const double* lines, const double* bounds, const double* corners) {
-  return signs_of_block<false>(lines, bounds, corners, nullptr);
+BlockSigns block_signs(const double* lines, const double* errors, double reach,
+                       const double* corners) {
+  return signs_of_block<false>(lines, errors, reach, corners, nullptr);
 }
 
-BlockSigns block_values(const double* lines, const double* bounds, const double* corners,
-                        double* values) {
-  return signs_of_block<true>(lines, bounds, corners, values);
+BlockSigns block_values(const double* lines, const double* errors, double reach,
+                        const double* corners, double* values) {
+  return signs_of_block<true>(lines, errors, reach, corners, values);
 }
 
 bool sweep(const SweepList& queries, const SweepList& targets, SweepOrder order, SweepState& state,
