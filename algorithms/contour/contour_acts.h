@@ -21,7 +21,9 @@ void ContourWalk<Numbers, Sides>::walk_edge(std::uint32_t k) {
   } else {
     uncovered<Numbers>({&whole, 1}, lists.hidden, seen_);
   }
-  for (const Segment<Numbers>& segment : seen_) add_own(k, segment);
+  if (!(sum.flags & kOwnWhole)) {
+    for (const Segment<Numbers>& segment : seen_) add_own(k, segment);
+  }
   if (!casts(p_) || seen_.empty()) return;
   if (lists.behind.empty() && lists.level.empty()) return;
   if (!lists.level.empty()) {

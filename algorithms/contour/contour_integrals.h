@@ -22,15 +22,12 @@ auto ContourWalk<Numbers, Sides>::value_of(std::uint32_t k, std::uint32_t q, dou
   const FacingPolygon& other = polygons_->polygons[q];
   const Vector<T> line = polygons_->line(own, k);
   if constexpr (Numbers::kCertified) {
-    error = polygons_->error_of_line(own, k);
-    if (!light_->positions.empty()) {
-      double size;
-      const Vector<double> difference =
-          light_->difference(polygons_->vertex(other, 0), polygons_->vertex(own, k), size);
-      error *= size;
-      return dot_product(line, difference);
+    const double line_error = polygons_->error_of_line(own, k);
+    error = light_->proven(line_error * polygons_->reach[q]);
+    if (error != 0 && light_->has_differences()) {
+      return light_->value(line, line_error, polygons_->vertex(other, 0), polygons_->vertex(own, k),
+                           error);
     }
-    error *= polygons_->reach[q];
   }
   return dot_product(line, polygons_->corner(other, 0));
 }
@@ -51,11 +48,14 @@ void ContourWalk<Numbers, Sides>::add_own(std::uint32_t k, const Segment<Numbers
   sum.add(share, error);
 }
 
-/// Bound of the error of (t - s) (n . c) scale / (w(s) w(t)) in doubles. With V = |n . c| scale: a
-/// place off by e moves the integral by V e / w^2 (the derivative by t is V / w(t)^2), which is
-/// doubled where w is itself known within a quarter, by its own bound and wherever the place may
-/// be; n . c is off by its bound; the scale, and each w, by a relative error; the operations round
-/// by less than 8u. `depth_rate`: by how much w changes along the edge.
+/// Bound of the error of (t - s) (n . c) scale / (w(s) w(t)) in doubles; the scale is a number like
+/// any other here, and what it is off by is seen to at the end (contour_classes.h).
+///
+/// With V = |n . c| scale: the derivative by t is V / w(t)^2, that by s alike, so that a place off
+/// by e moves the integral by V e / w^2, w the least wherever the place may be. Where w changes by
+/// less than 2^-10 of itself on the way, that is within 1 %; else doubled. n . c is off by its
+/// bound, each w by `depth_error`; n . c scale, t - s, three products and a quotient round by 6u.
+/// `depth_rate`: by how much w changes along the edge.
 template <class Numbers, class Sides>
 double ContourWalk<Numbers, Sides>::share_error(std::uint32_t q, double rate,
                                                 double line_value_error, const PlaceOnEdge& low,
@@ -66,14 +66,32 @@ double ContourWalk<Numbers, Sides>::share_error(std::uint32_t q, double rate,
   const double least = std::min(depth_low, depth_high) - depth_error;
   const double change = (std::fabs(depth_rate) + depth_error) * std::max(low.error, high.error);
   if (!(depth_error + change < 0.25 * least)) return std::numeric_limits<double>::infinity();
-  const double width = std::fabs(high.t - low.t), size = std::fabs(rate);
-  const double relative = measure_->relative_error[q] + 16 * Ball::kUnit;
-  const double sum = (size + value_error) * (2 * (low.error + high.error) + width * relative) +
-                     width * value_error;
+  const double width = std::fabs(high.t - low.t), size = std::fabs(rate) + value_error;
+  const double places = (change < 0x1p-10 * least ? 1.01 : 2) * (low.error + high.error);
+  const double sum = size * (places + 6 * Ball::kUnit * width) + width * value_error;
   if (depth_error == 0) return 1.01 * sum;
   const double inverse = 1 / least;
   return 1.01 * inverse * inverse *
-         (sum + 3 * (size + value_error) * width * depth_error * inverse);
+         (sum + (depth_error < 0x1p-10 * least ? 2.1 : 3) * size * width * depth_error * inverse);
+}
+
+/// What the depths of a receiver's plane along edge k are off by, from the terms of those at its
+/// ends; in between they round by less than 3u of the greater one.
+template <class Numbers, class Sides>
+double ContourWalk<Numbers, Sides>::depth_error_along(std::uint32_t k,
+                                                      const Behind<Numbers>& receiver) const {
+  const FacingPolygon& own = polygons_->polygons[p_];
+  const Vector<T>& depth = light_->depths[plane(receiver.polygon)];
+  const Vector<T> a = polygons_->corner(own, k);
+  const Vector<T> b = polygons_->corner(own, k + 1 == own.count ? 0 : k + 1);
+  double at_a = 0, at_b = 0;
+  for (int i = 0; i < 3; ++i) {
+    at_a += std::fabs(depth[i] * a[i]);
+    at_b += std::fabs(depth[i] * b[i]);
+  }
+  // Nothing is known of a plane whose doubles are none.
+  if (!(receiver.depth_error < std::numeric_limits<double>::infinity())) return receiver.depth_error;
+  return (light_->depth_terms + 3 * Ball::kUnit) * std::max(at_a, at_b);
 }
 
 template <class Numbers, class Sides>
@@ -92,7 +110,7 @@ void ContourWalk<Numbers, Sides>::take_from(std::uint32_t k, const Behind<Number
     share = T(share / T(depth_low * depth_high));
     if constexpr (Numbers::kCertified) {
       error = share_error(q, rate, value_error, low, high, depth_low, depth_high,
-                          2 * receiver.depth_error, receiver.depth_to - receiver.depth_from);
+                          depth_error_along(k, receiver), receiver.depth_to - receiver.depth_from);
     }
   } else if constexpr (Numbers::kCertified) {
     error = share_error(q, rate, value_error, low, high, 1, 1, 0, 0);

@@ -22,6 +22,12 @@ void ContourWalk<Numbers, Sides>::walk(std::uint32_t p, std::span<const std::uin
   for (const std::uint32_t q : neighbours) {
     if (dark_[q] == 0) meet(q);
   }
+  if constexpr (Numbers::kCertified) {
+    if (std::all_of(lists_.begin(), lists_.begin() + n,
+                    [](const auto& lists) { return lists.hidden.empty(); })) {
+      sums_[p].flags |= kHoldsLit | kOwnWhole;
+    }
+  }
   for (std::uint32_t k = 0; k < n; ++k) walk_edge(k);
 }
 

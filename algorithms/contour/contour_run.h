@@ -123,6 +123,7 @@ class ContourRun {
   void set_class(std::uint32_t i);
   RunOutcome find_open_ones(Space space, const std::function<void(double)>& progress);
   bool is_open(std::uint32_t i) const;
+  Ball share_of(std::uint32_t i) const;
 
   const PreparedScene& scene_;
   const ShadowOptions& options_;
@@ -154,15 +155,15 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
     double error = 0;
     for (std::uint32_t k = 1; k + 1 < p.count; ++k) {
       if constexpr (Numbers::kCertified) {
-        if (!rays_.positions.empty()) {
-          double size;
-          const Vector<double> difference =
-              rays_.difference(polygons_.vertex(p, 0), polygons_.vertex(p, k), size);
-          whole += dot_product(polygons_.line(p, k), difference);
-          error += polygons_.error_of_line(p, k) * size;
+        const double line_error = polygons_.error_of_line(p, k);
+        double value_error = rays_.proven(line_error * polygons_.reach[i]);
+        if (value_error != 0 && rays_.has_differences()) {
+          whole += rays_.value(polygons_.line(p, k), line_error, polygons_.vertex(p, 0),
+                               polygons_.vertex(p, k), value_error);
+          error += value_error;
           continue;
         }
-        error += polygons_.error_of_line(p, k) * polygons_.reach[i];
+        error += value_error;
       }
       whole += dot_product(polygons_.line(p, k), corner);
     }
@@ -174,8 +175,9 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
     }
     measure_.scale[i] = T(1 / whole);
     if constexpr (Numbers::kCertified) {
-      // Summing n values rounds by less than n u of their sum, the quotient by u.
-      measure_.relative_error[i] = 1.01 * error * measure_.scale[i] + (p.count + 2) * Ball::kUnit;
+      // Of n - 2 positive values all sums but the first, 0 and one of them, round by less than u of
+      // their sum, and so does the quotient.
+      measure_.relative_error[i] = 1.01 * (error * measure_.scale[i] + (p.count - 2) * Ball::kUnit);
       if (!(measure_.relative_error[i] < 0x1p-20)) sums_[i].flags |= kContourOpen;
     }
   }

@@ -150,6 +150,7 @@ class ContourWalk {
   double share_error(std::uint32_t q, double rate, double line_value_error, const PlaceOnEdge& low,
                      const PlaceOnEdge& high, double depth_low, double depth_high,
                      double depth_error, double depth_rate) const;
+  double depth_error_along(std::uint32_t k, const Behind<Numbers>& receiver) const;
   void take_from(std::uint32_t k, const Behind<Numbers>& receiver, const PlaceOnEdge& low,
                  const PlaceOnEdge& high);
   void take_perhaps(std::uint32_t k, const Behind<Numbers>& receiver, const PlaceOnEdge& low,

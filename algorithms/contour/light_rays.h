@@ -44,6 +44,15 @@ struct ContourBounds {
   /// Of depth . r with components of depth off by 8u M (LightBounds::kDepthPlane), |r_k| <= R, in
   /// units of M R: 3 (8u + 2u) from the operands, roundings 3u + 2u + 3u. 38u.
   static constexpr double kDepth = 40 * kUnit;
+  /// The same in units of the sum of |depth_k r_k|: 8u + 2u from the operands, u from a product, 2u
+  /// from the sums. Where normals and rays are doubles, depth is off by 2u (the conversion of a
+  /// height, and a quotient): 5u, and terms of second order.
+  static constexpr double kDepthTerms = 13.1 * kUnit, kDepthTermsOfExact = 5.1 * kUnit;
+  /// n . r from integers a, d and r of one scale: no product or sum is above 6 A D R of their
+  /// units, so that all are doubles below 2^53, and the bound kLine A D R is below this.
+  static double exact_below(unsigned bits) {
+    return kLine * std::ldexp(1.0 / 8, 53 - 3 * static_cast<int>(bits));
+  }
 
   /// A sun's rays from doubles, where positions are exactly doubles: r = (x d_z - z d_x, y d_z - z
   /// d_y, d_z) with |x_k| <= 1 exact and |d_k| <= 1 converted once, so that |r_k| <= kSunReach. A
@@ -75,9 +84,17 @@ struct LightRays {
   Vector<double> to_light{};  // of a sun, as its rays have it
   std::array<int, 3> axes{0, 1, 2};
 
-  /// The ray of vertex v less that of vertex w, from their exact positions: off by 10u of the
-  /// largest component of the difference, `size`.
+  /// Certified: whether difference() is there.
+  bool has_differences() const { return exact_rays || !positions.empty(); }
+  /// The ray of vertex v less that of vertex w: exactly for a lamp, whose rays are doubles; for a
+  /// sun from exact positions, off by 10u of the largest component of their difference, `size`.
   Vector<double> difference(VertexId v, VertexId w, double& size) const {
+    if (exact_rays) {
+      const Vector<double>&a = rays[v], &b = rays[w];
+      const Vector<double> step{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+      size = largest(step);
+      return step;
+    }
     const Vector<double>&p = positions[v], &q = positions[w];
     const Vector<double> step{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
     size = largest(step);
@@ -86,7 +103,25 @@ struct LightRays {
             step[y] * to_light[z] - step[z] * to_light[y], 0};
   }
 
-  double reach = 0;  // certified: a bound of |r_k| by which errors count; 0: that of each polygon
+  /// The value of a line through w at v, and what it is off by, for a line whose value for |r_k| <=
+  /// 1 is off by `line_error`. Requires: has_differences().
+  double value(const Vector<double>& line, double line_error, VertexId v, VertexId w,
+               double& error) const {
+    double size;
+    const Vector<double> step = difference(v, w, size);
+    error = proven(line_error * size);
+    return dot_product(line, step);
+  }
+  /// A bound of a line's value from integers that are doubles, or 0 if nothing can have been
+  /// rounded.
+  double proven(double error) const { return error < exact_below ? 0 : error; }
+
+  bool exact_rays = false;  // certified, of a lamp: rays are exactly their integers, scaled
+  /// Certified: a line's value is a sum of products of integers; if its bound is below this, they
+  /// all are doubles.
+  double exact_below = 0;
+  double depth_terms = 0;  // certified: of depth . r, in units of the sum of |depth_k r_k|
+  double reach = 0;        // certified: a bound of |r_k| by which errors count; 0: that of each polygon
   std::vector<Vector<T>> rays;      // by VertexId
   std::vector<Vector<T>> lines;     // by EdgeId, from its a to its b
   std::vector<double> line_error;   // certified: of n . r for |r_k| <= 1; rounded: the thickness
@@ -254,6 +289,11 @@ void fill_certified(const LightIntegers& light, unsigned jobs,
   });
   // Rays of at most 52 bits are exactly their doubles, and so are the differences of two.
   const bool exact_rays = light.narrow && light.q_bits <= 52;
+  result.exact_rays = exact_rays && !directional;
+  if (result.exact_rays) {
+    result.exact_below = ContourBounds::exact_below(light.q_bits);
+    if (2 * light.grid_bits() + 1 <= 53) result.depth_terms = ContourBounds::kDepthTermsOfExact;
+  }
   in_parallel(jobs, size_of(geometry.edges), kRayGrain,
               [&](std::uint32_t begin, std::uint32_t end) {
                 for (EdgeId e = begin; e < end; ++e) {
@@ -334,6 +374,9 @@ void make_light_rays(const Space& space, const Geometry& geometry, const LightPo
   result.rays.resize(geometry.positions.size());
   result.lines.resize(geometry.edges.size());
   result.line_error.resize(geometry.edges.size());
+  result.exact_rays = false;
+  result.exact_below = 0;
+  result.depth_terms = ContourBounds::kDepthTerms;
   contour_detail::fill_positions(integers, result);
   if (!result.positions.empty()) {
     contour_detail::fill_certified_sun(integers, jobs, result);

@@ -112,7 +112,7 @@ bool certainly_no_gap(const Place<Numbers>& p, const Place<Numbers>& q) {
 /// have opposite signs. Certified: each value is off by at most e, `error`. With gap g = |s| + |s'|
 /// > 8e of the computed values, the true gap is at least 3/4 g and the true |s| + |s'| at most 5/4
 /// g, so that t = s / (s - s') is off by at most e (|s| + |s'|) / (g 3/4 g) = 1.67 e / g; the gap
-/// and the quotient round by 2u.
+/// and the quotient round by 2u of t.
 template <class Numbers>
 Place<Numbers> zero_between(const typename Numbers::T& at_from, const typename Numbers::T& at_to,
                             double error, PlaceName name) {
@@ -126,7 +126,7 @@ Place<Numbers> zero_between(const typename Numbers::T& at_from, const typename N
     // What has underflowed says nothing, whatever its bound.
     constexpr double kLeast = 0x1p-900;
     if (size > 8 * error && size > kLeast) {
-      place.error = 1.7 * error / size + 4 * Ball::kUnit;
+      place.error = 1.7 * error / size + 2.1 * Ball::kUnit;
     } else {
       place.t = 0.5;
       place.error = 1;
