@@ -18,11 +18,10 @@ bool ContourRun<Space, Numbers>::is_open(std::uint32_t i) const {
   if constexpr (!Numbers::kCertified) {
     return false;
   } else {
-    // Bounds add up: a polygon among thousands may be known a little less well.
-    constexpr double kWidest = PartMeasure<Space>::kWidest, kMany = 1024;
-    const Sum& sum = sums_[i];
+    // Bounds add up: a polygon has some five integrals, and more among more neighbours.
     const double widest =
-        kWidest * (1 + static_cast<double>(pairs_.neighbours(i).size()) / kMany);
+        8 * rays_.rough() * (1 + static_cast<double>(pairs_.neighbours(i).size()) / 16);
+    const Sum& sum = sums_[i];
     if (sum.flags & kContourOpen) return true;
     const bool lit = sum.flags & kHoldsLit, shadow = sum.flags & kHoldsShadow;
     if (!lit && (sum.flags & kPerhapsLit)) return true;
@@ -30,8 +29,7 @@ bool ContourRun<Space, Numbers>::is_open(std::uint32_t i) const {
     if (!lit || !shadow) return false;
     // No sum of a proof is outside of [0, 1]; one that is would be a fault of ours.
     const Ball share = share_of(i);
-    return share.radius > widest || share.middle < -share.radius ||
-           share.middle > 1 + share.radius;
+    return share.radius > widest || share.middle < -share.radius || share.middle > 1 + share.radius;
   }
 }
 
@@ -43,8 +41,8 @@ Ball ContourRun<Space, Numbers>::share_of(std::uint32_t i) const {
   const Sum& sum = sums_[i];
   const double value = sum.middle(), error = sum.radius();
   const double share = sum.flags & kOwnWhole ? 1 + value : value;
-  return {share, error + 1.01 * measure_.relative_error[i] * (std::fabs(value) + error) +
-                     4 * Ball::kUnit};
+  return {share,
+          error + 1.01 * measure_.relative_error[i] * (std::fabs(value) + error) + 4 * Ball::kUnit};
 }
 
 template <SectorSpaceModel Space, class Numbers>

@@ -22,12 +22,15 @@ auto ContourWalk<Numbers, Sides>::value_of(std::uint32_t k, std::uint32_t q, dou
   const FacingPolygon& other = polygons_->polygons[q];
   const Vector<T> line = polygons_->line(own, k);
   if constexpr (Numbers::kCertified) {
-    const double line_error = polygons_->error_of_line(own, k);
-    error = light_->proven(line_error * polygons_->reach[q]);
-    if (error != 0 && light_->has_differences()) {
-      return light_->value(line, line_error, polygons_->vertex(other, 0), polygons_->vertex(own, k),
-                           error);
+    error = polygons_->error_of_line(own, k);
+    if (!light_->positions.empty()) {
+      double size;
+      const Vector<double> difference =
+          light_->difference(polygons_->vertex(other, 0), polygons_->vertex(own, k), size);
+      error *= size;
+      return dot_product(line, difference);
     }
+    error = light_->proven(error * polygons_->reach[q]);
   }
   return dot_product(line, polygons_->corner(other, 0));
 }
@@ -40,10 +43,14 @@ void ContourWalk<Numbers, Sides>::add_own(std::uint32_t k, const Segment<Numbers
   if (k == 0 || k + 1 == n) return;  // corner 0 is on it
   double value_error = 0;
   const T rate = T(value_of(k, p_, value_error) * measure_->scale[p_]);
-  const T share = T(T(segment.high.t - segment.low.t) * rate);
+  T share = T(T(segment.high.t - segment.low.t) * rate);
   double error = 0;
   if constexpr (Numbers::kCertified) {
     error = share_error(p_, rate, value_error, segment.low, segment.high, 1, 1, 0, 0);
+    if (!is_sharp(segment.low, segment.high, error)) {
+      sharpen(k, nullptr, segment.low, segment.high, false, share, error);
+      if (!is_sharp(segment.low, segment.high, error)) sum.flags |= kContourOpen;
+    }
   }
   sum.add(share, error);
 }
@@ -57,11 +64,12 @@ void ContourWalk<Numbers, Sides>::add_own(std::uint32_t k, const Segment<Numbers
 /// bound, each w by `depth_error`; n . c scale, t - s, three products and a quotient round by 6u.
 /// `depth_rate`: by how much w changes along the edge.
 template <class Numbers, class Sides>
-double ContourWalk<Numbers, Sides>::share_error(std::uint32_t q, double rate,
-                                                double line_value_error, const PlaceOnEdge& low,
-                                                const PlaceOnEdge& high, double depth_low,
-                                                double depth_high, double depth_error,
-                                                double depth_rate) const {
+inline double ContourWalk<Numbers, Sides>::share_error(std::uint32_t q, double rate,
+                                                       double line_value_error,
+                                                       const PlaceOnEdge& low,
+                                                       const PlaceOnEdge& high, double depth_low,
+                                                       double depth_high, double depth_error,
+                                                       double depth_rate) const {
   const double value_error = line_value_error * measure_->scale[q];
   const double least = std::min(depth_low, depth_high) - depth_error;
   const double change = (std::fabs(depth_rate) + depth_error) * std::max(low.error, high.error);
@@ -73,25 +81,6 @@ double ContourWalk<Numbers, Sides>::share_error(std::uint32_t q, double rate,
   const double inverse = 1 / least;
   return 1.01 * inverse * inverse *
          (sum + (depth_error < 0x1p-10 * least ? 2.1 : 3) * size * width * depth_error * inverse);
-}
-
-/// What the depths of a receiver's plane along edge k are off by, from the terms of those at its
-/// ends; in between they round by less than 3u of the greater one.
-template <class Numbers, class Sides>
-double ContourWalk<Numbers, Sides>::depth_error_along(std::uint32_t k,
-                                                      const Behind<Numbers>& receiver) const {
-  const FacingPolygon& own = polygons_->polygons[p_];
-  const Vector<T>& depth = light_->depths[plane(receiver.polygon)];
-  const Vector<T> a = polygons_->corner(own, k);
-  const Vector<T> b = polygons_->corner(own, k + 1 == own.count ? 0 : k + 1);
-  double at_a = 0, at_b = 0;
-  for (int i = 0; i < 3; ++i) {
-    at_a += std::fabs(depth[i] * a[i]);
-    at_b += std::fabs(depth[i] * b[i]);
-  }
-  // Nothing is known of a plane whose doubles are none.
-  if (!(receiver.depth_error < std::numeric_limits<double>::infinity())) return receiver.depth_error;
-  return (light_->depth_terms + 3 * Ball::kUnit) * std::max(at_a, at_b);
 }
 
 template <class Numbers, class Sides>
@@ -110,10 +99,17 @@ void ContourWalk<Numbers, Sides>::take_from(std::uint32_t k, const Behind<Number
     share = T(share / T(depth_low * depth_high));
     if constexpr (Numbers::kCertified) {
       error = share_error(q, rate, value_error, low, high, depth_low, depth_high,
-                          depth_error_along(k, receiver), receiver.depth_to - receiver.depth_from);
+                          kDepthBetween * receiver.depth_error,
+                          receiver.depth_to - receiver.depth_from);
     }
   } else if constexpr (Numbers::kCertified) {
     error = share_error(q, rate, value_error, low, high, 1, 1, 0, 0);
+  }
+  if constexpr (Numbers::kCertified) {
+    if (!is_sharp(low, high, error)) {
+      sharpen(k, &receiver, low, high, false, share, error);
+      if (!is_sharp(low, high, error)) sum.flags |= kContourOpen;
+    }
   }
   sum.add(share, error);
 }
@@ -135,10 +131,13 @@ void ContourWalk<Numbers, Sides>::take_perhaps(std::uint32_t k, const Behind<Num
       error = share_error(q, rate, value_error, first, last, 1, 1, 0, 0);
     } else {
       error = share_error(q, rate, value_error, first, last, depth_at(receiver, low),
-                          depth_at(receiver, high), 2 * receiver.depth_error,
+                          depth_at(receiver, high), kDepthBetween * receiver.depth_error,
                           receiver.depth_to - receiver.depth_from);
     }
-    sum.add(0, error);
+    double share = 0;
+    if (!(error <= kLeast)) sharpen(k, &receiver, low, high, true, share, error);
+    if (!(error <= kLeast)) sum.flags |= kContourOpen;
+    sum.add(share, error);
   }
 }
 

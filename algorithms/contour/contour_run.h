@@ -155,15 +155,15 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
     double error = 0;
     for (std::uint32_t k = 1; k + 1 < p.count; ++k) {
       if constexpr (Numbers::kCertified) {
-        const double line_error = polygons_.error_of_line(p, k);
-        double value_error = rays_.proven(line_error * polygons_.reach[i]);
-        if (value_error != 0 && rays_.has_differences()) {
-          whole += rays_.value(polygons_.line(p, k), line_error, polygons_.vertex(p, 0),
-                               polygons_.vertex(p, k), value_error);
-          error += value_error;
+        if (!rays_.positions.empty()) {
+          double size;
+          const Vector<double> difference =
+              rays_.difference(polygons_.vertex(p, 0), polygons_.vertex(p, k), size);
+          whole += dot_product(polygons_.line(p, k), difference);
+          error += polygons_.error_of_line(p, k) * size;
           continue;
         }
-        error += value_error;
+        error += rays_.proven(polygons_.error_of_line(p, k) * polygons_.reach[i]);
       }
       whole += dot_product(polygons_.line(p, k), corner);
     }
@@ -178,6 +178,20 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
       // Of n - 2 positive values all sums but the first, 0 and one of them, round by less than u of
       // their sum, and so does the quotient.
       measure_.relative_error[i] = 1.01 * (error * measure_.scale[i] + (p.count - 2) * Ball::kUnit);
+      if (!(measure_.relative_error[i] <= rays_.rough())) {
+        whole = error = 0;
+        for (std::uint32_t k = 1; k + 1 < p.count; ++k) {
+          double value_error;
+          whole += rays_.sharp_value(polygons_.vertex(p, k), polygons_.vertex(p, k + 1),
+                                     polygons_.vertex(p, 0), value_error);
+          error += value_error;
+        }
+        whole *= rays_.exact->unit();
+        error *= rays_.exact->unit();
+        measure_.scale[i] = 1 / whole;
+        measure_.relative_error[i] =
+            1.01 * (error * measure_.scale[i] + ExactValues::kUnit + (p.count - 1) * Ball::kUnit);
+      }
       if (!(measure_.relative_error[i] < 0x1p-20)) sums_[i].flags |= kContourOpen;
     }
   }

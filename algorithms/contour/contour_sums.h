@@ -47,8 +47,8 @@ struct ContourSum<ContourNumbers<double, Trust::kCertified>> {
   static constexpr std::uint64_t kMostError = std::uint64_t{1} << (kErrorBits - 16);
 
   std::uint64_t units = 0;  // of 2^-60, modulo 2^64
-  std::uint64_t rest = 0;   // of 2^-92, modulo 2^64
   std::uint64_t error = 0;  // of 2^-76
+  std::uint32_t rest = 0;   // of 2^-92, besides
   std::uint8_t flags = 0;
 
   /// Adds a share within [-2, 2] that is off by at most `bound`.
@@ -61,23 +61,29 @@ struct ContourSum<ContourNumbers<double, Trust::kCertified>> {
     const double scaled = share * 0x1p60;
     const auto whole = static_cast<std::int64_t>(scaled);
     const double remainder = scaled - static_cast<double>(whole);
-    units += static_cast<std::uint64_t>(whole);
-    rest += static_cast<std::uint64_t>(static_cast<std::int64_t>(remainder * 0x1p32));
+    add_units(whole, static_cast<std::int64_t>(remainder * 0x1p32));
     error = std::min(kMostError, error + 2 + static_cast<std::uint64_t>(bound * 0x1p76));
   }
   void operator+=(const ContourSum& other) {
-    units += other.units;
-    rest += other.rest;
+    add_units(static_cast<std::int64_t>(other.units), other.rest);
     error = std::min(kMostError, error + other.error);
     flags |= other.flags;
   }
   /// The sum, off by at most u of it; and what it and that are off by.
   double middle() const {
-    const Int128 all = static_cast<Int128>(static_cast<std::int64_t>(units)) * (Int128{1} << 32) +
-                       static_cast<std::int64_t>(rest);
+    const Int128 all =
+        static_cast<Int128>(static_cast<std::int64_t>(units)) * (Int128{1} << 32) + rest;
     return static_cast<double>(all) * 0x1p-92;
   }
   double radius() const { return static_cast<double>(error) * 0x1p-76; }
+
+ private:
+  /// Units of 2^-60, and less than one of them in units of 2^-92.
+  void add_units(std::int64_t whole, std::int64_t part) {
+    rest += static_cast<std::uint32_t>(part);
+    const bool carry = rest < static_cast<std::uint32_t>(part);
+    units += static_cast<std::uint64_t>(whole + (part >> 32)) + (carry ? 1 : 0);
+  }
 };
 
 }  // namespace gnomon

@@ -57,6 +57,8 @@ int sign_of_value(const T& x) {
 /// the crossing with a support plane.
 class PlaceName {
  public:
+  enum class Kind : std::uint8_t { kNone, kFrom, kTo, kLine = 4, kVertex, kSupport };
+
   constexpr PlaceName() = default;
   static constexpr PlaceName from() { return PlaceName(1); }
   static constexpr PlaceName to() { return PlaceName(2); }
@@ -64,6 +66,9 @@ class PlaceName {
   static constexpr PlaceName vertex(std::uint32_t vertex) { return PlaceName(5 | code(vertex)); }
   static constexpr PlaceName support(std::uint32_t plane) { return PlaceName(6 | code(plane)); }
   bool is_known() const { return code_ != 0; }
+  Kind kind() const { return static_cast<Kind>(code_ & 7); }
+  /// Of the edge, the vertex or the plane.
+  std::uint32_t index() const { return static_cast<std::uint32_t>(code_ >> 3); }
   friend constexpr bool operator==(PlaceName, PlaceName) = default;
 
  private:

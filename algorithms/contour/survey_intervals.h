@@ -108,25 +108,23 @@ Place<Numbers> EdgeSurvey<Numbers, Sides>::meeting(std::uint32_t p, std::uint32_
                              ? PlaceName::vertex(polygons_->vertex(other, corner))
                              : PlaceName::line(polygons_->edge(other, edge).index());
   if constexpr (Numbers::kCertified) {
-    const double proven = light_->proven(error);
-    if (proven == 0) return zero_between<Numbers>(at_from, at_to, proven, name);
-    if (light_->has_differences()) {
+    if (!light_->positions.empty()) {
       // The same end, whichever polygon asks.
       const PlaneRef ref = polygons_->edge(other, edge);
       const VertexId base =
           polygons_->vertex(other, ref.flipped() ? (edge + 1 == other.count ? 0 : edge + 1) : edge);
       const Vector<double> line = polygons_->line(other, edge);
-      const double line_error = polygons_->error_of_line(other, edge);
-      const std::uint32_t next = k + 1 == own.count ? 0 : k + 1;
-      double from_error, to_error;
-      const double from =
-          light_->value(line, line_error, polygons_->vertex(own, k), base, from_error);
-      const double to =
-          light_->value(line, line_error, polygons_->vertex(own, next), base, to_error);
-      return zero_between<Numbers>(from, to, std::max(from_error, to_error), name);
+      double from_size, to_size;
+      const Vector<double> from = light_->difference(polygons_->vertex(own, k), base, from_size);
+      const Vector<double> to =
+          light_->difference(polygons_->vertex(own, k + 1 == own.count ? 0 : k + 1), base, to_size);
+      return zero_between<Numbers>(
+          dot_product(line, from), dot_product(line, to),
+          polygons_->error_of_line(other, edge) * std::max(from_size, to_size), name);
     }
   }
-  return zero_between<Numbers>(at_from, at_to, error, name);
+  return zero_between<Numbers>(at_from, at_to, Numbers::kCertified ? light_->proven(error) : 0,
+                               name);
 }
 
 }  // namespace gnomon

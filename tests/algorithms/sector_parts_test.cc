@@ -13,6 +13,7 @@
 
 #include "algorithms/partition/fraction_sums.h"
 #include "algorithms/partition/kd_tree.h"
+#include "algorithms/partition/pair_area.h"
 #include "algorithms/partition/piece_fractions.h"
 #include "algorithms/sectors/sector_split.h"
 #include "scene/base/random.h"
@@ -77,6 +78,51 @@ TEST(FractionSums, DoNotDependOnTheOrderOrTheThreads) {
     EXPECT_EQ(first.enclosure(0).lower, other->enclosure(0).lower);
     EXPECT_EQ(first.enclosure(0).upper, other->enclosure(0).upper);
   }
+}
+
+// What is left to 1 is known to the last digits of a double, however small it is.
+TEST(FractionSums, KnowTheRestAsWell) {
+  for (const int bits : {3, 20, 52, 60, 75}) {
+    FractionSums sums(1);
+    mpq_class sum = 0;
+    for (int i = 0; i < 1000; ++i) {
+      // All thousand add up to 1 - 2^-bits.
+      const mpq_class share = (1 - mpq_class(std::ldexp(1.0, -bits))) / 1000;
+      sums.add_enclosure(0, PairBall::of(share));
+      sum += share;
+    }
+    const Interval rest = sums.rest(0), all = sums.enclosure(0);
+    const mpq_class truth = 1 - sum;
+    EXPECT_LE(mpq_class(rest.lower), truth);
+    EXPECT_GE(mpq_class(rest.upper), truth);
+    EXPECT_LT(rest.upper - rest.lower, 1e-9 * truth.get_d()) << bits;
+    if (bits <= 52) EXPECT_LT(rest.upper - rest.lower, 1e-15 * truth.get_d()) << bits;
+    EXPECT_LE(mpq_class(all.lower), sum);
+    EXPECT_GE(mpq_class(all.upper), sum);
+  }
+}
+
+TEST(PairArea, QuotientsEncloseTheExactOne) {
+  Random random(7);
+  for (int i = 0; i < 1000; ++i) {
+    const auto pair = [&] {
+      const double high = random_double(random, 0.1, 1);
+      return PairBall(quick_two_sum(high, random_double(random, -1, 1) * 0x1p-60), 0x1p-90);
+    };
+    const auto exact = [](const PairBall& ball) {
+      return mpq_class(mpq_class(ball.middle.high) + mpq_class(ball.middle.low));
+    };
+    const PairBall a = pair(), b = pair(), quotient = a / b;
+    for (const int s : {-1, 1}) {
+      for (const int t : {-1, 1}) {
+        const mpq_class over = exact(a) + s * mpq_class(a.radius);
+        const mpq_class truth = over / (exact(b) + t * mpq_class(b.radius));
+        EXPECT_LE(abs(mpq_class(truth - exact(quotient))), mpq_class(quotient.radius));
+      }
+    }
+    EXPECT_LT(quotient.radius, 0x1p-80);
+  }
+  EXPECT_FALSE((PairBall({1, 0}, 0) / PairBall({0, 0}, 0)).radius < 1);
 }
 
 TEST(FractionSums, StayWithinZeroAndOne) {
