@@ -173,6 +173,7 @@ auto ContourWalk<Numbers, Sides>::group_of_events(std::size_t begin) const -> Ev
     if (reach < greatest_of(place)) reach = greatest_of(place);
     if constexpr (Numbers::kCertified) {
       group.is_open = group.is_open || !is_same_place(first, place);
+      if (place.name.is_blurred()) group.low.name = group.high.name = first.name.blurred();
     }
   }
   if constexpr (Numbers::kCertified) {

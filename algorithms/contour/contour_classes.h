@@ -27,9 +27,13 @@ bool ContourRun<Space, Numbers>::is_open(std::uint32_t i) const {
     if (!lit && (sum.flags & kPerhapsLit)) return true;
     if (!shadow && (sum.flags & kPerhapsShadow)) return true;
     if (!lit || !shadow) return false;
-    // No sum of a proof is outside of [0, 1]; one that is would be a fault of ours.
     const Ball share = share_of(i);
-    return share.radius > widest || share.middle < -share.radius || share.middle > 1 + share.radius;
+    // An enclosure that reaches beyond 0 or 1 is cut off there, and its middle moves by as much. No
+    // sum of a proof is outside of them; one that is would be a fault of ours.
+    constexpr double kCutOff = 64 * Ball::kUnit;
+    const bool is_cut = share.middle < share.radius || share.middle > 1 - share.radius;
+    return share.radius > (is_cut ? kCutOff : widest) || share.middle < -share.radius ||
+           share.middle > 1 + share.radius;
   }
 }
 

@@ -57,6 +57,11 @@ void ContourWalk<Numbers, Sides>::sharpen(std::uint32_t k, const Behind<Numbers>
   const FacingPolygon& own = polygons_->polygons[p_];
   const ExactValues& exact = *light_->exact;
   PlaceOnEdge first = sharpened(k, low), last = sharpened(k, high);
+  // What may have a length has none if it ends before it begins, but for what that is off by.
+  if (last.t < first.t) {
+    first.error += first.t - last.t;
+    last.t = first.t;
+  }
   double value_error;
   const double value = light_->sharp_value(
       polygons_->vertex(own, k), polygons_->vertex(own, k + 1 == own.count ? 0 : k + 1),

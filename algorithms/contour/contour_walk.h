@@ -81,7 +81,9 @@ class ContourWalk {
   /// it bounds).
   static constexpr double kDepthBetween = 1.3;
   bool is_sharp(const PlaceOnEdge& low, const PlaceOnEdge& high, double error) const {
-    return error <= (low.name.is_known() && high.name.is_known() ? light_->rough() : 2 * kLeast);
+    const bool named =
+        low.name.kind() != PlaceName::Kind::kNone && high.name.kind() != PlaceName::Kind::kNone;
+    return error <= (named ? light_->rough() : 2 * kLeast);
   }
   static constexpr std::uint32_t kSegment = 0xffffffffu;
   /// A polygon behind a segment begins or ends, or the segment itself.

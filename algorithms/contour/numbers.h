@@ -54,7 +54,8 @@ int sign_of_value(const T& x) {
 
 /// What a place on an edge is, so that two places that are one are known to be, whatever their
 /// doubles say: an end of the edge, the crossing with the line of another edge, a vertex on it, or
-/// the crossing with a support plane.
+/// the crossing with a support plane. A name is blurred where the place may be that of another
+/// within the bounds: then it says what to compare with, and not where the place is.
 class PlaceName {
  public:
   enum class Kind : std::uint8_t { kNone, kFrom, kTo, kLine = 4, kVertex, kSupport };
@@ -66,12 +67,18 @@ class PlaceName {
   static constexpr PlaceName vertex(std::uint32_t vertex) { return PlaceName(5 | code(vertex)); }
   static constexpr PlaceName support(std::uint32_t plane) { return PlaceName(6 | code(plane)); }
   bool is_known() const { return code_ != 0; }
-  Kind kind() const { return static_cast<Kind>(code_ & 7); }
+  bool is_blurred() const { return (code_ & kBlurred) != 0; }
+  PlaceName blurred() const { return is_known() ? PlaceName(code_ | kBlurred) : *this; }
+  /// kNone if it does not say where the place is.
+  Kind kind() const { return is_blurred() ? Kind::kNone : static_cast<Kind>(code_ & 7); }
   /// Of the edge, the vertex or the plane.
   std::uint32_t index() const { return static_cast<std::uint32_t>(code_ >> 3); }
-  friend constexpr bool operator==(PlaceName, PlaceName) = default;
+  friend constexpr bool operator==(PlaceName a, PlaceName b) {
+    return ((a.code_ ^ b.code_) & ~kBlurred) == 0;
+  }
 
  private:
+  static constexpr std::uint64_t kBlurred = std::uint64_t{1} << 63;
   constexpr explicit PlaceName(std::uint64_t code) : code_(code) {}
   static constexpr std::uint64_t code(std::uint32_t index) { return std::uint64_t{index} << 3; }
   std::uint64_t code_ = 0;  // 0: not known to be anything
@@ -149,7 +156,10 @@ template <class Numbers>
 Place<Numbers> chosen_of(const Place<Numbers>& chosen, const Place<Numbers>& other) {
   Place<Numbers> result = chosen;
   if constexpr (Numbers::kCertified) {
-    if (is_same_place(chosen, other)) return result;
+    if (is_same_place(chosen, other)) {
+      if (other.name.is_blurred()) result.name = result.name.blurred();
+      return result;
+    }
     const double distance = other.t < chosen.t ? chosen.t - other.t : other.t - chosen.t;
     if (distance > chosen.error + other.error) return result;
     result.error = std::max(chosen.error, other.error - distance);

@@ -123,10 +123,10 @@ PlanarPair LightPositions::pair_quotient(const Vector3<Ray>& ray, PlaneId suppor
   if (!is_moderate(most) || !is_moderate(size) || !(std::fabs(factor.high) > 0x1p-800))
     return point;
   if (size != 0 && !(size > 0x1p-700)) return point;
+  const double scale = std::ldexp(1.0, static_cast<int>(power));
   const auto scaled = [&](const DoubleDouble& value) {
     const DoubleDouble product = value * factor;
-    return DoubleDouble{std::ldexp(product.high, static_cast<int>(power)),
-                        std::ldexp(product.low, static_cast<int>(power))};
+    return DoubleDouble{product.high * scale, product.low * scale};
   };
   point.x = scaled(r[0]);
   point.y = scaled(r[1]);
