@@ -183,7 +183,7 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
         for (std::uint32_t k = 1; k + 1 < p.count; ++k) {
           double value_error;
           whole += rays_.sharp_value(polygons_.vertex(p, k), polygons_.vertex(p, k + 1),
-                                     polygons_.vertex(p, 0), value_error);
+                                     polygons_.vertex(p, 0), ContourBounds::kSharp, value_error);
           error += value_error;
         }
         whole *= rays_.exact->unit();

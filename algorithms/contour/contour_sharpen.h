@@ -12,15 +12,15 @@
 namespace gnomon {
 
 template <class Numbers, class Sides>
-auto ContourWalk<Numbers, Sides>::sharpened(std::uint32_t k, const PlaceOnEdge& place) const
-    -> PlaceOnEdge {
+auto ContourWalk<Numbers, Sides>::sharpened(std::uint32_t k, const PlaceOnEdge& place,
+                                            double most) const -> PlaceOnEdge {
   const FacingPolygon& own = polygons_->polygons[p_];
   const std::uint32_t next = k + 1 == own.count ? 0 : k + 1;
   const VertexId a = polygons_->vertex(own, k), b = polygons_->vertex(own, next);
   double at_a, at_b, a_error, b_error;
   const auto by_line = [&](VertexId from, VertexId to) {
-    at_a = light_->sharp_value(from, to, a, a_error);
-    at_b = light_->sharp_value(from, to, b, b_error);
+    at_a = light_->sharp_value(from, to, a, most, a_error);
+    at_b = light_->sharp_value(from, to, b, most, b_error);
   };
   switch (place.name.kind()) {
     case PlaceName::Kind::kLine: {
@@ -56,7 +56,8 @@ void ContourWalk<Numbers, Sides>::sharpen(std::uint32_t k, const Behind<Numbers>
   const std::uint32_t q = receiver == nullptr ? p_ : receiver->polygon;
   const FacingPolygon& own = polygons_->polygons[p_];
   const ExactValues& exact = *light_->exact;
-  PlaceOnEdge first = sharpened(k, low), last = sharpened(k, high);
+  const double most = perhaps ? ContourBounds::kSharpest : ContourBounds::kSharp;
+  PlaceOnEdge first = sharpened(k, low, most), last = sharpened(k, high, most);
   // What may have a length has none if it ends before it begins, but for what that is off by.
   if (last.t < first.t) {
     first.error += first.t - last.t;
@@ -65,7 +66,7 @@ void ContourWalk<Numbers, Sides>::sharpen(std::uint32_t k, const Behind<Numbers>
   double value_error;
   const double value = light_->sharp_value(
       polygons_->vertex(own, k), polygons_->vertex(own, k + 1 == own.count ? 0 : k + 1),
-      polygons_->vertex(polygons_->polygons[q], 0), value_error);
+      polygons_->vertex(polygons_->polygons[q], 0), most, value_error);
   const double unit = exact.unit();
   value_error = unit * (value_error + 6.1 * Ball::kUnit * std::fabs(value));
   const double rate = value * unit * measure_->scale[q];

@@ -165,7 +165,7 @@ class ContourWalk {
                  const PlaceOnEdge& high);
   void take_perhaps(std::uint32_t k, const Behind<Numbers>& receiver, const PlaceOnEdge& low,
                     const PlaceOnEdge& high);
-  PlaceOnEdge sharpened(std::uint32_t k, const PlaceOnEdge& place) const;
+  PlaceOnEdge sharpened(std::uint32_t k, const PlaceOnEdge& place, double most) const;
   void sharpen(std::uint32_t k, const Behind<Numbers>* receiver, const PlaceOnEdge& low,
                const PlaceOnEdge& high, bool perhaps, double& share, double& error) const;
   static T depth_at(const Behind<Numbers>& entry, const PlaceOnEdge& place) {

@@ -58,8 +58,9 @@ struct ContourBounds {
   /// apex . c in units of the sum of |apex_k c_k|: a product and sums of two and three of them, 3u;
   /// a sun's direction is off by 2u. Of a lamp nothing, if 6 A D S is below 2^53.
   static constexpr double kApex = 3.1 * kUnit, kSunApex = 5.1 * kUnit;
-  /// What is not off by more, relative, need not be found from integers.
-  static constexpr double kSharp = 8 * kUnit;
+  /// What a value from sharp_value() may be off by, relative, for integrals, and where all of it
+  /// may be a sliver.
+  static constexpr double kSharp = 32 * kUnit, kSharpest = 8 * kUnit;
 
   /// A sun's rays from doubles, where positions are exactly doubles: r = (x d_z - z d_x, y d_z - z
   /// d_y, d_z) with |x_k| <= 1 exact and |d_k| <= 1 converted once, so that |r_k| <= kSunReach. A
@@ -103,8 +104,8 @@ struct LightRays {
   }
 
   /// Certified: the line from a to b at v, and what that is off by: det(r_a, r_b, r_v), for a sun
-  /// less the factor exact->unit(). Some eight units in its last place, whatever cancels in it.
-  double sharp_value(VertexId a, VertexId b, VertexId v, double& error) const;
+  /// less the factor exact->unit(). Off by at most `most` of itself, whatever cancels in it.
+  double sharp_value(VertexId a, VertexId b, VertexId v, double most, double& error) const;
   /// A bound of dot_product(line, ray) from lines and rays, or 0 if nothing can have been rounded.
   double proven(double error) const {
     return error < ContourBounds::kLine * exact_size ? 0 : error;
@@ -113,7 +114,7 @@ struct LightRays {
   /// Certified: what an integral may be off by before it is found from sharper values. Bounds count
   /// the worst of all roundings: where lines of lamps are off by so much, integrals are off by less
   /// than a tenth of it; those of suns, whose bounds are less sharp, by less than a hundredth.
-  double rough() const { return (directional ? 2048 : 256) * Ball::kUnit; }
+  double rough() const { return (directional ? 1024 : 256) * Ball::kUnit; }
 
   std::optional<ExactValues> exact;  // certified
   bool exact_rays = false;  // certified, of a lamp: rays are exactly their integers, scaled
@@ -131,7 +132,8 @@ struct LightRays {
 
 /// With c = (b - a) x (v - a) of rays, or of positions, it is r_a . c of a lamp, d . c of a sun.
 template <class Numbers>
-double LightRays<Numbers>::sharp_value(VertexId a, VertexId b, VertexId v, double& error) const {
+double LightRays<Numbers>::sharp_value(VertexId a, VertexId b, VertexId v, double most,
+                                       double& error) const {
   if (exact_rays || !positions.empty()) {
     const std::vector<Vector<double>>& points = exact_rays ? rays : positions;
     const Vector<double>&at = points[a], &to = points[b], &p = points[v];
@@ -147,7 +149,7 @@ double LightRays<Numbers>::sharp_value(VertexId a, VertexId b, VertexId v, doubl
       error += ContourBounds::kCross * size *
                (std::fabs(apex[0]) + std::fabs(apex[1]) + std::fabs(apex[2]));
     }
-    if (error <= ContourBounds::kSharp * std::fabs(value)) return value;
+    if (error <= most * std::fabs(value)) return value;
   }
   const double value = exact->line(a, b, v);
   error = ExactValues::kLine * std::fabs(value);

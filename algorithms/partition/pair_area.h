@@ -36,7 +36,7 @@ struct PairBall {
   static PairBall of(const mpq_class& value) {
     const double high = value.get_d();
     const mpq_class rest = value - mpq_class(high);
-    return {quick_two_sum(high, rest.get_d()), 0x1p-102 * high + Ball::kTiny};
+    return {quick_two_sum(high, rest.get_d()), 0x1.01p-104 * high + Ball::kTiny};
   }
 };
 

@@ -95,8 +95,7 @@ TEST(FractionSums, KnowTheRestAsWell) {
     const mpq_class truth = 1 - sum;
     EXPECT_LE(mpq_class(rest.lower), truth);
     EXPECT_GE(mpq_class(rest.upper), truth);
-    EXPECT_LT(rest.upper - rest.lower, 1e-9 * truth.get_d()) << bits;
-    if (bits <= 52) EXPECT_LT(rest.upper - rest.lower, 1e-15 * truth.get_d()) << bits;
+    EXPECT_LT(rest.upper - rest.lower, 1e-15 * truth.get_d() + 2e-31) << bits;
     EXPECT_LE(mpq_class(all.lower), sum);
     EXPECT_GE(mpq_class(all.upper), sum);
   }
@@ -123,6 +122,64 @@ TEST(PairArea, QuotientsEncloseTheExactOne) {
     EXPECT_LT(quotient.radius, 0x1p-80);
   }
   EXPECT_FALSE((PairBall({1, 0}, 0) / PairBall({0, 0}, 0)).radius < 1);
+}
+
+/// Corners of a loop in pairs of doubles that are off by up to `error`.
+struct PairLoop {
+  struct Point {
+    DoubleDouble x, y;
+    double error = 0;
+  };
+  std::vector<Point> points;
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(points.size()); }
+  std::uint32_t corner(std::uint32_t i) const { return i; }
+};
+
+// True corners anywhere within the bounds of the given ones, whatever is far from the origin.
+TEST(PairArea, LoopsEncloseTheExactArea) {
+  Random random(8);
+  const auto exact = [](const DoubleDouble& x) -> mpq_class {
+    return mpq_class(x.high) + mpq_class(x.low);
+  };
+  for (int round = 0; round < 3000; ++round) {
+    const double far = std::ldexp(1.0, static_cast<int>(random.below(30)));
+    const double size = std::ldexp(1.0, -static_cast<int>(random.below(30)));
+    const double error = round % 2 == 0 ? 0 : std::ldexp(size, -80);
+    PairLoop loop;
+    std::vector<std::array<mpq_class, 2>> truth;
+    for (std::uint64_t n = 3 + random.below(6); n > 0; --n) {
+      const auto coordinate = [&] {
+        return two_sum(far + random_double(random, -size, size),
+                       random_double(random, -size, size) * 0x1p-54);
+      };
+      loop.points.push_back({coordinate(), coordinate(), error});
+      const auto off = [&] { return mpq_class(random_double(random, -1, 1) * error); };
+      truth.push_back({exact(loop.points.back().x) + off(), exact(loop.points.back().y) + off()});
+    }
+    mpq_class sum = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const auto& next = truth[(i + 1) % truth.size()];
+      sum += truth[i][0] * next[1] - truth[i][1] * next[0];
+    }
+    const PairBall area = twice_pair_area(loop, [&](std::uint32_t i) { return loop.points[i]; });
+    ASSERT_LE(abs(mpq_class(sum - exact(area.middle))), mpq_class(area.radius)) << round;
+    if (error == 0) {
+      ASSERT_LT(area.radius, 0x1p-88 * far * size + 0x1p-88 * size * size) << round;
+    }
+  }
+}
+
+TEST(PairBall, HoldsRationalsOfAnySize) {
+  mpz_class large = 1;
+  for (int i = 0; i < 40; ++i) large *= 1000003;
+  for (int power = 1; power <= 3; ++power, large *= large) {
+    const mpq_class value(large - 7, 3 * large);
+    const PairBall ball = PairBall::of(value);
+    const mpq_class middle = mpq_class(ball.middle.high) + mpq_class(ball.middle.low);
+    EXPECT_LE(abs(mpq_class(value - middle)), mpq_class(ball.radius));
+    EXPECT_LT(ball.radius, 0x1p-99);
+  }
 }
 
 TEST(FractionSums, StayWithinZeroAndOne) {
