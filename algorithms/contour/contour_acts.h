@@ -21,7 +21,9 @@ void ContourWalk<Numbers, Sides>::walk_edge(std::uint32_t k) {
   } else {
     uncovered<Numbers>({&whole, 1}, lists.hidden, seen_);
   }
-  for (const Segment<Numbers>& segment : seen_) add_own(k, segment);
+  if (!(sum.flags & kOwnWhole)) {
+    for (const Segment<Numbers>& segment : seen_) add_own(k, segment);
+  }
   if (!casts(p_) || seen_.empty()) return;
   if (lists.behind.empty() && lists.level.empty()) return;
   if (!lists.level.empty()) {
@@ -171,6 +173,7 @@ auto ContourWalk<Numbers, Sides>::group_of_events(std::size_t begin) const -> Ev
     if (reach < greatest_of(place)) reach = greatest_of(place);
     if constexpr (Numbers::kCertified) {
       group.is_open = group.is_open || !is_same_place(first, place);
+      if (place.name.is_blurred()) group.low.name = group.high.name = first.name.blurred();
     }
   }
   if constexpr (Numbers::kCertified) {

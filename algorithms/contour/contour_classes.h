@@ -18,21 +18,35 @@ bool ContourRun<Space, Numbers>::is_open(std::uint32_t i) const {
   if constexpr (!Numbers::kCertified) {
     return false;
   } else {
-    // Bounds add up: a polygon among thousands may be known a little less well.
-    constexpr auto kWidest = static_cast<std::uint64_t>(PartMeasure<Space>::kWidest * 0x1p60);
-    constexpr std::uint64_t kMany = 1024;
+    // Bounds add up: a polygon has some five integrals, and more among more neighbours.
+    const double widest =
+        8 * rays_.rough() * (1 + static_cast<double>(pairs_.neighbours(i).size()) / 16);
     const Sum& sum = sums_[i];
-    const std::uint64_t widest = kWidest * (1 + pairs_.neighbours(i).size() / kMany);
     if (sum.flags & kContourOpen) return true;
     const bool lit = sum.flags & kHoldsLit, shadow = sum.flags & kHoldsShadow;
     if (!lit && (sum.flags & kPerhapsLit)) return true;
     if (!shadow && (sum.flags & kPerhapsShadow)) return true;
     if (!lit || !shadow) return false;
-    // No sum of a proof is outside of [0, 1]; one that is would be a fault of ours.
-    const auto value = static_cast<std::int64_t>(sum.units),
-               error = static_cast<std::int64_t>(sum.error);
-    return sum.error > widest || value < -error || value > (std::int64_t{1} << Sum::kBits) + error;
+    const Ball share = share_of(i);
+    // An enclosure that reaches beyond 0 or 1 is cut off there, and its middle moves by as much. No
+    // sum of a proof is outside of them; one that is would be a fault of ours.
+    constexpr double kCutOff = 64 * Ball::kUnit;
+    const bool is_cut = share.middle < share.radius || share.middle > 1 - share.radius;
+    return share.radius > (is_cut ? kCutOff : widest) || share.middle < -share.radius ||
+           share.middle > 1 + share.radius;
   }
+}
+
+/// The share of a polygon whose sum is certified. What is taken from it, and what its own border
+/// adds unless all of that is seen, is in units of its whole border, which are off by the bound of
+/// the scale. Roundings of numbers of size 1 are counted, as are those of the ends.
+template <SectorSpaceModel Space, class Numbers>
+Ball ContourRun<Space, Numbers>::share_of(std::uint32_t i) const {
+  const Sum& sum = sums_[i];
+  const double value = sum.middle(), error = sum.radius();
+  const double share = sum.flags & kOwnWhole ? 1 + value : value;
+  return {share,
+          error + 1.01 * measure_.relative_error[i] * (std::fabs(value) + error) + 4 * Ball::kUnit};
 }
 
 template <SectorSpaceModel Space, class Numbers>
@@ -68,10 +82,9 @@ void ContourRun<Space, Numbers>::set_class(std::uint32_t i) {
     part.shadow = {0, 0};
   } else {
     if constexpr (Numbers::kCertified) {
-      const double middle = static_cast<double>(static_cast<std::int64_t>(sum.units)) * 0x1p-60;
-      // Roundings of a number of size 1, besides.
-      const double radius = static_cast<double>(sum.error) * 0x1p-60 + 4 * Ball::kUnit;
-      part.lit = {std::max(0.0, middle - radius), std::min(1.0, middle + radius)};
+      const Ball share = share_of(i);
+      part.lit = {std::max(0.0, share.middle - share.radius),
+                  std::min(1.0, share.middle + share.radius)};
     } else if constexpr (Numbers::kExact) {
       const double value = sum.value.get_d();  // truncated: within one unit in the last place
       part.lit = {std::max(0.0, value - 2 * Ball::kUnit), std::min(1.0, value + 2 * Ball::kUnit)};

@@ -92,6 +92,7 @@ void ContourWalk<Numbers, Sides>::crease(std::uint32_t q) {
       const double value_error =
           (3.1 * crease.line_error + 12 * Ball::kUnit * largest(crease.line)) * reach;
       error = share_error(p_, rate, value_error, segment.low, segment.high, 1, 1, 0, 0);
+      if (!(error <= 2 * kLeast)) sum.flags |= kContourOpen;
     }
     sum.add(T(T(segment.high.t - segment.low.t) * rate), error);
   }

@@ -30,7 +30,7 @@ auto ContourWalk<Numbers, Sides>::value_of(std::uint32_t k, std::uint32_t q, dou
       error *= size;
       return dot_product(line, difference);
     }
-    error *= polygons_->reach[q];
+    error = light_->proven(error * polygons_->reach[q]);
   }
   return dot_product(line, polygons_->corner(other, 0));
 }
@@ -43,37 +43,44 @@ void ContourWalk<Numbers, Sides>::add_own(std::uint32_t k, const Segment<Numbers
   if (k == 0 || k + 1 == n) return;  // corner 0 is on it
   double value_error = 0;
   const T rate = T(value_of(k, p_, value_error) * measure_->scale[p_]);
-  const T share = T(T(segment.high.t - segment.low.t) * rate);
+  T share = T(T(segment.high.t - segment.low.t) * rate);
   double error = 0;
   if constexpr (Numbers::kCertified) {
     error = share_error(p_, rate, value_error, segment.low, segment.high, 1, 1, 0, 0);
+    if (!is_sharp(segment.low, segment.high, error)) {
+      sharpen(k, nullptr, segment.low, segment.high, false, share, error);
+      if (!is_sharp(segment.low, segment.high, error)) sum.flags |= kContourOpen;
+    }
   }
   sum.add(share, error);
 }
 
-/// Bound of the error of (t - s) (n . c) scale / (w(s) w(t)) in doubles. With V = |n . c| scale: a
-/// place off by e moves the integral by V e / w^2 (the derivative by t is V / w(t)^2), which is
-/// doubled where w is itself known within a quarter, by its own bound and wherever the place may
-/// be; n . c is off by its bound; the scale, and each w, by a relative error; the operations round
-/// by less than 8u. `depth_rate`: by how much w changes along the edge.
+/// Bound of the error of (t - s) (n . c) scale / (w(s) w(t)) in doubles; the scale is a number like
+/// any other here, and what it is off by is seen to at the end (contour_classes.h).
+///
+/// With V = |n . c| scale: the derivative by t is V / w(t)^2, that by s alike, so that a place off
+/// by e moves the integral by V e / w^2, w the least wherever the place may be. Where w changes by
+/// less than 2^-10 of itself on the way, that is within 1 %; else doubled. n . c is off by its
+/// bound, each w by `depth_error`; n . c scale, t - s, three products and a quotient round by 6u.
+/// `depth_rate`: by how much w changes along the edge.
 template <class Numbers, class Sides>
-double ContourWalk<Numbers, Sides>::share_error(std::uint32_t q, double rate,
-                                                double line_value_error, const PlaceOnEdge& low,
-                                                const PlaceOnEdge& high, double depth_low,
-                                                double depth_high, double depth_error,
-                                                double depth_rate) const {
+inline double ContourWalk<Numbers, Sides>::share_error(std::uint32_t q, double rate,
+                                                       double line_value_error,
+                                                       const PlaceOnEdge& low,
+                                                       const PlaceOnEdge& high, double depth_low,
+                                                       double depth_high, double depth_error,
+                                                       double depth_rate) const {
   const double value_error = line_value_error * measure_->scale[q];
   const double least = std::min(depth_low, depth_high) - depth_error;
   const double change = (std::fabs(depth_rate) + depth_error) * std::max(low.error, high.error);
   if (!(depth_error + change < 0.25 * least)) return std::numeric_limits<double>::infinity();
-  const double width = std::fabs(high.t - low.t), size = std::fabs(rate);
-  const double relative = measure_->relative_error[q] + 16 * Ball::kUnit;
-  const double sum = (size + value_error) * (2 * (low.error + high.error) + width * relative) +
-                     width * value_error;
+  const double width = std::fabs(high.t - low.t), size = std::fabs(rate) + value_error;
+  const double places = (change < 0x1p-10 * least ? 1.01 : 2) * (low.error + high.error);
+  const double sum = size * (places + 6 * Ball::kUnit * width) + width * value_error;
   if (depth_error == 0) return 1.01 * sum;
   const double inverse = 1 / least;
   return 1.01 * inverse * inverse *
-         (sum + 3 * (size + value_error) * width * depth_error * inverse);
+         (sum + (depth_error < 0x1p-10 * least ? 2.1 : 3) * size * width * depth_error * inverse);
 }
 
 template <class Numbers, class Sides>
@@ -92,10 +99,17 @@ void ContourWalk<Numbers, Sides>::take_from(std::uint32_t k, const Behind<Number
     share = T(share / T(depth_low * depth_high));
     if constexpr (Numbers::kCertified) {
       error = share_error(q, rate, value_error, low, high, depth_low, depth_high,
-                          2 * receiver.depth_error, receiver.depth_to - receiver.depth_from);
+                          kDepthBetween * receiver.depth_error,
+                          receiver.depth_to - receiver.depth_from);
     }
   } else if constexpr (Numbers::kCertified) {
     error = share_error(q, rate, value_error, low, high, 1, 1, 0, 0);
+  }
+  if constexpr (Numbers::kCertified) {
+    if (!is_sharp(low, high, error)) {
+      sharpen(k, &receiver, low, high, false, share, error);
+      if (!is_sharp(low, high, error)) sum.flags |= kContourOpen;
+    }
   }
   sum.add(share, error);
 }
@@ -117,10 +131,13 @@ void ContourWalk<Numbers, Sides>::take_perhaps(std::uint32_t k, const Behind<Num
       error = share_error(q, rate, value_error, first, last, 1, 1, 0, 0);
     } else {
       error = share_error(q, rate, value_error, first, last, depth_at(receiver, low),
-                          depth_at(receiver, high), 2 * receiver.depth_error,
+                          depth_at(receiver, high), kDepthBetween * receiver.depth_error,
                           receiver.depth_to - receiver.depth_from);
     }
-    sum.add(0, error);
+    double share = 0;
+    if (!(error <= kLeast)) sharpen(k, &receiver, low, high, true, share, error);
+    if (!(error <= kLeast)) sum.flags |= kContourOpen;
+    sum.add(share, error);
   }
 }
 

@@ -24,6 +24,12 @@ void ContourWalk<Numbers, Sides>::walk(std::uint32_t p, std::span<const std::uin
     if (i + kAhead < neighbours.size()) polygons_->prefetch_corners(neighbours[i + kAhead]);
     if (dark_[neighbours[i]] == 0) meet(neighbours[i]);
   }
+  if constexpr (Numbers::kCertified) {
+    if (std::all_of(lists_.begin(), lists_.begin() + n,
+                    [](const auto& lists) { return lists.hidden.empty(); })) {
+      sums_[p].flags |= kHoldsLit | kOwnWhole;
+    }
+  }
   for (std::uint32_t k = 0; k < n; ++k) walk_edge(k);
 }
 

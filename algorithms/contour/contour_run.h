@@ -107,6 +107,7 @@ class ContourRun {
   void set_class(std::uint32_t i);
   RunOutcome find_open_ones(Space space, const std::function<void(double)>& progress);
   bool is_open(std::uint32_t i) const;
+  Ball share_of(std::uint32_t i) const;
 
   const PreparedScene& scene_;
   const ShadowOptions& options_;
@@ -147,7 +148,7 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
           error += polygons_.error_of_line(p, k) * size;
           continue;
         }
-        error += polygons_.error_of_line(p, k) * polygons_.reach[i];
+        error += rays_.proven(polygons_.error_of_line(p, k) * polygons_.reach[i]);
       }
       whole += dot_product(polygons_.line(p, k), corner);
     }
@@ -159,8 +160,23 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
     }
     measure_.scale[i] = T(1 / whole);
     if constexpr (Numbers::kCertified) {
-      // Summing n values rounds by less than n u of their sum, the quotient by u.
-      measure_.relative_error[i] = 1.01 * error * measure_.scale[i] + (p.count + 2) * Ball::kUnit;
+      // Of n - 2 positive values all sums but the first, 0 and one of them, round by less than u of
+      // their sum, and so does the quotient.
+      measure_.relative_error[i] = 1.01 * (error * measure_.scale[i] + (p.count - 2) * Ball::kUnit);
+      if (!(measure_.relative_error[i] <= rays_.rough())) {
+        whole = error = 0;
+        for (std::uint32_t k = 1; k + 1 < p.count; ++k) {
+          double value_error;
+          whole += rays_.sharp_value(polygons_.vertex(p, k), polygons_.vertex(p, k + 1),
+                                     polygons_.vertex(p, 0), ContourBounds::kSharp, value_error);
+          error += value_error;
+        }
+        whole *= rays_.exact->unit();
+        error *= rays_.exact->unit();
+        measure_.scale[i] = 1 / whole;
+        measure_.relative_error[i] =
+            1.01 * (error * measure_.scale[i] + ExactValues::kUnit + (p.count - 1) * Ball::kUnit);
+      }
       if (!(measure_.relative_error[i] < 0x1p-20)) sums_[i].flags |= kContourOpen;
     }
   }

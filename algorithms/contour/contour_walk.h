@@ -72,6 +72,17 @@ class ContourWalk {
 
  private:
   using PlaceOnEdge = Place<Numbers>;
+  /// A sliver that may be there is as large as its bound says: what is above this is open.
+  static constexpr double kLeast = 16 * Ball::kUnit;
+  /// The bound of a depth between the ends of an edge, in units of that at the ends: there is
+  /// rounded by 3u of the greater one, at most 9u M R (ContourBounds::kDepth is some more than what
+  /// it bounds).
+  static constexpr double kDepthBetween = 1.3;
+  bool is_sharp(const PlaceOnEdge& low, const PlaceOnEdge& high, double error) const {
+    const bool named =
+        low.name.kind() != PlaceName::Kind::kNone && high.name.kind() != PlaceName::Kind::kNone;
+    return error <= (named ? light_->rough() : 2 * kLeast);
+  }
   static constexpr std::uint32_t kSegment = 0xffffffffu;
   /// A polygon behind a segment begins or ends, or the segment itself.
   struct Event {
@@ -154,6 +165,9 @@ class ContourWalk {
                  const PlaceOnEdge& high);
   void take_perhaps(std::uint32_t k, const Behind<Numbers>& receiver, const PlaceOnEdge& low,
                     const PlaceOnEdge& high);
+  PlaceOnEdge sharpened(std::uint32_t k, const PlaceOnEdge& place, double most) const;
+  void sharpen(std::uint32_t k, const Behind<Numbers>* receiver, const PlaceOnEdge& low,
+               const PlaceOnEdge& high, bool perhaps, double& share, double& error) const;
   static T depth_at(const Behind<Numbers>& entry, const PlaceOnEdge& place) {
     return T(entry.depth_from + place.t * T(entry.depth_to - entry.depth_from));
   }
@@ -192,5 +206,6 @@ class ContourWalk {
 #include "algorithms/contour/contour_crease.h"
 #include "algorithms/contour/contour_integrals.h"
 #include "algorithms/contour/contour_meets.h"
+#include "algorithms/contour/contour_sharpen.h"
 
 #endif  // GNOMON_ALGORITHMS_CONTOUR_CONTOUR_WALK_H

@@ -16,9 +16,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
+#include "algorithms/contour/exact_values.h"
 #include "algorithms/contour/in_parallel.h"
 #include "algorithms/contour/numbers.h"
 #include "gnomon/kernel/geometry.h"
@@ -44,6 +46,21 @@ struct ContourBounds {
   /// Of depth . r with components of depth off by 8u M (LightBounds::kDepthPlane), |r_k| <= R, in
   /// units of M R: 3 (8u + 2u) from the operands, roundings 3u + 2u + 3u. 38u.
   static constexpr double kDepth = 40 * kUnit;
+  /// The same where normals and rays are doubles: depth is off by 2u of itself (the conversion of a
+  /// height, and a quotient), 6u M R, and roundings are 8u M R. 14u, and 3u for what is done with
+  /// it (depths are subtracted, or their planes); where a bound of 1.1 times this is asked for,
+  /// that is within it.
+  static constexpr double kDepthOfExact = 18 * kUnit;
+  /// c = d x s from differences of at most D and S that are exact: a component is off by 2u D S
+  /// from its products and 2u D S from their difference. Nothing, if 2 D S is below 2^53 of their
+  /// units.
+  static constexpr double kCross = 4.1 * kUnit;
+  /// apex . c in units of the sum of |apex_k c_k|: a product and sums of two and three of them, 3u;
+  /// a sun's direction is off by 2u. Of a lamp nothing, if 6 A D S is below 2^53.
+  static constexpr double kApex = 3.1 * kUnit, kSunApex = 5.1 * kUnit;
+  /// What a value from sharp_value() may be off by, relative, for integrals, and where all of it
+  /// may be a sliver.
+  static constexpr double kSharp = 32 * kUnit, kSharpest = 8 * kUnit;
 
   /// A sun's rays from doubles, where positions are exactly doubles: r = (x d_z - z d_x, y d_z - z
   /// d_y, d_z) with |x_k| <= 1 exact and |d_k| <= 1 converted once, so that |r_k| <= kSunReach. A
@@ -85,6 +102,25 @@ struct LightRays {
             step[1] * to_light[2] - step[2] * to_light[1], 0};
   }
 
+  /// Certified: the line from a to b at v, and what that is off by: det(r_a, r_b, r_v), for a sun
+  /// less the factor exact->unit(). Off by at most `most` of itself, whatever cancels in it.
+  double sharp_value(VertexId a, VertexId b, VertexId v, double most, double& error) const;
+  /// A bound of dot_product(line, ray) from lines and rays, or 0 if nothing can have been rounded.
+  double proven(double error) const {
+    return error < ContourBounds::kLine * exact_size ? 0 : error;
+  }
+
+  /// Certified: what an integral may be off by before it is found from sharper values. Bounds count
+  /// the worst of all roundings: where lines of lamps are off by so much, integrals are off by less
+  /// than a tenth of it; those of suns, whose bounds are less sharp, by less than a hundredth.
+  double rough() const { return (directional ? 1024 : 256) * Ball::kUnit; }
+
+  std::optional<ExactValues> exact;  // certified
+  bool exact_rays = false;  // certified, of a lamp: rays are exactly their integers, scaled
+  /// Certified: sums of products of integers are doubles if the product of the largest of each is
+  /// below this, of two of them and of three.
+  double exact_cross = 0, exact_size = 0;
+  double apex_terms = 0;  // certified: of sharp_value(), in units of the sum of |apex_k c_k|
   double reach = 0;  // certified: a bound of |r_k| by which errors count; 0: that of each polygon
   std::vector<Vector<T>> rays;      // by VertexId
   std::vector<Vector<T>> lines;     // by EdgeId, from its a to its b
@@ -92,6 +128,32 @@ struct LightRays {
   std::vector<Vector<T>> depths;    // by PlaneId; nothing where the light is in the plane
   std::vector<double> depth_error;  // certified: of depth . r for |r_k| <= 1; infinite: unknown
 };
+
+/// With c = (b - a) x (v - a) of rays, or of positions, it is r_a . c of a lamp, d . c of a sun.
+template <class Numbers>
+double LightRays<Numbers>::sharp_value(VertexId a, VertexId b, VertexId v, double most,
+                                       double& error) const {
+  if (exact_rays || !positions.empty()) {
+    const std::vector<Vector<double>>& points = exact_rays ? rays : positions;
+    const Vector<double>&at = points[a], &to = points[b], &p = points[v];
+    const Vector<double>& apex = exact_rays ? at : to_light;
+    const Vector<double> d{to[0] - at[0], to[1] - at[1], to[2] - at[2]};
+    const Vector<double> s{p[0] - at[0], p[1] - at[1], p[2] - at[2]};
+    const Vector<double> c = cross_product(d, s);
+    const double size = largest(d) * largest(s);
+    const double x = apex[0] * c[0], y = apex[1] * c[1], z = apex[2] * c[2];
+    const double value = x + y + z;
+    error = apex_terms * (std::fabs(x) + std::fabs(y) + std::fabs(z));
+    if (!(size < exact_cross)) {
+      error += ContourBounds::kCross * size *
+               (std::fabs(apex[0]) + std::fabs(apex[1]) + std::fabs(apex[2]));
+    }
+    if (error <= most * std::fabs(value)) return value;
+  }
+  const double value = exact->line(a, b, v);
+  error = ExactValues::kLine * std::fabs(value);
+  return value;
+}
 
 namespace contour_detail {
 
@@ -253,6 +315,13 @@ void fill_certified(const LightIntegers& light, unsigned jobs,
   });
   // Rays of at most 52 bits are exactly their doubles, and so are the differences of two.
   const bool exact_rays = light.narrow && light.q_bits <= 52;
+  if (!directional && exact_rays) {
+    const int bits = static_cast<int>(light.q_bits);
+    result.exact_rays = true;
+    result.exact_cross = std::ldexp(1.0, 51 - 2 * bits);
+    result.exact_size = std::ldexp(1.0, 50 - 3 * bits);
+    result.apex_terms = ContourBounds::kApex;
+  }
   in_parallel(jobs, size_of(geometry.edges), kRayGrain,
               [&](std::uint32_t begin, std::uint32_t end) {
                 for (EdgeId e = begin; e < end; ++e) {
@@ -333,20 +402,30 @@ void make_light_rays(const Space& space, const Geometry& geometry, const LightPo
   result.rays.resize(geometry.positions.size());
   result.lines.resize(geometry.edges.size());
   result.line_error.resize(geometry.edges.size());
+  result.exact_rays = false;
+  result.exact_cross = result.exact_size = 0;
   contour_detail::fill_positions(integers, result);
   if (!result.positions.empty()) {
     contour_detail::fill_certified_sun(integers, jobs, result);
+    result.exact_cross = std::ldexp(1.0, 51 - 2 * static_cast<int>(integers.grid_bits()));
+    result.apex_terms = ContourBounds::kSunApex;
+    result.exact.emplace(integers, integers.grid_bits() + integers.light_bits);
   } else {
+    result.exact.emplace(integers, integers.q_bits);
     result.reach = 0;
     with_width(width_of(integers.narrow, integers.q_bits + 2),
                [&]<class Int>() { contour_detail::fill_certified<Int>(integers, jobs, result); });
   }
   result.depths.resize(geometry.planes.size());
   result.depth_error.resize(geometry.planes.size());
+  constexpr unsigned kDoubleBits = 53;
+  const bool exact_normals = 2 * geometry.grid.bits() + 1 <= kDoubleBits;
+  const double depth_error =
+      result.exact_rays && exact_normals ? ContourBounds::kDepthOfExact : ContourBounds::kDepth;
   for (PlaneId id = 0; id < geometry.planes.size(); ++id) {
     const auto& plane = space.depth_plane(id);
     result.depths[id] = plane.n;
-    result.depth_error[id] = ContourBounds::kDepth * plane.magnitude;
+    result.depth_error[id] = depth_error * plane.magnitude;
   }
 }
 

@@ -54,9 +54,12 @@ int sign_of_value(const T& x) {
 
 /// What a place on an edge is, so that two places that are one are known to be, whatever their
 /// doubles say: an end of the edge, the crossing with the line of another edge, a vertex on it, or
-/// the crossing with a support plane.
+/// the crossing with a support plane. A name is blurred where the place may be that of another
+/// within the bounds: then it says what to compare with, and not where the place is.
 class PlaceName {
  public:
+  enum class Kind : std::uint8_t { kNone, kFrom, kTo, kLine = 4, kVertex, kSupport };
+
   constexpr PlaceName() = default;
   static constexpr PlaceName from() { return PlaceName(1); }
   static constexpr PlaceName to() { return PlaceName(2); }
@@ -64,9 +67,18 @@ class PlaceName {
   static constexpr PlaceName vertex(std::uint32_t vertex) { return PlaceName(5 | code(vertex)); }
   static constexpr PlaceName support(std::uint32_t plane) { return PlaceName(6 | code(plane)); }
   bool is_known() const { return code_ != 0; }
-  friend constexpr bool operator==(PlaceName, PlaceName) = default;
+  bool is_blurred() const { return (code_ & kBlurred) != 0; }
+  PlaceName blurred() const { return is_known() ? PlaceName(code_ | kBlurred) : *this; }
+  /// kNone if it does not say where the place is.
+  Kind kind() const { return is_blurred() ? Kind::kNone : static_cast<Kind>(code_ & 7); }
+  /// Of the edge, the vertex or the plane.
+  std::uint32_t index() const { return static_cast<std::uint32_t>(code_ >> 3); }
+  friend constexpr bool operator==(PlaceName a, PlaceName b) {
+    return ((a.code_ ^ b.code_) & ~kBlurred) == 0;
+  }
 
  private:
+  static constexpr std::uint64_t kBlurred = std::uint64_t{1} << 63;
   constexpr explicit PlaceName(std::uint64_t code) : code_(code) {}
   static constexpr std::uint64_t code(std::uint32_t index) { return std::uint64_t{index} << 3; }
   std::uint64_t code_ = 0;  // 0: not known to be anything
@@ -112,7 +124,7 @@ bool certainly_no_gap(const Place<Numbers>& p, const Place<Numbers>& q) {
 /// have opposite signs. Certified: each value is off by at most e, `error`. With gap g = |s| + |s'|
 /// > 8e of the computed values, the true gap is at least 3/4 g and the true |s| + |s'| at most 5/4
 /// g, so that t = s / (s - s') is off by at most e (|s| + |s'|) / (g 3/4 g) = 1.67 e / g; the gap
-/// and the quotient round by 2u.
+/// and the quotient round by 2u of t.
 template <class Numbers>
 [[gnu::always_inline]] inline Place<Numbers> zero_between(const typename Numbers::T& at_from,
                                                           const typename Numbers::T& at_to,
@@ -127,7 +139,7 @@ template <class Numbers>
     // What has underflowed says nothing, whatever its bound.
     constexpr double kLeast = 0x1p-900;
     if (size > 8 * error && size > kLeast) {
-      place.error = 1.7 * error / size + 4 * Ball::kUnit;
+      place.error = 1.7 * error / size + 2.1 * Ball::kUnit;
     } else {
       place.t = 0.5;
       place.error = 1;
@@ -145,7 +157,10 @@ template <class Numbers>
 Place<Numbers> chosen_of(const Place<Numbers>& chosen, const Place<Numbers>& other) {
   Place<Numbers> result = chosen;
   if constexpr (Numbers::kCertified) {
-    if (is_same_place(chosen, other)) return result;
+    if (is_same_place(chosen, other)) {
+      if (other.name.is_blurred()) result.name = result.name.blurred();
+      return result;
+    }
     const double distance = other.t < chosen.t ? chosen.t - other.t : other.t - chosen.t;
     if (distance > chosen.error + other.error) return result;
     result.error = std::max(chosen.error, other.error - distance);

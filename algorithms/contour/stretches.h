@@ -42,6 +42,20 @@ auto greatest_of(const Place<Numbers>& place) {
   }
 }
 
+/// Whether one of the stretches from `first` on, which are in the order in which they may begin,
+/// may begin before a place, and not in it.
+template <class Numbers>
+bool may_begin_before(const std::vector<Stretch<Numbers>>& covers, std::size_t first,
+                      const Place<Numbers>& place) {
+  if constexpr (Numbers::kCertified) {
+    for (std::size_t i = first; i < covers.size(); ++i) {
+      if (!(least_of(covers[i].low) < greatest_of(place))) return false;
+      if (!is_same_place(covers[i].low, place)) return true;
+    }
+  }
+  return false;
+}
+
 /// Leaves of each segment of `base` what no stretch covers. Sorts `covers`. Where a stretch begins
 /// and the one before ends, and neither the numbers nor the names tell that nothing is between,
 /// there is a segment that is not sure.
@@ -70,11 +84,16 @@ void uncovered(std::span<const Segment<Numbers>> base, std::vector<Stretch<Numbe
         result.push_back({low, high, false});
       }
     };
-    for (const Stretch<Numbers>& cover : covers) {
+    for (std::size_t i = 0; i < covers.size(); ++i) {
+      const Stretch<Numbers>& cover = covers[i];
       if (greatest_of(segment.high) < least_of(cover.low)) break;
       if (!(cover.low.t < segment.high.t) && certainly_no_gap(cover.low, segment.high)) continue;
       if (cover.high.t < at.t && certainly_before(cover.high, at)) continue;
-      if (!certainly_no_gap(at, cover.low)) leave(earlier_of(cover.low, segment.high));
+      if (!certainly_no_gap(at, cover.low)) {
+        Place<Numbers> end = earlier_of(cover.low, segment.high);
+        if (may_begin_before(covers, i + 1, end)) end.name = end.name.blurred();
+        leave(end);
+      }
       at = later_of(at, cover.high);
     }
     leave(segment.high);

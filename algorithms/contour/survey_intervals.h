@@ -128,7 +128,8 @@ Place<Numbers> EdgeSurvey<Numbers, Sides>::meeting(std::uint32_t p, std::uint32_
           polygons_->error_of_line(other, edge) * std::max(from_size, to_size), name);
     }
   }
-  return zero_between<Numbers>(at_from, at_to, error, name);
+  return zero_between<Numbers>(at_from, at_to, Numbers::kCertified ? light_->proven(error) : 0,
+                               name);
 }
 
 }  // namespace gnomon

@@ -52,37 +52,53 @@ void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
   output_.pieces.push_back(piece);
 }
 
+/// The loop's share of its part; nothing is known where the radius is not below PartMeasure's
+/// widest.
 template <SectorSpaceModel Space>
-void SectorTree<Space>::emit_area(const LoopRange& range, bool lit) {
-  const LoopView<Vertex> loop = view(range);
+PairBall SectorTree<Space>::fraction_of(const LoopView<Vertex>& loop) const {
+  if constexpr (requires { space_.pair_planar_point(loop.corner(0)); }) {
+    if (!context_->pair_areas.empty()) {
+      const PairBall area = twice_pair_area(
+          loop, [&](const auto& corner) { return space_.pair_planar_point(corner); });
+      return area / context_->pair_areas[loop.part];
+    }
+  }
   const Ball whole = context_->areas[loop.part];
   const Ball area = twice_area(
       loop, [&](const auto& corner) { return planar_point(space_, context_->charts, corner); });
-  if constexpr (!Space::kExact) {
-    context_->sums.add_rounded(loop.part, lit, area.middle / whole.middle);
-  } else {
-    Ball fraction = area / whole;
-    constexpr double kWidest = PartMeasure<Space>::kWidest;
-    if constexpr (requires { space_.accurate_planar_point(loop.corner(0)); }) {
-      if (!(fraction.radius < kWidest)) {
-        fraction =
-            twice_area(loop,
-                       [&](const auto& corner) { return space_.accurate_planar_point(corner); }) /
-            whole;
-      }
+  const Ball fraction = area / whole;
+  if constexpr (requires { space_.accurate_planar_point(loop.corner(0)); }) {
+    if (!(fraction.radius < PartMeasure<Space>::kWidest)) {
+      const Ball accurate = twice_area(
+          loop, [&](const auto& corner) { return space_.accurate_planar_point(corner); });
+      return PairBall(accurate / whole);
     }
-    if (context_->options.output.exact_fractions || !(fraction.radius < kWidest)) {
+  }
+  return PairBall(fraction);
+}
+
+template <SectorSpaceModel Space>
+void SectorTree<Space>::emit_area(const LoopRange& range, bool lit) {
+  const LoopView<Vertex> loop = view(range);
+  if constexpr (!Space::kExact) {
+    const Ball area = twice_area(
+        loop, [&](const auto& corner) { return planar_point(space_, context_->charts, corner); });
+    context_->sums.add_rounded(loop.part, lit, area.middle / context_->areas[loop.part].middle);
+  } else {
+    PairBall fraction;
+    const bool exactly = context_->options.output.exact_fractions;
+    if (!exactly) fraction = fraction_of(loop);
+    const double widest =
+        context_->pair_areas.empty() ? PartMeasure<Space>::kWidest : PairBall::kWidest;
+    if (exactly || !(fraction.radius < widest)) {
       const Part& part = context_->scene.parts[loop.part];
       mpq_class& exact_whole = exact_areas_[loop.part];
       if (sgn(exact_whole) == 0) exact_whole = twice_exact_area(context_->scene, part);
       mpq_class exact =
           twice_exact_area(space_, chart_of(context_->scene.geometry, part.plane), loop) /
           exact_whole;
-      const double value = exact.get_d();  // truncated: within one unit in the last place
-      fraction = Ball(value, 2 * Ball::kUnit * value + Ball::kTiny);
-      if (context_->options.output.exact_fractions) {
-        output_.exact_lit.emplace_back(loop.part, std::move(exact));
-      }
+      fraction = PairBall::of(exact);
+      if (exactly) output_.exact_lit.emplace_back(loop.part, std::move(exact));
     }
     context_->sums.add_enclosure(loop.part, fraction);
   }

@@ -55,6 +55,7 @@ class SectorRun {
         facing_(std::move(facing)),
         charts_(charts_of(scene.geometry)),
         areas_(scene.parts.size()),
+        pair_areas_(kHasPairs && !subset.parts.empty() ? scene.parts.size() : 0),
         sums_(scene.parts.size()),
         receives_(subset.receives) {
     if (!subset.parts.empty()) facing_.parts.assign(subset.parts.begin(), subset.parts.end());
@@ -99,6 +100,14 @@ class SectorRun {
     if (area.radius < kNarrow * area.middle) return area;
     return twice_area(space_, charts_, loop, 0);
   }
+  /// The same in pairs of doubles, of kernels that have their points in them.
+  static constexpr bool kHasPairs = requires(const Space& space, const Corner<Vertex>& corner) {
+    space.pair_planar_point(corner);
+  };
+  PairBall enclosed_pair_area(const LoopView<Vertex>& loop) const {
+    return twice_pair_area(loop,
+                           [&](const auto& corner) { return space_.pair_planar_point(corner); });
+  }
   SectorCell common_cell(Tree& planner, std::span<const SectorItem> items);
 
   LeafMethod leaf_method_;
@@ -113,6 +122,7 @@ class SectorRun {
   FacingParts facing_;
   PlaneCharts charts_;
   std::vector<Ball> areas_;
+  std::vector<PairBall> pair_areas_;
   FractionSums sums_;
   std::span<const std::uint8_t> receives_;  // of facing_.parts; empty: all do
   std::vector<SectorState> states_;         // of facing_.parts
@@ -150,8 +160,13 @@ std::vector<SectorItem> SectorRun<Space>::import(LoopStore<Vertex>& loops) {
                                   loops.vertex(item.first + (k + 1 == item.count ? 0 : k + 1)));
         }
       }
-      areas_[item.part] = enclosed_area(
-          loops.view({item.first, item.count, item.part}, scene_.parts[item.part].plane));
+      const LoopView<Vertex> loop =
+          loops.view({item.first, item.count, item.part}, scene_.parts[item.part].plane);
+      areas_[item.part] = enclosed_area(loop);
+      if constexpr (kHasPairs) {
+        if (!pair_areas_.empty() && item.receives)
+          pair_areas_[item.part] = enclosed_pair_area(loop);
+      }
     }
   };
   // Of a few parts, each edge's plane is made when it is met.
@@ -210,8 +225,8 @@ RunOutcome SectorRun<Space>::run(const std::function<void(double)>& progress) {
   constexpr std::uint32_t kSmallestTask = 256, kLargestTask = 16384, kTasks = 128;
   std::atomic<std::uint64_t> pieces = 0;
   std::atomic<bool> stopped = false, no_ieee = false;
-  const SectorContext context{scene_, options_, rules_, facing_, charts_,     light_,
-                              areas_, sums_,    pieces, stopped, leaf_method_};
+  const SectorContext context{scene_, options_,    rules_, facing_, charts_, light_,
+                              areas_, pair_areas_, sums_,  pieces,  stopped, leaf_method_};
   LoopStore<Vertex> loops;
   std::vector<SectorItem> items = import(loops);
   Tree planner(context, std::move(space_));
@@ -346,9 +361,7 @@ LightResult SectorRun<Space>::finish() {
     if (state == kMixed) {
       if constexpr (Space::kExact) {
         part.lit = sums_.enclosure(index);
-        // 1 - x rounds by half a unit; the next double outwards is safe.
-        part.shadow = {std::max(0.0, std::nextafter(1 - part.lit.upper, -1.0)),
-                       std::min(1.0, std::nextafter(1 - part.lit.lower, 2.0))};
+        part.shadow = sums_.rest(index);
       } else {
         const double lit = sums_.rounded(index, true), shadow = sums_.rounded(index, false);
         part.lit = {lit, lit};

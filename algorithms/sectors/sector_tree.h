@@ -84,7 +84,8 @@ struct SectorContext {
   const FacingParts& facing;
   const PlaneCharts& charts;
   const LightPoint& light;
-  std::span<const Ball> areas;  // twice the area of each part, by planar points
+  std::span<const Ball> areas;           // twice the area of each part, by planar points
+  std::span<const PairBall> pair_areas;  // the same in pairs, if the kernel has them
   FractionSums& sums;
   std::atomic<std::uint64_t>& pieces;  // so far
   std::atomic<bool>& stopped;          // interrupted, or too many pieces
@@ -227,6 +228,7 @@ class SectorTree {
   void put_counted(const LoopRange& loop, std::uint32_t count);
   void join(Range children);
   void emit(const LoopRange& loop, SectorState state);
+  PairBall fraction_of(const LoopView<Vertex>& loop) const;
   void emit_area(const LoopRange& loop, bool lit);
 
   const SectorContext* context_;

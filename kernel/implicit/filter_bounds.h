@@ -109,6 +109,9 @@ struct LightBounds {
   static constexpr double kQuotient = 3 * kUnit;
   /// Of h r / (n . r), each factor converted once from integers (2u), three operations: 9u.
   static constexpr double kAccurate = 16 * kUnit;
+  /// The same in pairs of doubles: three conversions (2^-104 each), a quotient (2^-101) and a
+  /// product (2^-102).
+  static constexpr double kAccuratePair = 0x1p-99;
 };
 
 /// Decisions of shadow volumes: n . x - d with the largest |n_k| in [1/2, 1) and |d| < 3.

@@ -93,6 +93,73 @@ PlanarPoint LightPositions::accurate_planar_point(const Corner<Vertex>& corner) 
   return point;
 }
 
+// As quotient_on_plane().
+template <class Normal, class Int, class Ray>
+PlanarPair LightPositions::pair_quotient(const Vector3<Ray>& ray, PlaneId support) const {
+  const auto [u, v] = kept_axes(depth(support));
+  const auto is_moderate = [](double x) { return std::fabs(x) < 0x1p800; };
+  PlanarPair point;
+  point.error = kUnknownError;
+  DoubleDouble over{1, 0}, under;
+  long power = -stretch();
+  std::array<DoubleDouble, 2> r = {double_double(ray[0]), double_double(ray[1])};
+  if (is_directional()) {
+    under = double_double(ray[2]);
+  } else {
+    using Position = PositionFor<Int>;
+    const ExactGeometry<Position> exact(geometry());
+    const Vector3<Normal> n = exact.template normal<Normal>(support);
+    const Vector3<Position> a = exact.position(geometry().planes[support].a);
+    over = double_double(dot<Int>(n, difference(integers().position<Position>(), a)));
+    under = double_double(dot<Int>(n, ray));
+    r = {double_double(ray[u]), double_double(ray[v])};
+    power = -static_cast<long>(integers().q_bits);
+  }
+  if (!is_moderate(over.high) || !is_moderate(under.high) || under.high == 0) return point;
+  const DoubleDouble factor = over / under;
+  const double most = std::max(std::fabs(r[0].high), std::fabs(r[1].high));
+  const double size = most * std::fabs(factor.high);
+  // Nothing underflows on the way, which bounds of pairs do not cover.
+  if (!is_moderate(most) || !is_moderate(size) || !(std::fabs(factor.high) > 0x1p-800))
+    return point;
+  if (size != 0 && !(size > 0x1p-700)) return point;
+  const double scale = std::ldexp(1.0, static_cast<int>(power));
+  const auto scaled = [&](const DoubleDouble& value) {
+    const DoubleDouble product = value * factor;
+    return DoubleDouble{product.high * scale, product.low * scale};
+  };
+  point.x = scaled(r[0]);
+  point.y = scaled(r[1]);
+  // Of the smaller coordinate what underflows is far below that.
+  point.error =
+      LightBounds::kAccuratePair * std::max(std::fabs(point.x.high), std::fabs(point.y.high)) +
+      0x1p-1000;
+  return point;
+}
+
+PlanarPair LightPositions::pair_planar_point(const Corner<Vertex>& corner) const {
+  const VertexId input = corner.vertex.source;
+  if (input != kMadeVertex) {
+    if (!integers().narrow || is_directional()) {
+      return pair_quotient<mpz_class, mpz_class>(integers().q<mpz_class>(input), corner.support);
+    }
+    const auto [u, v] = kept_axes(depth(corner.support));
+    const std::int64_t* x = geometry().grid.narrow_point(input);
+    const auto offset = [&](int axis) {
+      const DoubleDouble pair = double_double(integers().narrow_light[axis] - x[axis]);
+      return DoubleDouble{pair.high * frame_->grid_scale, pair.low * frame_->grid_scale};
+    };
+    return {offset(u), offset(v), 0};
+  }
+  const unsigned normal_bits = 2 * geometry().grid.bits() + 1;
+  PlanarPair point;
+  with_widths(width_of(is_narrow_corner(corner), ray_bits(corner) + normal_bits + 3),
+              factor_bits(corner), [&]<class Factor, class Int>() {
+                point = pair_quotient<Factor, Int>(exact_ray<Factor, Int>(corner), corner.support);
+              });
+  return point;
+}
+
 // --- In the scene. ---
 
 // On the ray r the support plane i is met where P_i(v) = 0. Point light: v = L - s r with

@@ -24,6 +24,12 @@
 
 namespace gnomon {
 
+/// A planar point in pairs of doubles; `error` bounds that of x and of y.
+struct PlanarPair {
+  DoubleDouble x, y;
+  double error = 0;
+};
+
 class LightPositions : public LightPlanes {
  public:
   /// Certified for every vertex whose doubles say something.
@@ -34,6 +40,9 @@ class LightPositions : public LightPlanes {
   /// The same, computed from integers: relative error LightBounds::kAccurate whatever meets there
   /// at what angle.
   PlanarPoint accurate_planar_point(const Corner<Vertex>& corner) const;
+  /// The same in pairs: relative error LightBounds::kAccuratePair of the larger coordinate, or
+  /// infinite where numbers are beyond the range of pairs.
+  PlanarPair pair_planar_point(const Corner<Vertex>& corner) const;
   /// Enclosure of the corner's position on its support plane, in grid units times 2^-b.
   std::array<Ball, 3> position(const Corner<Vertex>& corner) const;
   /// The same, exactly, in scene units.
@@ -90,6 +99,8 @@ class LightPositions : public LightPlanes {
   unsigned ray_bits(const Corner<Vertex>& corner) const;
   template <class Normal, class Int, class Ray>
   PlanarPoint quotient_on_plane(const Vector3<Ray>& ray, PlaneId support) const;
+  template <class Normal, class Int, class Ray>
+  PlanarPair pair_quotient(const Vector3<Ray>& ray, PlaneId support) const;
   template <class Factor, class Int>
   PairPoint pair_point(const Corner<Vertex>& corner) const;
   template <class Factor, class Int>

@@ -82,6 +82,15 @@ inline DoubleDouble double_double(std::int64_t value) {
   return {high, static_cast<double>(Int128{value} - static_cast<Int128>(high))};
 }
 inline DoubleDouble double_double(Int128 value) {
+  // Of 117 bits in three parts that are doubles, faster than conversions of 128 bits.
+  const auto top = static_cast<std::int64_t>(value >> 64);
+  constexpr std::int64_t kTop = std::int64_t{1} << 53;
+  if (-kTop < top && top < kTop) {
+    const auto rest = static_cast<std::uint64_t>(value);
+    const DoubleDouble upper =
+        two_sum(static_cast<double>(top) * 0x1p64, static_cast<double>(rest >> 32) * 0x1p32);
+    return two_sum(upper.high, upper.low + static_cast<double>(rest & 0xffffffffu));
+  }
   const auto high = static_cast<double>(value);
   if (!(std::fabs(high) < 0x1p126)) return {std::numeric_limits<double>::infinity(), 0};
   return {high, static_cast<double>(value - static_cast<Int128>(high))};

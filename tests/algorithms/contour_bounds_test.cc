@@ -80,6 +80,29 @@ struct BothRays {
     return depth;
   }
 
+  /// sharp_value() and the kernels' integers, against the determinant of three rays.
+  void hold_sharp(VertexId a, VertexId b, VertexId v) const {
+    mpq_class truth = exact_dot(exact_cross(exact[a], exact[b]), exact[v]);
+    if (point.directional) {
+      const mpq_class d_z = mpq_class(point.grid[static_cast<std::size_t>(integers.axes.z)]) *
+                            power_of_two(-static_cast<int>(integers.light_bits));
+      const int s = static_cast<int>(
+          rays.positions.empty() ? integers.q_bits : integers.grid_bits() + integers.light_bits);
+      const int one = static_cast<int>(integers.grid_bits() + integers.light_bits);
+      const mpq_class unit = d_z * d_z * power_of_two(3 * (one - s));
+      ASSERT_LE(abs(mpq_class(rays.exact->unit()) - unit), mpq_class(ExactValues::kUnit) * unit);
+      truth /= unit;
+    }
+    for (const double most : {0.0, ContourBounds::kSharpest, ContourBounds::kSharp, 1.0}) {
+      double error;
+      const double sharp = rays.sharp_value(a, b, v, most, error);
+      ASSERT_LE(abs(truth - mpq_class(sharp)), mpq_class(error));
+      ASSERT_LE(error, std::max(most, ExactValues::kLine) * std::fabs(sharp));
+    }
+    ASSERT_LE(abs(truth - mpq_class(rays.exact->line(a, b, v))),
+              mpq_class(ExactValues::kLine) * abs(truth));
+  }
+
   LightPoint point;
   Space::SceneSpace scene_space;
   Space space;
@@ -132,6 +155,11 @@ TEST_P(ContourBoundsTest, HoldLinesAndDepths) {
                                   mpq_class(dot_product(rays.lines[edge], rays.rays[v])));
         ASSERT_LE(off, mpq_class(bound)) << edge << ' ' << v;
         closest = std::max(closest, off.get_d() / bound);
+        // What no product or sum can have rounded is exact.
+        if (rays.proven(bound) == 0) {
+          ASSERT_EQ(off, 0) << edge << ' ' << v;
+        }
+        both.hold_sharp(from, to, v);
         if (rays.positions.empty()) continue;
         double size;
         const Vector<double> difference = rays.difference(v, from, size);
@@ -149,6 +177,11 @@ TEST_P(ContourBoundsTest, HoldLinesAndDepths) {
         const mpq_class off = abs(exact_dot(depth, both.exact[v]) -
                                   mpq_class(dot_product(rays.depths[id], rays.rays[v])));
         ASSERT_LE(off, mpq_class(rays.depth_error[id] * reach)) << id << ' ' << v;
+        if (!both.point.directional) {
+          const mpq_class sharp = exact_dot(depth, both.exact[v]);
+          ASSERT_LE(abs(sharp - mpq_class(rays.exact->depth(id, v))),
+                    mpq_class(ExactValues::kDepth) * abs(sharp));
+        }
       }
     }
   }

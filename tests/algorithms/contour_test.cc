@@ -149,7 +149,9 @@ TEST_P(ContourCampaign, AgreesWithSectors) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Generators, ContourCampaign,
-                         testing::Values("mix", "family-small-lattice", "soup-lattice"),
+                         testing::Values("mix", "family-small-lattice", "soup-lattice",
+                                         "family-decimals", "family-crossing-sticks",
+                                         "family-needles", "family-mixed-magnitudes"),
                          [](const auto& info) {
                            std::string name(info.param);
                            std::ranges::replace(name, '-', '_');

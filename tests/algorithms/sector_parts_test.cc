@@ -13,6 +13,7 @@
 
 #include "algorithms/partition/fraction_sums.h"
 #include "algorithms/partition/kd_tree.h"
+#include "algorithms/partition/pair_area.h"
 #include "algorithms/partition/piece_fractions.h"
 #include "algorithms/sectors/sector_split.h"
 #include "scene/base/random.h"
@@ -76,6 +77,108 @@ TEST(FractionSums, DoNotDependOnTheOrderOrTheThreads) {
   for (const FractionSums* other : {&second, &third}) {
     EXPECT_EQ(first.enclosure(0).lower, other->enclosure(0).lower);
     EXPECT_EQ(first.enclosure(0).upper, other->enclosure(0).upper);
+  }
+}
+
+// What is left to 1 is known to the last digits of a double, however small it is.
+TEST(FractionSums, KnowTheRestAsWell) {
+  for (const int bits : {3, 20, 52, 60, 75}) {
+    FractionSums sums(1);
+    mpq_class sum = 0;
+    for (int i = 0; i < 1000; ++i) {
+      // All thousand add up to 1 - 2^-bits.
+      const mpq_class share = (1 - mpq_class(std::ldexp(1.0, -bits))) / 1000;
+      sums.add_enclosure(0, PairBall::of(share));
+      sum += share;
+    }
+    const Interval rest = sums.rest(0), all = sums.enclosure(0);
+    const mpq_class truth = 1 - sum;
+    EXPECT_LE(mpq_class(rest.lower), truth);
+    EXPECT_GE(mpq_class(rest.upper), truth);
+    EXPECT_LT(rest.upper - rest.lower, 1e-15 * truth.get_d() + 2e-31) << bits;
+    EXPECT_LE(mpq_class(all.lower), sum);
+    EXPECT_GE(mpq_class(all.upper), sum);
+  }
+}
+
+TEST(PairArea, QuotientsEncloseTheExactOne) {
+  Random random(7);
+  for (int i = 0; i < 1000; ++i) {
+    const auto pair = [&] {
+      const double high = random_double(random, 0.1, 1);
+      return PairBall(quick_two_sum(high, random_double(random, -1, 1) * 0x1p-60), 0x1p-90);
+    };
+    const auto exact = [](const PairBall& ball) {
+      return mpq_class(mpq_class(ball.middle.high) + mpq_class(ball.middle.low));
+    };
+    const PairBall a = pair(), b = pair(), quotient = a / b;
+    for (const int s : {-1, 1}) {
+      for (const int t : {-1, 1}) {
+        const mpq_class over = exact(a) + s * mpq_class(a.radius);
+        const mpq_class truth = over / (exact(b) + t * mpq_class(b.radius));
+        EXPECT_LE(abs(mpq_class(truth - exact(quotient))), mpq_class(quotient.radius));
+      }
+    }
+    EXPECT_LT(quotient.radius, 0x1p-80);
+  }
+  EXPECT_FALSE((PairBall({1, 0}, 0) / PairBall({0, 0}, 0)).radius < 1);
+}
+
+/// Corners of a loop in pairs of doubles that are off by up to `error`.
+struct PairLoop {
+  struct Point {
+    DoubleDouble x, y;
+    double error = 0;
+  };
+  std::vector<Point> points;
+
+  std::uint32_t size() const { return static_cast<std::uint32_t>(points.size()); }
+  std::uint32_t corner(std::uint32_t i) const { return i; }
+};
+
+// True corners anywhere within the bounds of the given ones, whatever is far from the origin.
+TEST(PairArea, LoopsEncloseTheExactArea) {
+  Random random(8);
+  const auto exact = [](const DoubleDouble& x) -> mpq_class {
+    return mpq_class(x.high) + mpq_class(x.low);
+  };
+  for (int round = 0; round < 3000; ++round) {
+    const double far = std::ldexp(1.0, static_cast<int>(random.below(30)));
+    const double size = std::ldexp(1.0, -static_cast<int>(random.below(30)));
+    const double error = round % 2 == 0 ? 0 : std::ldexp(size, -80);
+    PairLoop loop;
+    std::vector<std::array<mpq_class, 2>> truth;
+    for (std::uint64_t n = 3 + random.below(6); n > 0; --n) {
+      const auto coordinate = [&] {
+        return two_sum(far + random_double(random, -size, size),
+                       random_double(random, -size, size) * 0x1p-54);
+      };
+      loop.points.push_back({coordinate(), coordinate(), error});
+      const auto off = [&] { return mpq_class(random_double(random, -1, 1) * error); };
+      truth.push_back({exact(loop.points.back().x) + off(), exact(loop.points.back().y) + off()});
+    }
+    mpq_class sum = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const auto& next = truth[(i + 1) % truth.size()];
+      sum += truth[i][0] * next[1] - truth[i][1] * next[0];
+    }
+    const PairBall area = twice_pair_area(loop, [&](std::uint32_t i) { return loop.points[i]; });
+    ASSERT_LE(abs(mpq_class(sum - exact(area.middle))), mpq_class(area.radius)) << round;
+    if (error == 0) {
+      ASSERT_LT(area.radius, 0x1p-88 * far * size + 0x1p-88 * size * size) << round;
+    }
+  }
+}
+
+TEST(PairBall, HoldsRationalsOfAnySize) {
+  mpz_class large = 1;
+  for (int i = 0; i < 40; ++i) large *= 1000003;
+  for (int power = 1; power <= 3; ++power, large *= large) {
+    const mpq_class value(large - 7, 3 * large);
+    const PairBall ball = PairBall::of(value);
+    const mpq_class middle = mpq_class(ball.middle.high) + mpq_class(ball.middle.low);
+    EXPECT_LE(abs(mpq_class(value - middle)), mpq_class(ball.radius));
+    EXPECT_LT(ball.radius, 0x1p-99);
   }
 }
 

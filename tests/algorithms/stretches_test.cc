@@ -28,8 +28,10 @@ P any_place(Random& random, double truth) {
   return place;
 }
 
+/// `low_name`, `high_name`: what stretches have in common where they have an end in common.
 struct Truth {
   double low, high;
+  std::uint32_t low_name = 0, high_name = 0;
 };
 
 double uncovered_length(double low, double high, std::vector<Truth> covers) {
@@ -76,6 +78,60 @@ TEST(Stretches, WhatIsLeftIsWithinItsBounds) {
     }
   }
   EXPECT_GT(sure, 50000);
+}
+
+// A place that has a name that is not blurred is where that name is, which is asked again with more
+// digits: so the lengths between true places are what is left, exactly.
+TEST(Stretches, NamesThatAreNotBlurredTellTheTruth) {
+  Random random(3);
+  std::vector<Stretch<Certified>> covers;
+  std::vector<Segment<Certified>> left;
+  int told = 0, blurred = 0;
+  for (int round = 0; round < 200000; ++round) {
+    std::vector<double> places;
+    const auto end = [&](std::uint32_t& name) {
+      name = static_cast<std::uint32_t>(random.next() % 3 == 0 ? random.next() % (places.size() + 1)
+                                                               : places.size());
+      if (name == places.size()) places.push_back(unit(random));
+      return places[name];
+    };
+    std::vector<Truth> truths;
+    covers.clear();
+    for (std::uint64_t n = 1 + random.next() % 4; n > 0; --n) {
+      Truth truth{};
+      truth.low = end(truth.low_name);
+      truth.high = end(truth.high_name);
+      if (truth.high == truth.low) continue;
+      if (truth.high < truth.low) {
+        std::swap(truth.low, truth.high);
+        std::swap(truth.low_name, truth.high_name);
+      }
+      truths.push_back(truth);
+      P low = any_place(random, truth.low), high = any_place(random, truth.high);
+      low.name = PlaceName::line(truth.low_name);
+      high.name = PlaceName::line(truth.high_name);
+      if (shorten(low, high)) covers.push_back({low, high});
+    }
+    const Segment<Certified> whole{P::from(), P::to(), true};
+    uncovered<Certified>({&whole, 1}, covers, left);
+    double length = 0;
+    bool all_told = true;
+    const auto truth_of = [&](const P& place) {
+      all_told = all_told && place.name.kind() != PlaceName::Kind::kNone;
+      blurred += place.name.is_blurred() ? 1 : 0;
+      if (place.name.kind() == PlaceName::Kind::kLine) return places[place.name.index()];
+      return place.t;
+    };
+    for (const Segment<Certified>& segment : left) {
+      const double low = truth_of(segment.low), high = truth_of(segment.high);
+      length += std::max(0.0, high - low);
+    }
+    if (!all_told) continue;
+    ++told;
+    ASSERT_NEAR(length, uncovered_length(0, 1, truths), 1e-15) << "round " << round;
+  }
+  EXPECT_GT(told, 20000);
+  EXPECT_GT(blurred, 5000);
 }
 
 TEST(Stretches, TheLaterOfTwoPlacesIsWithinItsBound) {

@@ -265,6 +265,27 @@ std::string check_methods(const Case& scene) {
   return {};
 }
 
+/// Whether printed shares, the middles of the bounds that are found without exact numbers, are
+/// within 1e-14 of the polygon's area of what is true.
+std::string check_printed(const Case& scene, const ShadowResult& exact, ShadowOptions options) {
+  constexpr double kMost = 1e-14;
+  options.output.exact_fractions = false;
+  const Expected<ShadowResult> found = compute_shadows(scene.prepared(), options);
+  if (!found) return to_string(found.error());
+  for (std::size_t i = 0; i < exact.lights.size(); ++i) {
+    for (std::size_t j = 0; j < exact.lights[i].parts.size(); ++j) {
+      const PartResult& part = found->lights[i].parts[j];
+      const ExactFractions& truth = exact.lights[i].exact_fractions[j];
+      const mpq_class lit = abs(mpq_class(part.lit.middle()) - truth.lit);
+      const mpq_class shadow = abs(mpq_class(part.shadow.middle()) - truth.shadow);
+      if (lit <= kMost && shadow <= kMost) continue;
+      return "printed shares of " + polygon_of(scene, part.part) + " are off by " +
+             std::to_string(1e15 * std::max(lit, shadow).get_d()) + "e-15";
+    }
+  }
+  return {};
+}
+
 std::string check_contour(const Case& scene) {
   ShadowOptions usual = options_for(KernelId::kPlane);
   usual.tuning.jobs = 1;
@@ -284,6 +305,7 @@ std::string check_contour(const Case& scene) {
     std::string wrong = check_sums(scene, *result);
     if (wrong.empty()) wrong = compare_results(scene, *first, *result);
     if (wrong.empty()) wrong = check_bounds(scene, *first, options);
+    if (wrong.empty()) wrong = check_printed(scene, *first, options);
     if (!wrong.empty()) return std::string(kernel_info(kernel).name) + " by contour: " + wrong;
   }
   return {};

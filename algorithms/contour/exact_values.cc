@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "algorithms/contour/exact_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gnomon/kernel/precision_plan.h"
+#include "kernel/implicit/exact_geometry.h"
+
+namespace gnomon {
+
+// Of a sun det(q_a, q_b, q_c) = d_z^2 (d . (b - a) x (c - a)), and r has the first two components
+// of q scaled by 2^-s, and the third by 2^(b - s) (light_rays.h). Positions and d of size 1 leave
+// d_z^2 2^(3 (b + e - s)).
+ExactValues::ExactValues(const LightIntegers& light, unsigned ray_bits)
+    : light_(light), shift_(3 * static_cast<long>(light.q_bits)) {
+  if (!light.light.directional) return;
+  const long b = static_cast<long>(light.grid_bits()), e = static_cast<long>(light.light_bits);
+  shift_ = 2 * b + e;
+  const double d_z = to_double_scaled(light.light.grid[static_cast<std::size_t>(light.axes.z)], e);
+  unit_ = std::ldexp(d_z * d_z, static_cast<int>(3 * (b + e - static_cast<long>(ray_bits))));
+}
+
+double ExactValues::line(VertexId a, VertexId b, VertexId v) const {
+  return with_width(width_of(light_.narrow, light_.side_bits), [&]<class Int>() {
+    using Position = PositionFor<Int>;
+    const ExactGeometry<Position> exact(*light_.geometry);
+    const Vector3<Position> l = light_.position<Position>();
+    const Vector3<Position> p = exact.position(a), q = exact.position(b), r = exact.position(v);
+    const Int value = light_.light.directional
+                          ? determinant<Int>(l, difference(q, p), difference(r, p))
+                          : determinant<Int>(difference(l, p), difference(l, q), difference(l, r));
+    return to_double_scaled(value, shift_);
+  });
+}
+
+double ExactValues::depth(PlaneId plane, VertexId v) const {
+  const unsigned b = light_.grid_bits();
+  const unsigned bits = std::max(2 * b + light_.q_bits, 3 * b) + 4;
+  return with_widths(
+      width_of(light_.narrow, bits), support_normal_bits(b) + 1, [&]<class Normal, class Int>() {
+        using Position = PositionFor<Int>;
+        const ExactGeometry<Position> exact(*light_.geometry);
+        const Vector3<Normal> n = exact.template normal<Normal>(plane);
+        const Vector3<Position> l = light_.position<Position>();
+        const Vector3<Position> corner = exact.position(light_.geometry->planes[plane].a);
+        const long shift = 2 * static_cast<long>(b) + static_cast<long>(light_.q_bits);
+        return to_double_scaled(dot<Int>(n, difference(l, exact.position(v))), shift) /
+               to_double_scaled(dot<Int>(n, difference(l, corner)), shift);
+      });
+}
+
+double ExactValues::support(PlaneId plane, VertexId v) const {
+  const unsigned b = light_.grid_bits();
+  return with_width(narrowest_width(side_of_support_bits(b)), [&]<class Int>() {
+    return to_double_scaled(ExactGeometry<Int>(*light_.geometry).value(plane, v),
+                            3 * static_cast<long>(b));
+  });
+}
+
+}  // namespace gnomon
