@@ -111,8 +111,9 @@ std::optional<std::uint32_t> part_of(const DifferingDecision& decision,
     const Part& part = scene.parts[i];
     if (part.plane != corner.support) continue;
     if (decision.predicate == Predicate::kFacing) return i;  // one of those in the plane
-    const bool is_own = corner.source != kMadeVertex &&
-                        std::ranges::find(scene.loop(part), corner.source) != scene.loop(part).end();
+    const bool is_own =
+        corner.source != kMadeVertex &&
+        std::ranges::find(scene.loop(part), corner.source) != scene.loop(part).end();
     if (is_own) return i;
     const double by = outside(scene, part, decision.position);
     if (by < least || !nearest) {
@@ -130,7 +131,8 @@ std::string to_sentence(const DifferingDecision& decision, const PreparedScene& 
       decision.predicate != Predicate::kFacing && decision.predicate != Predicate::kThreePoints;
   std::string where = "building the scene BSP";
   if (decision.light) where = "light " + light_names[scene.lights[*decision.light].light];
-  std::string sentence = "Decision " + std::to_string(decision.decisions + 1) + " (" + where + "): ";
+  std::string sentence =
+      "Decision " + std::to_string(decision.decisions + 1) + " (" + where + "): ";
   if (decision.predicate == Predicate::kThreePoints) {
     const bool tested = decision.tested == Side::kFront;
     return sentence + "whether there is " + in_words(decision.plane, geometry) + ". " + kernel +

@@ -54,8 +54,8 @@ bool can_be_flipped(const DifferingDecision& decision) {
 
 class Explaining {
  public:
-  Explaining(const PreparedScene& scene, const ShadowOptions& options,
-             const ExplainOptions& wanted, LightList lights, DecisionWatch::MakeRounded make)
+  Explaining(const PreparedScene& scene, const ShadowOptions& options, const ExplainOptions& wanted,
+             LightList lights, DecisionWatch::MakeRounded make)
       : scene_(scene),
         options_(options),
         wanted_(wanted),
@@ -79,6 +79,7 @@ class Explaining {
     result.cannot_be_flipped = static_cast<std::uint64_t>(
         std::ranges::count_if(result.decisions, std::not_fn(can_be_flipped)));
     if (wanted_.flips == 0) return result;
+    if (auto control = check_control(); !control) return tl::unexpected<Error>(control.error());
     if (auto flipped = flip_all(result); !flipped) return tl::unexpected<Error>(flipped.error());
     const auto kernel = run_kernel();
     if (!kernel) return tl::unexpected<Error>(kernel.error());
@@ -114,29 +115,51 @@ class Explaining {
     return std::move(result->lights.front());
   }
 
-  Expected<void> flip_all(Explanation& result) {
-    std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < result.decisions.size() && chosen.size() < wanted_.flips; ++i) {
-      if (can_be_flipped(result.decisions[i])) chosen.push_back(i);
-    }
-    steps_ += chosen.size();
-    for (const std::size_t i : chosen) {
-      const auto effect = flip(result.decisions[i]);
-      if (!effect) return tl::unexpected<Error>(effect.error());
-      result.flipped.push_back({i, *effect});
-      progress();
+  /// A run in which nothing is flipped changes nothing, or no flipped run says anything.
+  Expected<void> check_control() {
+    const auto effect = run_flipped({}, std::nullopt);
+    if (!effect) return tl::unexpected<Error>(effect.error());
+    if (effect->changes()) {
+      return fail(ErrorCode::kUsage, "a run without any flipped decision is not the exact run",
+                  "the same shares: a bug of this program, please report it");
     }
     return {};
   }
 
-  /// Under the decision's light, or under all if it is of the scene BSP. A flipped run that asks
-  /// far more than the exact one has lost its way in contradictions.
-  Expected<RunEffect> flip(const DifferingDecision& decision) {
+  /// One by one, then all that can be flipped.
+  Expected<void> flip_all(Explanation& result) {
+    DecisionWatch::Flips all;
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < result.decisions.size(); ++i) {
+      const DifferingDecision& decision = result.decisions[i];
+      if (!can_be_flipped(decision)) continue;
+      all.emplace(decision.question, decision.flip);
+      if (chosen.size() < wanted_.flips) chosen.push_back(i);
+    }
+    steps_ += chosen.size();
+    for (const std::size_t i : chosen) {
+      const DifferingDecision& decision = result.decisions[i];
+      const auto effect = run_flipped({{decision.question, decision.flip}}, decision.light);
+      if (!effect) return tl::unexpected<Error>(effect.error());
+      result.flipped.push_back({i, *effect});
+      progress();
+    }
+    if (all.empty()) return {};
+    const auto together = run_flipped(all, std::nullopt);
+    if (!together) return tl::unexpected<Error>(together.error());
+    result.together = *together;
+    return {};
+  }
+
+  /// Under one light, or under all. A flipped run that asks far more than the exact one has lost
+  /// its way in contradictions.
+  Expected<RunEffect> run_flipped(const DecisionWatch::Flips& flips,
+                                  const std::optional<std::uint32_t>& light) {
     constexpr std::uint64_t kTimes = 4, kAtLeast = 100'000;
     RunEffect effect;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
-      if (decision.light && *decision.light != lights_[i]) continue;
-      DecisionWatch watch(DecisionWatch::Flip{decision.question, decision.flip});
+      if (light && *light != lights_[i]) continue;
+      DecisionWatch watch(flips);
       const DecisionWatch::Scope scope(watch);
       watch.begin_light(lights_[i]);
       watch.stop_with(outside(), kTimes * exact_decisions_[i] + kAtLeast);

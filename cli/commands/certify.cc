@@ -486,7 +486,8 @@ void add_certify_command(CLI::App& app, Action& action) {
   CLI::Option* explain_option = command.add_flag(
       "--explain", options->explain,
       "Say which decisions of a kernel that is not identical differ from the exact ones, and\n"
-      "which change the result (" + methods_that(&Method::explains) + ")");
+      "which change the result (" +
+          methods_that(&Method::explains) + ")");
   command
       .add_option("--flips", options->flips,
                   "Decisions that --explain flips one by one, largest first [30]")

@@ -232,8 +232,7 @@ class EvidenceSearch {
       note += fmt::format(
           "{}The answer that failed is that of `{}`; decisions are those of `{}` on the same "
           "kernel, which asks it for all of them.",
-          note.empty() ? "" : " ", method_info(own).name,
-          method_info(followed(has_area)).name);
+          note.empty() ? "" : " ", method_info(own).name, method_info(followed(has_area)).name);
     }
   }
 

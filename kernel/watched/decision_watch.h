@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Who watches the decisions of a run: a run that records every question to which a rounded kernel
-// has another answer than the exact one, or a run in which one question has its other answer.
+// has another answer than the exact one, or a run in which some questions have their other answer.
 //
 // A question is known by what was made from what: the vertices, edges and support planes behind a
 // plane and a vertex, never by the moment at which it is asked. So it is the same question in every
@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "gnomon/kernel/differing_decision.h"
@@ -45,18 +46,15 @@ double size_in_ulps(const Geometry& geometry, const ExactPlane<mpz_class>& plane
 
 class DecisionWatch {
  public:
-  /// The question, and its answer in the plane's own orientation.
-  struct Flip {
-    std::uint64_t question = 0;
-    Side answer = Side::kOn;
-  };
+  /// Questions, and their answers in the planes' own orientation.
+  using Flips = std::unordered_map<std::uint64_t, Side>;
   using MakeRounded = std::unique_ptr<RoundedScene> (*)(const Geometry&, const KernelOptions&);
 
   /// Records. `only_first`: and stops at the first decision that differs.
   DecisionWatch(MakeRounded make_rounded, bool only_first)
       : make_rounded_(make_rounded), only_first_(only_first) {}
   /// Flips.
-  explicit DecisionWatch(Flip flip) : flip_(flip) {}
+  explicit DecisionWatch(Flips flips) : flips_(std::move(flips)) {}
 
   /// The watch of the runs of this thread: spaces find it when they are made, since what a method
   /// hands on to them are the policies that a user may choose.
@@ -86,8 +84,8 @@ class DecisionWatch {
                                              const KernelOptions& options) const {
     return make_rounded_ != nullptr ? make_rounded_(geometry, options) : nullptr;
   }
-  bool flips() const { return flip_.has_value(); }
-  bool is_flipped(std::uint64_t question) const { return flip_ && flip_->question == question; }
+  bool flips() const { return flips_.has_value(); }
+  bool is_flipped(std::uint64_t question) const { return flips_ && flips_->contains(question); }
 
   std::uint64_t question(Predicate predicate, std::uint64_t plane, std::uint64_t corner) const {
     const std::uint64_t place = predicate == Predicate::kSceneBsp ? 0 : light_ + 1;
@@ -99,9 +97,10 @@ class DecisionWatch {
   Side settle(Predicate predicate, std::uint64_t question, bool flipped, Side exact,
               std::optional<Side> tested, const Describe& describe) {
     count(predicate);
-    if (flip_) {
-      if (question != flip_->question) return exact;
-      return flipped ? opposite(flip_->answer) : flip_->answer;
+    if (flips_) {
+      const auto flip = flips_->find(question);
+      if (flip == flips_->end()) return exact;
+      return flipped ? opposite(flip->second) : flip->second;
     }
     if (tested && *tested != exact) {
       if (DifferingDecision* decision = differ(predicate, question, flipped, exact, *tested)) {
@@ -137,7 +136,7 @@ class DecisionWatch {
 
   MakeRounded make_rounded_ = nullptr;
   bool only_first_ = false;
-  std::optional<Flip> flip_;
+  std::optional<Flips> flips_;
   std::uint32_t light_ = 0, runs_ = 0;
   const std::atomic<bool>* outside_ = nullptr;
   std::uint64_t most_decisions_ = ~std::uint64_t{0};

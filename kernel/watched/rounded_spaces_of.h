@@ -125,8 +125,7 @@ class VolumeOf final : public PlanesOf<RoundedVolume, Space> {
 };
 
 template <class Kernel>
-class SceneOf final
-    : public PlanesOf<RoundedScene, typename Kernel::LightSpace::SceneSpace> {
+class SceneOf final : public PlanesOf<RoundedScene, typename Kernel::LightSpace::SceneSpace> {
   using Space = typename Kernel::LightSpace::SceneSpace;
   using Base = PlanesOf<RoundedScene, Space>;
 

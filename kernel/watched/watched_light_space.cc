@@ -41,9 +41,8 @@ PlaneRef WatchedLightSpace::add(Plane plane, const PlaneName& name) {
   return PlaneRef(edge_count_ + static_cast<std::uint32_t>(own_.size() - 1));
 }
 
-// A made vertex is known by the planes of its making: where decisions are flipped, these stay.
 void WatchedLightSpace::release_planes(std::uint32_t mark) {
-  if (watch_->flips() || mark >= own_.size()) return;
+  if (mark >= own_.size()) return;
   const Plane& first = own_[mark];
   exact_.release_planes(first.exact_mark);
   if (rounded_) rounded_->release_planes(first.tested_mark);
@@ -102,6 +101,18 @@ PlaneRef WatchedLightSpace::cut_of_supports(PlaneId first, PlaneId second) {
   return add(plane, {Kind::kCut, {first, second}});
 }
 
+void WatchedLightSpace::finish_vertex(Vertex& vertex, PlaneRef before, PlaneRef after) const {
+  const Plane first = at(before), second = at(after);
+  exact_.finish_vertex(vertex.exact, first.exact, second.exact);
+  vertex.before = before;
+  vertex.after = after;
+  vertex.hash = hash_of_meeting(first, second);
+}
+
+std::uint64_t WatchedLightSpace::hash_of_meeting(const Plane& before, const Plane& after) {
+  return hash_of_made(before.hash, after.hash, before.exact.flipped() != after.exact.flipped(), 0);
+}
+
 // --- Questions. ---
 
 Predicate WatchedLightSpace::predicate_of(const PlaneName& name) {
@@ -113,14 +124,6 @@ Predicate WatchedLightSpace::predicate_of(const PlaneName& name) {
     default:
       return Predicate::kCut;
   }
-}
-
-std::uint64_t WatchedLightSpace::hash_of_corner(const Corner<Vertex>& asked) const {
-  if (asked.vertex.source != kMadeVertex) return hash_of_input(asked.vertex.source);
-  const Corner<Vertex>& corner = corner_of_making(asked);
-  const Plane before = at(corner.before), after = at(corner.after);
-  return hash_of_made(before.hash, after.hash, before.exact.flipped() != after.exact.flipped(),
-                      asked.support);
 }
 
 Sign WatchedLightSpace::light_side(PlaneId plane) const {
@@ -139,8 +142,9 @@ Sign WatchedLightSpace::light_side(PlaneId plane) const {
         const LightPoint& light = exact_.light();
         std::array<mpq_class, 3> point;
         for (std::size_t k = 0; k < 3; ++k) {
-          point[k] = light.directional ? mpq_class(light.grid[k])
-                                       : mpq_class(geometry.origin[k] + geometry.step * light.grid[k]);
+          point[k] = light.directional
+                         ? mpq_class(light.grid[k])
+                         : mpq_class(geometry.origin[k] + geometry.step * light.grid[k]);
         }
         decision.ulps = light.directional
                             ? size_in_ulps({}, {support.n, 0}, point, scene_->rounded()->digits())
@@ -180,8 +184,7 @@ Side WatchedLightSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corner
   }
   return watch_->settle(predicate_of(plane.name), question(plane, corner), plane.exact.flipped(),
                         exact, tested, [&](DifferingDecision& decision) {
-                          describe(decision, plane.name,
-                                   exact_.in_scene(plane.exact), corner);
+                          describe(decision, plane.name, exact_.in_scene(plane.exact), corner);
                         });
 }
 
@@ -190,14 +193,12 @@ Side WatchedLightSpace::side_of_support(PlaneId plane, const Corner<Vertex>& cor
   std::optional<Side> tested;
   if (rounded_) tested = rounded_->side_of_support(plane, tested_corner(corner));
   const PlaneName name{Kind::kSupport, {plane}};
-  const std::uint64_t asked = watch_->question(
-      Predicate::kDepth, hash_of(name), mixed(hash_of_corner(corner), corner.support));
-  return watch_->settle(Predicate::kDepth, asked, false, exact, tested,
-                        [&](DifferingDecision& decision) {
-                          describe(decision, name,
-                                   ExactGeometry<mpz_class>(scene_->geometry()).plane(plane),
-                                   corner);
-                        });
+  const std::uint64_t asked = watch_->question(Predicate::kDepth, hash_of(name),
+                                               mixed(hash_of_corner(corner), corner.support));
+  return watch_->settle(
+      Predicate::kDepth, asked, false, exact, tested, [&](DifferingDecision& decision) {
+        describe(decision, name, ExactGeometry<mpz_class>(scene_->geometry()).plane(plane), corner);
+      });
 }
 
 WatchedLightSpace::Vertex WatchedLightSpace::crossing(PlaneRef ref, PlaneRef edge, bool leaving,
@@ -210,16 +211,17 @@ WatchedLightSpace::Vertex WatchedLightSpace::crossing(PlaneRef ref, PlaneRef edg
     }
   }
   Vertex vertex;
-  vertex.exact = exact_.crossing(plane.exact, along.exact, leaving, exact_corner(from),
-                                 exact_corner(to));
+  vertex.exact =
+      exact_.crossing(plane.exact, along.exact, leaving, exact_corner(from), exact_corner(to));
   name_making(vertex, ref, edge, leaving, from.support);
+  vertex.hash = leaving ? hash_of_meeting(along, plane) : hash_of_meeting(plane, along);
   if (!rounded_ || !plane.tested.valid()) return vertex;
   const WideCorner a = tested_corner(from), b = tested_corner(to);
   if (cuts_edge(*rounded_, plane.tested, a, b)) {
     vertex.tested = rounded_->crossing(plane.tested, along.tested, leaving, a, b);
   } else {
-    const Corner<Vertex> made{vertex.before, vertex, vertex.after, from.support};
-    vertex.tested = rounded_vertex(exact_.exact_position(exact_corner(made)));
+    vertex.tested =
+        rounded_vertex(exact_position({vertex.before, vertex, vertex.after, from.support}));
   }
   return vertex;
 }

@@ -51,13 +51,10 @@ class WatchedLightSpace {
   PlaneRef import_edge(PlaneRef edge, PlaneId support, bool reversed, const Vertex& from,
                        const Vertex& to);
   Vertex import_vertex(const SceneSpace::Vertex& vertex) const {
-    return {exact_.import_vertex(vertex.exact), vertex.tested, vertex.source, {}, {}, 0};
+    return {
+        exact_.import_vertex(vertex.exact), vertex.tested, vertex.source, 0, {}, {}, vertex.hash};
   }
-  void finish_vertex(Vertex& vertex, PlaneRef before, PlaneRef after) const {
-    exact_.finish_vertex(vertex.exact, at(before).exact, at(after).exact);
-    vertex.before = before;
-    vertex.after = after;
-  }
+  void finish_vertex(Vertex& vertex, PlaneRef before, PlaneRef after) const;
   PlaneRef shadow_plane(PlaneRef edge, const Vertex& from, const Vertex& to);
   PlaneRef add_prefix_plane(const PrefixPlane& plane);
   PlaneRef import_cut(const WatchedLightSpace& other, PlaneRef plane, PlaneId support);
@@ -88,7 +85,7 @@ class WatchedLightSpace {
     PlaneRef exact, tested;
     PlaneName name;
     std::uint64_t hash = 0;
-    bool is_support_cut = false;            // made by cut_of_supports()
+    bool is_support_cut = false;                    // made by cut_of_supports()
     std::uint32_t exact_mark = 0, tested_mark = 0;  // of both kernels before it was added
   };
 
@@ -104,15 +101,25 @@ class WatchedLightSpace {
   Plane at(PlaneRef ref) const;
   Plane new_plane() const;
   PlaneRef add(Plane plane, const PlaneName& name);
-  Corner<Exact::Vertex> exact_corner(const Corner<Vertex>& asked) const {
-    const Corner<Vertex>& c = watch_->flips() ? corner_of_making(asked) : asked;
-    return {at(c.before).exact, c.vertex.exact, at(c.after).exact, asked.support};
+  bool is_there(PlaneRef ref) const { return ref.index() < edge_count_ + own_.size(); }
+  Corner<Exact::Vertex> exact_corner(const Corner<Vertex>& corner) const {
+    const Corner<Vertex> c =
+        known_corner(corner, watch_->flips(), [&](const Corner<Vertex>& made) -> std::uint64_t {
+          if (!is_there(made.before) || !is_there(made.after)) return 0;
+          return hash_of_meeting(at(made.before), at(made.after));
+        });
+    return {at(c.before).exact, c.vertex.exact, at(c.after).exact, corner.support};
   }
   WideCorner tested_corner(const Corner<Vertex>& c) const {
     return {at(c.before).tested, c.vertex.tested, at(c.after).tested, c.support};
   }
   static Predicate predicate_of(const PlaneName& name);
-  std::uint64_t hash_of_corner(const Corner<Vertex>& asked) const;
+  static std::uint64_t hash_of_meeting(const Plane& before, const Plane& after);
+  /// Rounded kernels have a made vertex on the support plane of its loop, not on its ray.
+  static std::uint64_t hash_of_corner(const Corner<Vertex>& corner) {
+    const bool made = corner.vertex.source == kMadeVertex;
+    return made ? mixed(corner.vertex.hash, corner.support) : corner.vertex.hash;
+  }
   std::uint64_t question(const Plane& plane, const Corner<Vertex>& corner) const {
     return watch_->question(predicate_of(plane.name), plane.hash, hash_of_corner(corner));
   }

@@ -35,9 +35,9 @@ std::array<mpq_class, 3> WatchedSceneSpace::exact_position(const Corner<Vertex>&
   }
   const bool before_is_edge = edges().is_input_edge(corner.before);
   if (!before_is_edge && !edges().is_input_edge(corner.after)) {
-    return meeting_point(geometry(), {exact.plane(corner.support),
-                                      exact.plane(corner.before.index()),
-                                      exact.plane(corner.after.index())});
+    return meeting_point(geometry(),
+                         {exact.plane(corner.support), exact.plane(corner.before.index()),
+                          exact.plane(corner.after.index())});
   }
   const PlaneRef edge = before_is_edge ? corner.before : corner.after;
   const PlaneId cut = (before_is_edge ? corner.after : corner.before).index();

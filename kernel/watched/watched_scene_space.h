@@ -42,6 +42,7 @@ class WatchedSceneSpace {
     vertex.exact = exact_.input_vertex(v);
     if (rounded_) vertex.tested = rounded_->input_vertex(v);
     vertex.source = v;
+    vertex.hash = hash_of_input(v);
     return vertex;
   }
   Side side_of_plane(PlaneRef plane, const Corner<Vertex>& corner) {
@@ -49,9 +50,8 @@ class WatchedSceneSpace {
     std::optional<Side> tested;
     if (rounded_) tested = rounded_->side_of_plane(plane, tested_corner(corner));
     return watch_->settle(Predicate::kSceneBsp, question(plane, corner), plane.flipped(), exact,
-                          tested, [&](DifferingDecision& decision) {
-                            describe(decision, plane, corner);
-                          });
+                          tested,
+                          [&](DifferingDecision& decision) { describe(decision, plane, corner); });
   }
   /// A flipped vertex is an input vertex here, and so known in every space.
   Vertex crossing(PlaneRef plane, PlaneRef edge, bool leaving, const Corner<Vertex>& from,
@@ -60,9 +60,10 @@ class WatchedSceneSpace {
       if (watch_->flips() && watch_->is_flipped(question(plane, *end))) return end->vertex;
     }
     Vertex vertex;
-    vertex.exact =
-        exact_.crossing(plane, edge, leaving, exact_corner(from), exact_corner(to));
+    vertex.exact = exact_.crossing(plane, edge, leaving, exact_corner(from), exact_corner(to));
     name_making(vertex, plane, edge, leaving, from.support);
+    vertex.hash =
+        hash_of_made(hash_of(name_of(plane)), hash_of(name_of(edge)), false, from.support);
     if (rounded_) {
       const WideCorner a = tested_corner(from), b = tested_corner(to);
       if (cuts_edge(*rounded_, plane, a, b)) {
@@ -91,26 +92,22 @@ class WatchedSceneSpace {
   PlaneName name_of(PlaneRef plane) const {
     const SceneEdges names = edges();
     if (!plane.valid()) return {};
-    return names.is_input_edge(plane)
-               ? PlaneName{PlaneName::Kind::kEdge, {names.edge(plane)}}
-               : PlaneName{PlaneName::Kind::kSupport, {plane.index()}};
+    return names.is_input_edge(plane) ? PlaneName{PlaneName::Kind::kEdge, {names.edge(plane)}}
+                                      : PlaneName{PlaneName::Kind::kSupport, {plane.index()}};
   }
 
  private:
-  static Corner<Exact::Vertex> exact_corner(const Corner<Vertex>& c) {
+  /// The planes of the scene are always there.
+  Corner<Exact::Vertex> exact_corner(const Corner<Vertex>& corner) const {
+    const Corner<Vertex> c = known_corner(
+        corner, watch_->flips(), [](const Corner<Vertex>& made) { return made.vertex.hash; });
     return {c.before, c.vertex.exact, c.after, c.support};
   }
   static WideCorner tested_corner(const Corner<Vertex>& c) {
     return {c.before, c.vertex.tested, c.after, c.support};
   }
-  std::uint64_t question(PlaneRef plane, const Corner<Vertex>& asked) const {
-    const Corner<Vertex> corner = corner_of_making(asked);
-    const std::uint64_t point =
-        corner.vertex.source != kMadeVertex
-            ? hash_of_input(corner.vertex.source)
-            : hash_of_made(hash_of(name_of(corner.before)), hash_of(name_of(corner.after)), false,
-                           corner.support);
-    return watch_->question(Predicate::kSceneBsp, hash_of(name_of(plane)), point);
+  std::uint64_t question(PlaneRef plane, const Corner<Vertex>& corner) const {
+    return watch_->question(Predicate::kSceneBsp, hash_of(name_of(plane)), corner.vertex.hash);
   }
   void describe(DifferingDecision& decision, PlaneRef plane, const Corner<Vertex>& corner) const {
     decision.plane = name_of(plane);
@@ -121,9 +118,9 @@ class WatchedSceneSpace {
                             : exact_.approximate(corner.vertex.exact);
     decision.tested_position = nearest_doubles_of(corner.vertex.tested);
     if (decision.exact == Side::kOn) return;
-    decision.ulps = size_in_ulps(
-        geometry(), ExactGeometry<mpz_class>(geometry()).plane(plane.index()),
-        exact_position(corner), rounded_->digits());
+    decision.ulps =
+        size_in_ulps(geometry(), ExactGeometry<mpz_class>(geometry()).plane(plane.index()),
+                     exact_position(corner), rounded_->digits());
   }
   std::array<mpq_class, 3> exact_position(const Corner<Vertex>& corner) const;
 

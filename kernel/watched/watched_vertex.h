@@ -25,8 +25,9 @@ struct WatchedVertex {
   Exact exact{};
   WideVertex tested;
   VertexId source = kMadeVertex;
-  PlaneRef before, after;  // of its making, as the watched space numbers planes; made ones only
   PlaneId support = 0;
+  PlaneRef before, after;  // of its making; made vertices only
+  std::uint64_t hash = 0;  // of what it was made from
 };
 
 /// The exact point in a rounded kernel's numbers: of a vertex that this kernel would not have made,
@@ -46,19 +47,25 @@ inline std::array<double, 3> nearest_doubles_of(const WideVertex& vertex) {
           static_cast<double>(vertex.x[2])};
 }
 
-/// Names the planes that a new vertex on `edge`, cut by `plane`, is made from.
-template <class Vertex>
-void name_making(Vertex& vertex, PlaneRef plane, PlaneRef edge, bool leaving, PlaneId support) {
-  vertex.before = leaving ? edge : plane;
-  vertex.after = leaving ? plane : edge;
-  vertex.support = support;
+/// A corner by the planes by which kernel `plane` is to know it: in a flipped run those of the
+/// making of a made vertex, else those of its loop. Planes are a stack, so that those of the making
+/// may be gone and their numbers be of others: `hash(corner)` is that of a made vertex whose planes
+/// these are, or 0 if there are none of these numbers.
+template <class Vertex, class Hash>
+Corner<Vertex> known_corner(const Corner<Vertex>& loop_corner, bool flips, const Hash& hash) {
+  const Vertex& vertex = loop_corner.vertex;
+  if (!flips || vertex.source != kMadeVertex || !vertex.before.valid()) return loop_corner;
+  const Corner<Vertex> made{vertex.before, vertex, vertex.after, vertex.support};
+  return hash(made) == vertex.hash ? made : loop_corner;
 }
 
-/// The corner of a made vertex by the planes of its making.
+/// The planes of a vertex on `edge`, which leaves the front of `plane` or enters it, in a loop of
+/// `support`.
 template <class Vertex>
-Corner<Vertex> corner_of_making(const Corner<Vertex>& corner) {
-  if (corner.vertex.source != kMadeVertex || !corner.vertex.before.valid()) return corner;
-  return {corner.vertex.before, corner.vertex, corner.vertex.after, corner.vertex.support};
+void name_making(Vertex& vertex, PlaneRef plane, PlaneRef edge, bool leaving, PlaneId support) {
+  vertex.support = support;
+  vertex.before = leaving ? edge : plane;
+  vertex.after = leaving ? plane : edge;
 }
 
 /// A hash of a made vertex from the hashes of the two planes of its edges. The same whichever comes

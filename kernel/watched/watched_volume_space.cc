@@ -20,6 +20,7 @@ WatchedVolumeSpace::Vertex WatchedVolumeSpace::input_vertex(VertexId v) const {
   vertex.exact = exact_.input_vertex(v);
   if (rounded_) vertex.tested = scene_->rounded()->input_vertex(v);
   vertex.source = v;
+  vertex.hash = hash_of_input(v);
   return vertex;
 }
 
@@ -43,7 +44,8 @@ WatchedVolumeSpace::Plane WatchedVolumeSpace::at(PlaneRef ref) const {
 }
 
 PlaneId WatchedVolumeSpace::support_at(PlaneId support, bool tested) const {
-  if (support < first_own_) return support;
+  // A vertex that is asked about apart from any loop has none.
+  if (support < first_own_ || support - first_own_ >= own_.size()) return support;
   const Plane& plane = own_[support - first_own_];
   return (tested ? plane.tested : plane.exact).index();
 }
@@ -60,9 +62,8 @@ PlaneRef WatchedVolumeSpace::add(Plane plane) {
   return PlaneRef(first_own_ + static_cast<std::uint32_t>(own_.size() - 1));
 }
 
-// A made vertex is known by the planes of its making: where decisions are flipped, these stay.
 void WatchedVolumeSpace::release_planes(std::uint32_t mark) {
-  if (watch_->flips() || mark >= own_.size()) return;
+  if (mark >= own_.size()) return;
   const Plane& first = own_[mark];
   exact_.release_planes(first.exact_mark);
   if (rounded_) rounded_->release_planes(first.tested_mark);
@@ -91,7 +92,7 @@ PlaneRef WatchedVolumeSpace::add_plane(const Corner<Vertex>& a, const Corner<Ver
   plane.name = {Kind::kThrough, {a.vertex.source, b.vertex.source, c.vertex.source}};
   for (const Corner<Vertex>* corner : {&a, &b, &c}) {
     if (corner->vertex.source != kMadeVertex) continue;
-    plane.name.rest = mixed(plane.name.rest, hash_of_corner(*corner));
+    plane.name.rest = mixed(plane.name.rest, corner->vertex.hash);
   }
   plane.hash = hash_of(plane.name);
   return makes_plane(plane) ? add(plane) : PlaneRef();
@@ -111,9 +112,8 @@ PlaneRef WatchedVolumeSpace::add_axis_plane(int axis, double value) {
   Plane plane = new_plane();
   plane.exact = exact_.add_axis_plane(axis, value);
   if (rounded_) plane.tested = rounded_->add_axis_plane(axis, value);
-  plane.name = {Kind::kBorder,
-                {static_cast<std::uint32_t>(axis)},
-                std::bit_cast<std::uint64_t>(value)};
+  plane.name = {
+      Kind::kBorder, {static_cast<std::uint32_t>(axis)}, std::bit_cast<std::uint64_t>(value)};
   plane.hash = hash_of(plane.name);
   return add(plane);
 }
@@ -123,6 +123,9 @@ WatchedVolumeSpace::Vertex WatchedVolumeSpace::axis_point(
   Vertex vertex;
   vertex.exact = exact_.axis_point(fractions);
   if (rounded_) vertex.tested = rounded_->axis_point(fractions);
+  for (const double fraction : fractions) {
+    vertex.hash = mixed(vertex.hash, std::bit_cast<std::uint64_t>(fraction));
+  }
   return vertex;
 }
 
@@ -140,11 +143,9 @@ Predicate WatchedVolumeSpace::predicate_of(const PlaneName& name) {
 }
 
 // The three planes that meet in a made vertex, in any order.
-std::uint64_t WatchedVolumeSpace::hash_of_corner(const Corner<Vertex>& asked) const {
-  if (asked.vertex.source != kMadeVertex) return hash_of_input(asked.vertex.source);
-  const Corner<Vertex> corner = corner_of_making(asked);
-  std::array<std::uint64_t, 3> planes{at(corner.before).hash, at(corner.after).hash,
-                                      at(PlaneRef(corner.support)).hash};
+std::uint64_t WatchedVolumeSpace::hash_of_meeting(PlaneRef before, PlaneRef after,
+                                                  PlaneId support) const {
+  std::array<std::uint64_t, 3> planes{at(before).hash, at(after).hash, at(PlaneRef(support)).hash};
   std::ranges::sort(planes);
   return mixed(mixed(planes[0], planes[1]), planes[2]);
 }
@@ -162,8 +163,8 @@ void WatchedVolumeSpace::describe(DifferingDecision& decision, const Plane& plan
   }
   decision.tested_position = nearest_doubles_of(corner.vertex.tested);
   if (decision.exact == Side::kOn) return;
-  decision.ulps = size_in_ulps(geometry(), exact_.in_scene(plane.exact), point,
-                               scene_->rounded()->digits());
+  decision.ulps =
+      size_in_ulps(geometry(), exact_.in_scene(plane.exact), point, scene_->rounded()->digits());
 }
 
 // A vertex that was made in a flipped decision is said to be on the planes that its corner names,
@@ -179,9 +180,9 @@ Side WatchedVolumeSpace::side_of_plane(PlaneRef ref, const Corner<Vertex>& corne
   if (rounded_ && plane.tested.valid()) {
     tested = rounded_->side_of_plane(plane.tested, tested_corner(corner));
   }
-  return watch_->settle(
-      predicate_of(plane.name), question(plane, corner), plane.exact.flipped(), exact, tested,
-      [&](DifferingDecision& decision) { describe(decision, plane, corner); });
+  return watch_->settle(predicate_of(plane.name), question(plane, corner), plane.exact.flipped(),
+                        exact, tested,
+                        [&](DifferingDecision& decision) { describe(decision, plane, corner); });
 }
 
 WatchedVolumeSpace::Vertex WatchedVolumeSpace::crossing(PlaneRef ref, PlaneRef edge, bool leaving,
@@ -194,16 +195,17 @@ WatchedVolumeSpace::Vertex WatchedVolumeSpace::crossing(PlaneRef ref, PlaneRef e
     }
   }
   Vertex vertex;
-  vertex.exact = exact_.crossing(plane.exact, along.exact, leaving, exact_corner(from),
-                                 exact_corner(to));
+  vertex.exact =
+      exact_.crossing(plane.exact, along.exact, leaving, exact_corner(from), exact_corner(to));
   name_making(vertex, ref, edge, leaving, from.support);
+  vertex.hash = hash_of_meeting(ref, edge, from.support);
   if (!rounded_ || !plane.tested.valid()) return vertex;
   const WideCorner a = tested_corner(from), b = tested_corner(to);
   if (cuts_edge(*rounded_, plane.tested, a, b)) {
     vertex.tested = rounded_->crossing(plane.tested, along.tested, leaving, a, b);
   } else {
-    const Corner<Vertex> made{vertex.before, vertex, vertex.after, from.support};
-    vertex.tested = rounded_vertex(exact_.exact_position(exact_corner(made)));
+    vertex.tested =
+        rounded_vertex(exact_position({vertex.before, vertex, vertex.after, from.support}));
   }
   return vertex;
 }

@@ -24,8 +24,8 @@ class WatchedVolumeSpace {
     ExactPlane<mpz_class> in_scene(PlaneRef ref) const {
       const Plane& plane = plane_at(ref.index());
       ExactPlane<mpz_class> result{exact_normal<mpz_class>(plane), 0};
-      result.d = dot(result.n, position_of<mpz_class>(0)) -
-                 exact_value<mpz_class>(plane, result.n, 0);
+      result.d =
+          dot(result.n, position_of<mpz_class>(0)) - exact_value<mpz_class>(plane, result.n, 0);
       return result;
     }
   };
@@ -88,24 +88,29 @@ class WatchedVolumeSpace {
   PlaneRef add(Plane plane);
   /// Whether three points make a plane is a decision: kFront if they do, kOn if they are on a line.
   bool makes_plane(const Plane& plane);
-  Corner<Vertex> known_corner(const Corner<Vertex>& asked) const {
-    return watch_->flips() ? corner_of_making(asked) : asked;
-  }
-  Corner<Exact::Vertex> exact_corner(const Corner<Vertex>& asked) const {
-    const Corner<Vertex> c = known_corner(asked);
+  bool is_there(std::uint32_t plane) const { return plane < first_own_ + own_.size(); }
+  Corner<Exact::Vertex> exact_corner(const Corner<Vertex>& corner) const {
+    const Corner<Vertex> c =
+        known_corner(corner, watch_->flips(), [&](const Corner<Vertex>& made) -> std::uint64_t {
+          return is_there(made.before.index()) && is_there(made.after.index()) &&
+                         is_there(made.support)
+                     ? hash_of_meeting(made.before, made.after, made.support)
+                     : 0;
+        });
     return {at(c.before).exact, c.vertex.exact, at(c.after).exact, support_at(c.support, false)};
   }
+  std::uint64_t hash_of_meeting(PlaneRef before, PlaneRef after, PlaneId support) const;
   WideCorner tested_corner(const Corner<Vertex>& c) const {
     return {at(c.before).tested, c.vertex.tested, at(c.after).tested, support_at(c.support, true)};
   }
   /// A support plane, or an added plane that a face lies in, by the kernel's own number.
   PlaneId support_at(PlaneId support, bool tested) const;
-  std::uint64_t hash_of_corner(const Corner<Vertex>& asked) const;
   static Predicate predicate_of(const PlaneName& name);
   std::uint64_t question(const Plane& plane, const Corner<Vertex>& corner) const {
-    return watch_->question(predicate_of(plane.name), plane.hash, hash_of_corner(corner));
+    return watch_->question(predicate_of(plane.name), plane.hash, corner.vertex.hash);
   }
-  void describe(DifferingDecision& decision, const Plane& plane, const Corner<Vertex>& corner) const;
+  void describe(DifferingDecision& decision, const Plane& plane,
+                const Corner<Vertex>& corner) const;
 
   const SceneSpace* scene_;
   DecisionWatch* watch_;

@@ -34,7 +34,7 @@ struct JudgedRun {
   double cpu_seconds = 0;
   std::string error;  // why there is no report; empty if there is one
   std::optional<oracle::Report> report;
-  std::string explanation;  // the first decision that went another way, if asked for
+  std::string explanation;               // the first decision that went another way, if asked for
   std::optional<Explanation> decisions;  // all of them, and what each changes
 
   bool failed() const { return !report || report->verdict == oracle::Verdict::kFailed; }

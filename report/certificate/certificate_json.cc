@@ -240,7 +240,8 @@ void write_certificate_json(TextSink& sink, const Certificate& certificate, bool
   if (certificate.interrupted) json.member("interrupted", true);
   json.key("runs");
   json.begin_array();
-  for (const JudgedRun& run : certificate.runs) write_run(json, {&scene, certificate.prepared}, run, times);
+  for (const JudgedRun& run : certificate.runs)
+    write_run(json, {&scene, certificate.prepared}, run, times);
   json.end_array();
   json.end_object();
   json.finish();

@@ -41,6 +41,8 @@ class DecisionWriter {
     json_.begin_array();
     for (const FlippedDecision& flip : explanation_.flipped) write_flip(flip);
     json_.end_array();
+    json_.key("together");
+    write_effect(explanation_.together);
     json_.key("kernel");
     write_effect(explanation_.kernel);
     json_.end_object();

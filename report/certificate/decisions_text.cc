@@ -36,8 +36,9 @@ std::string group_text(const DecisionGroup& group, const Explanation& explanatio
   std::string text = std::string(name_of(group.predicate));
   text += group.light ? ", light " + light_name(named, *group.light) : ", all lights";
   if (group.part) text += ", polygon " + polygon_name(named, *group.part);
-  return text + ": " + counted(group.decisions, "decision") + " (" + counted(group.times, "answer") +
-         " of " + grouped(explanation.asked[static_cast<std::size_t>(group.predicate)]) + "), " +
+  return text + ": " + counted(group.decisions, "decision") + " (" +
+         counted(group.times, "answer") + " of " +
+         grouped(explanation.asked[static_cast<std::size_t>(group.predicate)]) + "), " +
          size_text(group);
 }
 
@@ -89,13 +90,13 @@ std::vector<std::string> decisions_text(const Explanation& explanation, const st
   if (explanation.flipped.empty() && !explanation.kernel.changes()) return notes;
   const auto matters = static_cast<std::uint64_t>(std::ranges::count_if(
       explanation.flipped, [](const FlippedDecision& flip) { return flip.effect.changes(); }));
-  notes.push_back("flipped alone on the exact run, largest first: " +
-                  grouped(explanation.flipped.size()) + " of " +
-                  grouped(explanation.decisions.size()) + "; " + grouped(matters) +
-                  (matters == 1 ? " changes" : " change") + " the result" +
-                  (explanation.cannot_be_flipped == 0
-                       ? ""
-                       : "; " + grouped(explanation.cannot_be_flipped) + " cannot be flipped alone"));
+  notes.push_back(
+      "flipped alone on the exact run, largest first: " + grouped(explanation.flipped.size()) +
+      " of " + grouped(explanation.decisions.size()) + "; " + grouped(matters) +
+      (matters == 1 ? " changes" : " change") + " the result" +
+      (explanation.cannot_be_flipped == 0
+           ? ""
+           : "; " + grouped(explanation.cannot_be_flipped) + " cannot be flipped alone"));
   std::vector<std::string> lights;
   for (const Light& light : named.scene->lights) lights.push_back(light.id);
   std::size_t told = 0;
@@ -106,7 +107,8 @@ std::vector<std::string> decisions_text(const Explanation& explanation, const st
                     ". " + to_sentence(decision, *named.prepared, kernel, lights));
   }
   if (told > kMostFlips) notes.push_back("  and " + grouped(told - kMostFlips) + " more (--json)");
-  notes.push_back(kernel + " itself " + effect_text(explanation.kernel, named));
+  notes.push_back("all of them together: " + effect_text(explanation.together, named));
+  notes.push_back(kernel + " itself: " + effect_text(explanation.kernel, named));
   return notes;
 }
 

@@ -43,9 +43,9 @@ struct ChangedSide {
 
 /// What a run changed of the result of the exact run.
 struct RunEffect {
-  bool ended = true;             // false: it had to be stopped, or could not be run
-  std::uint64_t changed = 0;     // sides of parts with a changed class or share
-  bool classes = false;          // of one of them a class appeared or vanished
+  bool ended = true;                // false: it had to be stopped, or could not be run
+  std::uint64_t changed = 0;        // sides of parts with a changed class or share
+  bool classes = false;             // of one of them a class appeared or vanished
   std::optional<ChangedSide> most;  // of the largest change
 
   bool changes() const { return !ended || changed > 0; }
@@ -62,8 +62,8 @@ struct DecisionGroup {
   std::optional<std::uint32_t> light;  // index into PreparedScene::lights; none: the scene BSP
   std::optional<std::uint32_t> part;   // of the point that is asked about; none: of a volume
   std::uint64_t decisions = 0, times = 0;
-  std::uint64_t on = 0;          // exactly zero
-  double least = 0, most = 0;    // ulps of the others
+  std::uint64_t on = 0;        // exactly zero
+  double least = 0, most = 0;  // ulps of the others
 };
 
 struct Explanation {
@@ -75,7 +75,8 @@ struct Explanation {
   /// Decisions that cannot be flipped alone: about vertices made in the scene BSP, which later
   /// spaces know by its planes, and planes that the exact run has not.
   std::uint64_t cannot_be_flipped = 0;
-  RunEffect kernel;  // of the rounded kernel's own run, if any flips were asked for
+  RunEffect together;  // of all that can be flipped, at once, if any flips were asked for
+  RunEffect kernel;    // of the rounded kernel's own run, likewise
 
   std::uint64_t times() const;
 };
