@@ -194,9 +194,14 @@ WatchedVolumeSpace::Vertex WatchedVolumeSpace::crossing(PlaneRef ref, PlaneRef e
       if (watch_->is_flipped(question(plane, *end))) return end->vertex;
     }
   }
+  // The new vertex is in the loop's plane, whatever planes made the ends.
+  const PlaneId support = support_at(from.support, false);
+  const auto end_of = [&](const Corner<Vertex>& corner) -> Corner<Exact::Vertex> {
+    const Corner<Exact::Vertex> own = exact_corner(corner);
+    return {own.before, own.vertex, own.after, support};
+  };
   Vertex vertex;
-  vertex.exact =
-      exact_.crossing(plane.exact, along.exact, leaving, exact_corner(from), exact_corner(to));
+  vertex.exact = exact_.crossing(plane.exact, along.exact, leaving, end_of(from), end_of(to));
   name_making(vertex, ref, edge, leaving, from.support);
   vertex.hash = hash_of_meeting(ref, edge, from.support);
   if (!rounded_ || !plane.tested.valid()) return vertex;
