@@ -1,19 +1,23 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
-# gnomon_compile_on_kernels(<run> <header> [ROUNDED_ONLY])
+# gnomon_compile_on_kernels(<run> <header> [ROUNDED_ONLY] [WATCHED])
 #
 # Writes a source for each kernel of kernels.def that instantiates the class template <run>, which <header>
 # defines, for the kernel's struct. The lists gnomon_kernel_runs and gnomon_cgal_kernel_runs of the calling
-# directory get the sources. ROUNDED_ONLY: exact kernels are left out.
+# directory get the sources. ROUNDED_ONLY: exact kernels are left out. WATCHED: one source more, for the kernel
+# of watched runs (kernel/watched/), which is in no list.
 #
 # With GNOMON_COMPILE_BY_ROOMS up to four runs of a kernel are compiled together: they read the same
 # headers and share most of the kernel's code, so that a further method costs its own code alone.
 set(gnomon_kernels_def "${PROJECT_SOURCE_DIR}/kernel/include/gnomon/kernel/kernels.def")
 
 function(gnomon_compile_on_kernels run header)
-  cmake_parse_arguments(PARSE_ARGV 2 arg "ROUNDED_ONLY" "" "")
+  cmake_parse_arguments(PARSE_ARGV 2 arg "ROUNDED_ONLY;WATCHED" "" "")
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${gnomon_kernels_def}")
   file(STRINGS "${gnomon_kernels_def}" lines REGEX "^GNOMON_(CGAL_)?KERNEL[(]")
   set(run_header "${header}")
+  if(arg_WATCHED)
+    list(APPEND lines "GNOMON_KERNEL(kWatched, \"watched\", WatchedKernel, \"kernel/watched/watched_kernel.h\", false, ")
+  endif()
   foreach(line IN LISTS lines)
     if(NOT line MATCHES
        "^GNOMON_(CGAL_)?KERNEL[(]k[A-Za-z0-9]+, \"([a-z0-9]+)\", ([A-Za-z0-9]+), \"([^\"]+)\", (true|false), ")

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 #include "algorithms/contour/by_contour.h"
 #include "algorithms/run/by_receiver.h"
@@ -16,6 +17,8 @@
 #include "algorithms/tiling/by_volumes.h"
 
 namespace gnomon {
+
+struct WatchedKernel;
 
 namespace {
 
@@ -43,6 +46,7 @@ constexpr std::array kMethods = {
            .summary = "needs no order",
            .source = "Slater 1992, tiles, in light space",
            .lights = {.point = true},
+           .explains = true,
            .threads = true},
     Method{.id = MethodId::kContour,
            .name = "contour",
@@ -68,13 +72,15 @@ constexpr std::array kMethods = {
            .source = "Nishita & Nakamae 1983; Chin & Feiner 1992",
            .lights = {.point = true, .area = true},
            .combines_lights = true,
+           .explains = true,
            .threads = true},
     Method{.id = MethodId::kMerged,
            .name = "merged",
            .summary = "two trees of all casters",
            .source = "Chin & Feiner 1992",
            .lights = {.area = true},
-           .combines_lights = true},
+           .combines_lights = true,
+           .explains = true},
     Method{.id = MethodId::kPieces,
            .name = "pieces",
            .summary = "the light cut by polygon planes, classes for each piece",
@@ -87,6 +93,7 @@ constexpr std::array kMethods = {
            .source = "Slater 1992, section 3",
            .lights = {.point = true},
            .combines_lights = true,
+           .explains = true,
            .overlays = true,
            .options = kBasicOptions,
            .counters = kBasicCounters},
@@ -96,6 +103,7 @@ constexpr std::array kMethods = {
            .source = "Slater 1992, section 5",
            .lights = {.point = true},
            .combines_lights = true,
+           .explains = true,
            .overlays = true,
            .options = kTilingOptions,
            .counters = kTilingCounters},
@@ -104,6 +112,7 @@ constexpr std::array kMethods = {
            .summary = "complete shadow volumes in two passes, no order",
            .source = "Chin & Feiner 1989, sections 4 and 8",
            .lights = {.point = true},
+           .explains = true,
            .options = kSvbspFullOptions,
            .counters = kSvbspFullCounters},
     Method{.id = MethodId::kTwoPass,
@@ -111,6 +120,7 @@ constexpr std::array kMethods = {
            .summary = "polygons clip each other as seen from the light, no order",
            .source = "Atherton, Weiler & Greenberg 1978; Crow 1977, class two",
            .lights = {.point = true},
+           .explains = true,
            .overlays = true,
            .threads = true,
            .options = kTwoPassOptions,
@@ -174,28 +184,48 @@ std::string method_names(LightKinds lights) {
   return names;
 }
 
-MethodFunction method_function(MethodId method, KernelId kernel) {
+namespace {
+
+/// pick.operator()<Run>() of the class template that runs a method.
+template <class Pick>
+MethodFunction run_of(MethodId method, const Pick& pick) {
   switch (method) {
     case MethodId::kSectors:
     case MethodId::kTwoPass:  // both run in cells of light space
-      return on_kernel<BySectors>(kernel);
+      return pick.template operator()<BySectors>();
     case MethodId::kContour:
-      return on_kernel<ByContour>(kernel);
+      return pick.template operator()<ByContour>();
     case MethodId::kSvbsp:
-      return on_kernel<BySvbsp>(kernel);
+      return pick.template operator()<BySvbsp>();
     case MethodId::kBasic:
     case MethodId::kTiling:
-      return on_kernel<ByVolumes>(kernel);
+      return pick.template operator()<ByVolumes>();
     case MethodId::kSvbspFull:
-      return on_kernel<BySvbspFull>(kernel);
+      return pick.template operator()<BySvbspFull>();
     case MethodId::kReceiver:
     case MethodId::kMerged:
     case MethodId::kPieces:
-      return on_kernel<ByReceiver>(kernel);
+      return pick.template operator()<ByReceiver>();
     case MethodId::kAutomatic:
       break;
   }
   return nullptr;
+}
+
+}  // namespace
+
+MethodFunction method_function(MethodId method, KernelId kernel) {
+  return run_of(method, [&]<template <class> class Run>() { return on_kernel<Run>(kernel); });
+}
+
+MethodFunction watched_function(MethodId method, KernelId) {
+  return run_of(method, []<template <class> class Run>() -> MethodFunction {
+    if constexpr (std::is_same_v<Run<WatchedKernel>, ByContour<WatchedKernel>>) {
+      return nullptr;
+    } else {
+      return &Run<WatchedKernel>::run;
+    }
+  });
 }
 
 }  // namespace gnomon

@@ -11,6 +11,9 @@ namespace gnomon {
 
 /// Null for a kernel that was left out of the build. Requires: not kAutomatic.
 MethodFunction method_function(MethodId method, KernelId kernel);
+/// The same on the kernel of watched runs (kernel/watched/), whatever the kernel. Null for a method
+/// that rounded kernels run in numbers of their own, so that no space sees their decisions.
+MethodFunction watched_function(MethodId method, KernelId kernel);
 
 }  // namespace gnomon
 

@@ -34,6 +34,8 @@ namespace {
 
 /// Up to so many parts the slow exact kernels run without being asked for.
 constexpr std::size_t kSmallScene = 200;
+/// So many decisions are flipped without being asked for.
+constexpr std::uint32_t kFlips = 30;
 /// Every kernel under the policies of the default set, however slow; all of them count.
 constexpr std::string_view kAllKernels = "all";
 
@@ -47,6 +49,7 @@ struct CertifyCommandOptions {
   double thickness = kDefaultThickness;
   double clearance = 0;
   std::optional<std::uint64_t> leaks;
+  std::optional<std::uint32_t> flips;
   bool strict = false, subset = false, explain = false, times = false;
   bool combined = false;
   std::string report_directory;
@@ -177,10 +180,9 @@ class CertifyRun {
     auto candidate = report::claims_of(loaded_.scene, loaded_.prepared, *result, run.name, false);
     auto& together = algorithm.paints() ? candidate.overlay : candidate.combined;
     if (options_.combined && !together) together.emplace();  // no light reaches anything
-    const bool explained =
-        options_.explain && !kernel.exact() && algorithm.point == MethodId::kSvbsp;
-    return judge(std::move(run), std::move(candidate),
-                 explained ? std::optional(kernel) : std::nullopt);
+    std::optional<ShadowOptions> explained;
+    if (options_.explain && !kernel.exact()) explained = options_of(kernel, algorithm);
+    return judge(std::move(run), std::move(candidate), explained);
   }
 
   void set_interrupted() { certificate_.interrupted = true; }
@@ -238,9 +240,9 @@ class CertifyRun {
     return seconds[seconds.size() / 2];
   }
 
-  /// `explained`: the kernel to explain, unless it is right.
+  /// `explained`: the run to explain, unless it is right.
   Expected<void> judge(report::JudgedRun run, Claims candidate,
-                       const std::optional<KernelChoice>& explained = std::nullopt) {
+                       const std::optional<ShadowOptions>& explained = std::nullopt) {
     oracle::CertifyOptions certify_options;
     certify_options.tolerance = options_.tolerance.value_or(certify_options.tolerance);
     certify_options.share_tolerance = options_.tolerance;
@@ -256,10 +258,11 @@ class CertifyRun {
     auto report = oracle::certify(answer_, candidate, certify_options);
     progress_.clear();
     if (!report) return tl::unexpected(report.error());
-    const bool stopped = report->interrupted;
+    bool stopped = report->interrupted;
     run.report = std::move(*report);
-    if (explained && run.report->verdict != oracle::Verdict::kIdentical) {
-      run.explanation = first_difference(*explained);
+    if (explained && !stopped && run.report->verdict != oracle::Verdict::kIdentical) {
+      explain_run(run, *explained);
+      stopped = interrupted();
     }
     certificate_.runs.push_back(std::move(run));
     if (!options_.report_directory.empty()) kept_.push_back(std::move(candidate));
@@ -267,21 +270,23 @@ class CertifyRun {
     return {};
   }
 
-  std::string first_difference(const KernelChoice& kernel) {
-    progress_.set_label("explaining " + kernel.name());
-    ShadowOptions shadow_options = options_of(kernel, {.point = MethodId::kSvbsp});
-    // The lock-step knows the point and directional lights alone.
-    std::erase_if(shadow_options.lights,
-                  [&](std::uint32_t light) { return loaded_.prepared.lights[light].has_area(); });
-    if (shadow_options.lights.empty())
-      return "not looked for: it is explained for point and directional lights alone";
-    const auto difference = explain(loaded_.prepared, shadow_options);
+  void explain_run(report::JudgedRun& run, const ShadowOptions& shadow_options) {
+    progress_.set_label("explaining " + run.name);
+    auto found = explain(loaded_.prepared, shadow_options,
+                         {.flips = options_.flips.value_or(kFlips), .only_first = false});
     progress_.clear();
-    if (!difference) return to_string(difference.error());
-    if (!*difference) return "none: every decision was right, only vertices were rounded";
-    std::vector<std::string> names;
-    for (const Light& light : loaded_.scene.lights) names.push_back(light.id);
-    return to_sentence(**difference, loaded_.prepared, kernel.name(), names);
+    if (!found) {
+      run.explanation = to_string(found.error());
+      return;
+    }
+    if (found->first) {
+      std::vector<std::string> names;
+      for (const Light& light : loaded_.scene.lights) names.push_back(light.id);
+      run.explanation = to_sentence(*found->first, loaded_.prepared, run.kernel, names);
+    } else {
+      run.explanation = "none: every decision was right, only vertices were rounded";
+    }
+    run.decisions = std::move(*found);
   }
 
   const CertifyCommandOptions& options_;
@@ -439,7 +444,7 @@ void add_certify_command(CLI::App& app, Action& action) {
       ->type_name("K");
   add_algorithm_option(command, options->algorithm, "How kernels find shadows.",
                        "both: sectors and receiver, then svbsp and merged; all: every method;\n"
-                       "auto: sectors, or svbsp with --explain, and receiver");
+                       "auto: sectors and receiver");
   repeatable(command.add_option("--candidate", options->candidates,
                                 "A result file to judge instead (repeatable)"))
       ->type_name("RESULT");
@@ -478,9 +483,16 @@ void add_certify_command(CLI::App& app, Action& action) {
       ->check(not_negative())
       ->type_name("F")
       ->default_str(report::shortest(kDefaultThickness));
-  command.add_flag("--explain", options->explain,
-                   "Name the first decision in which a failing kernel differs from the exact one\n"
-                   "(svbsp)");
+  CLI::Option* explain_option = command.add_flag(
+      "--explain", options->explain,
+      "Say which decisions of a kernel that is not identical differ from the exact ones, and\n"
+      "which change the result (" +
+          methods_that(&Method::explains) + ")");
+  command
+      .add_option("--flips", options->flips,
+                  "Decisions that --explain flips one by one, largest first [30]")
+      ->needs(explain_option)
+      ->type_name("N");
   command
       .add_option("--report", options->report_directory,
                   "Write verdict.json, table.txt and pictures to this directory")

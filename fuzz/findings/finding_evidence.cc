@@ -206,23 +206,19 @@ class EvidenceSearch {
       return;
     }
     if (prepared_.lights.empty()) return;
-    if (prepared_.lights[light_].has_area()) {
-      note = fmt::format(
-          "Decisions are compared for point and directional lights; this failure is under "
-          "the area light '{}', and the place below is what there is.",
-          evidence_.light);
-      return;
-    }
     ShadowOptions options = shadow_options(*subject_);
     options.output.exact_fractions = false;
-    options.method.point = MethodId::kSvbsp;
     options.lights = {light_};
-    const auto difference = explain(prepared_, options);
-    if (!difference) {
-      note = "The decisions could not be compared: " + to_string(difference.error());
+    const bool has_area = prepared_.lights[light_].has_area();
+    const MethodId own = has_area ? subject_->area_algorithm : subject_->algorithm;
+    const bool is_followed = method_info(own).explains;
+    if (!is_followed) (has_area ? options.method.area : options.method.point) = followed(has_area);
+    const auto found = explain(prepared_, options, {.flips = 0, .only_first = true});
+    if (!found) {
+      note = "The decisions could not be compared: " + to_string(found.error());
       return;
     }
-    if (!*difference) {
+    if (!found->first) {
       note =
           "Every decision of the run agrees with the exact one: what is wrong is where the kernel "
           "puts "
@@ -230,14 +226,19 @@ class EvidenceSearch {
     } else {
       std::vector<std::string> lights;
       for (const Light& light : scene_.lights) lights.push_back(light.id);
-      evidence_.decision = to_sentence(**difference, prepared_, subject_->kernel.name(), lights);
+      evidence_.decision = to_sentence(*found->first, prepared_, subject_->kernel.name(), lights);
     }
-    if (subject_->algorithm != MethodId::kSvbsp) {
+    if (!is_followed) {
       note += fmt::format(
-          "{}The answer that failed is that of `{}`; decisions are those of `svbsp` on the "
-          "same kernel, whose order can be followed.",
-          note.empty() ? "" : " ", method_info(subject_->algorithm).name);
+          "{}The answer that failed is that of `{}`; decisions are those of `{}` on the same "
+          "kernel, which asks it for all of them.",
+          note.empty() ? "" : " ", method_info(own).name, method_info(followed(has_area)).name);
     }
+  }
+
+  /// In place of a method whose decisions cannot be followed.
+  static MethodId followed(bool has_area) {
+    return has_area ? MethodId::kReceiver : MethodId::kSvbsp;
   }
 
   void paint() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Kernels with a mistake (mistake.h): a kernel of coordinates as it is, but for what the mistake
-// says. They are wrapped around the sound kernel, as kernel_pair.h wraps two, and add what the
+// says. They are wrapped around the sound kernel, as kernel/watched/ wraps two, and add what the
 // algorithms let a space have besides (scene_bsp.h, svbsp_run.h, split.h).
 #ifndef GNOMON_FUZZ_MISTAKES_MUTANT_SPACE_H
 #define GNOMON_FUZZ_MISTAKES_MUTANT_SPACE_H

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gnomon/algorithms/explain.h"
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
@@ -33,7 +34,8 @@ struct JudgedRun {
   double cpu_seconds = 0;
   std::string error;  // why there is no report; empty if there is one
   std::optional<oracle::Report> report;
-  std::string explanation;  // the first decision that went another way, if asked for
+  std::string explanation;               // the first decision that went another way, if asked for
+  std::optional<Explanation> decisions;  // all of them, and what each changes
 
   bool failed() const { return !report || report->verdict == oracle::Verdict::kFailed; }
 };

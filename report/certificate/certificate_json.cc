@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "report/certificate/certificate.h"
+#include "report/certificate/decisions.h"
 #include "report/json/json_writer.h"
 
 namespace gnomon::report {
@@ -158,7 +159,8 @@ void write_wrong_polygons(JsonWriter& json, const Scene& scene, const oracle::Re
   json.end_array();
 }
 
-void write_run(JsonWriter& json, const Scene& scene, const JudgedRun& run, bool times) {
+void write_run(JsonWriter& json, const NamedScene& named, const JudgedRun& run, bool times) {
+  const Scene& scene = *named.scene;
   json.begin_object();
   if (run.foreign) {
     json.member("candidate", run.name);
@@ -212,6 +214,10 @@ void write_run(JsonWriter& json, const Scene& scene, const JudgedRun& run, bool 
     write_wrong_polygons(json, scene, report);
   }
   if (!run.explanation.empty()) json.member("first_difference", run.explanation);
+  if (run.decisions) {
+    json.key("decisions");
+    write_decisions(json, *run.decisions, run.kernel, named);
+  }
   json.end_object();
 }
 
@@ -234,7 +240,8 @@ void write_certificate_json(TextSink& sink, const Certificate& certificate, bool
   if (certificate.interrupted) json.member("interrupted", true);
   json.key("runs");
   json.begin_array();
-  for (const JudgedRun& run : certificate.runs) write_run(json, scene, run, times);
+  for (const JudgedRun& run : certificate.runs)
+    write_run(json, {&scene, certificate.prepared}, run, times);
   json.end_array();
   json.end_object();
   json.finish();

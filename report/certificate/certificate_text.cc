@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "report/certificate/certificate.h"
+#include "report/certificate/decisions.h"
 #include "report/text/number_text.h"
 #include "report/text/table.h"
 
@@ -98,7 +99,7 @@ std::vector<std::string> row(const JudgedRun& run, double facing_area,
           time};
 }
 
-void add_notes(const JudgedRun& run, TextTable& table) {
+void add_notes(const JudgedRun& run, const NamedScene& named, TextTable& table) {
   if (!run.error.empty()) {
     table.add_note(run.error);
     return;
@@ -150,6 +151,11 @@ void add_notes(const JudgedRun& run, TextTable& table) {
   }
   for (const std::string& note : report.notes) table.add_note(note);
   if (!run.explanation.empty()) table.add_note("first differing decision: " + run.explanation);
+  if (run.decisions) {
+    for (std::string& note : decisions_text(*run.decisions, run.kernel, named)) {
+      table.add_note(std::move(note));
+    }
+  }
 }
 
 /// Whole sentences below the table.
@@ -272,7 +278,7 @@ std::string certificate_text(const Certificate& certificate) {
       if (algorithm.empty()) algorithm = run.algorithm;
       if (run.algorithm != algorithm) break;
       table.add_row(row(run, certificate.facing_area, reference));
-      add_notes(run, table);
+      add_notes(run, {certificate.scene, certificate.prepared}, table);
     }
     if (algorithms.size() > 1) text += "by " + algorithm + ":\n";
     text += table.to_string();

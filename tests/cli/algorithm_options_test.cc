@@ -16,6 +16,7 @@ namespace gnomon::test {
 namespace {
 
 using testing::AllOf;
+using testing::AnyOf;
 using testing::Each;
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -87,7 +88,6 @@ TEST_F(AlgorithmOptions, WhatCannotBeIsRefusedInOneLine) {
   expect_refused("shadows", {"--algorithm", "sectors", "--combined"}, {"--combined", "svbsp"});
   expect_refused("shadows", {"--algorithm", "sectors", "--no-merge"}, {"--no-merge", "svbsp"});
   expect_refused("shadows", {"--algorithm", "sectors", "--no-prefix"}, {"--no-prefix", "svbsp"});
-  expect_refused("certify", {"--algorithm", "sectors", "--explain"}, {"--explain", "svbsp"});
   // What tells no fragments is asked for none.
   for (const std::string option : {"--fragments", "--exact-loops", "--illuminate"}) {
     expect_refused("shadows", {"--algorithm", "contour", option}, {option, "contour", "sectors"});
@@ -209,9 +209,23 @@ TEST_F(AlgorithmOptions, RenderShowsTheFragmentsOfBoth) {
   expect_refused("render", {"--candidate", answer, "--algorithm", "both"}, {"--candidate"});
 }
 
-TEST_F(AlgorithmOptions, ExplainingTakesTheAlgorithmThatIsExplained) {
-  const RunResult done = run("certify", {"--kernel", "float", "--explain"});
-  EXPECT_THAT(done.out, AllOf(HasSubstr("by svbsp"), Not(HasSubstr("sectors"))));
+TEST_F(AlgorithmOptions, EveryMethodThatAsksKernelsIsExplained) {
+  for (const std::string method :
+       {"sectors", "svbsp", "receiver", "basic", "tiling:tiles=4", "svbsp-full", "two-pass"}) {
+    const RunResult done = run("certify", {"--kernel", "float", "--algorithm", method, "--explain",
+                                           "--flips", "3", "--json", "-"});
+    EXPECT_THAT(done.status, AnyOf(0, 1)) << method;
+    EXPECT_EQ(done.err, "") << method;
+    EXPECT_THAT(done.out, AllOf(HasSubstr("\"first_difference\": \""),
+                                HasSubstr("\"decisions\": {"), HasSubstr("\"asked\": {")))
+        << method;
+  }
+}
+
+TEST_F(AlgorithmOptions, FlipsAreACountOfWhatIsExplained) {
+  expect_refused("certify", {"--flips", "3"}, {"--flips", "--explain"});
+  expect_refused("certify", {"--explain", "--flips", "-1"}, {"--flips", "-1"});
+  expect_refused("certify", {"--explain", "--flips", "many"}, {"--flips", "many"});
 }
 
 TEST_F(AlgorithmOptions, StatisticsNameThePhases) {

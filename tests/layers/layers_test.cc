@@ -62,7 +62,7 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"coordinate", {"signs", "concept"}},
         {"cgal", {"signs", "concept"}},
         {"implicit", {"signs", "numbers", "concept"}},
-        {"pair", {"concept"}}}},
+        {"watched", {"signs", "concept", "implicit"}}}},
       {"scene",
        {{"base", {}},
         {"model", {"base"}},
