@@ -111,9 +111,9 @@ struct LightRays {
   }
 
   /// Certified: what an integral may be off by before it is found from sharper values. Bounds count
-  /// the worst of all roundings: where lines of lamps are off by so much, integrals are off by less
-  /// than a tenth of it; those of suns, whose bounds are less sharp, by less than a hundredth.
-  double rough() const { return (directional ? 1024 : 256) * Ball::kUnit; }
+  /// the worst of all roundings: where they say so much, integrals are off by less than a tenth of
+  /// it, most by far less. A sun's bounds are less sharp: they come near this for usual polygons.
+  double rough() const { return (directional ? 512 : 256) * Ball::kUnit; }
 
   std::optional<ExactValues> exact;  // certified
   bool exact_rays = false;  // certified, of a lamp: rays are exactly their integers, scaled
