@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -464,11 +465,26 @@ class SceneCheck {
     options.fragments = options.exact_fractions = true;
     options.sides = &classified.sides;
     report::write_result_json(sink, scene_, *prepared_, classified.result, options);
-    const Expected<Claims> read = parse_claims(sink.text(), "result.json", scene_);
+    // Who made it is said before all that the judges read: most kernels write the same rest.
+    const std::size_t rest = sink.text().find("\"dropped\"");
+    std::string said = sink.text().substr(rest == std::string::npos ? 0 : rest);
+    if (passed_texts_.contains(said)) return;
+    const std::size_t failures = report_.failures.size();
+    judge_written_doubles(sink.text(), name);
+    if (report_.failures.size() == failures) passed_texts_.insert(std::move(said));
+  }
+
+  /// Passing is all that is asked: what rounding excuses has no need of widths, areas and places.
+  void judge_written_doubles(const std::string& text, const std::string& name) {
+    const Expected<Claims> read = parse_claims(text, "result.json", scene_);
     if (!read) {
       return add({Property::kWritten, name, "unreadable", {}, {}, to_string(read.error())});
     }
-    const Expected<oracle::Report> report = judged_->judge(*read, {});
+    oracle::CertifyOptions quick;
+    quick.measure_rounding = false;
+    quick.exact_limit = quick.most_regions = 0;
+    Expected<oracle::Report> report = judged_->judge(*read, quick);
+    if (report && report->verdict == oracle::Verdict::kFailed) report = judged_->judge(*read, {});
     if (!report) return add_error(report.error(), name);
     if (report->verdict == oracle::Verdict::kFailed) {
       Failure failure{Property::kWritten, name, "certify", {}, {}, report->reason};
@@ -513,6 +529,7 @@ class SceneCheck {
   std::optional<JudgedScene> judged_;
   const Subject* first_exact_ = nullptr;
   ShadowResult first_;
+  std::set<std::string> passed_texts_;  // of results written as doubles
 };
 
 }  // namespace

@@ -18,16 +18,32 @@ constexpr long double kReach = 1.08L;
 constexpr int kSides = 16;                // of the polygon around what is near a border: 2 in 100
 constexpr std::size_t kMostPieces = 500;  // what needs more is not near borders alone
 
+struct Turn {
+  long double sine = 0, cosine = 1;
+};
+
+/// From the normal of a border to those of the sides around it: the two along it first, which cut
+/// most.
+const std::array<Turn, kSides>& turns_to_sides() {
+  static const std::array<Turn, kSides> turns = [] {
+    std::array<Turn, kSides> all;
+    for (int i = 0; i < kSides; ++i) {
+      const int k = i < 2 ? i * kSides / 2 : (i - 1) + (i - 1) / (kSides / 2);
+      const long double angle = 2 * std::acos(-1.0L) * k / kSides;
+      all[i] = {std::sin(angle), std::cos(angle)};
+    }
+    return all;
+  }();
+  return turns;
+}
+
 /// All that is within a distance of a border, and a little more at its ends.
 std::vector<PlanarLine> surroundings(const Border& border, long double distance) {
   PlanarLine line = line_through(border.a, border.b);
   if (line.a == 0 && line.b == 0) line.a = 1;
   std::vector<PlanarLine> bounds;
-  // The two sides along the border first: they cut most.
-  for (int i = 0; i < kSides; ++i) {
-    const int k = i < 2 ? i * kSides / 2 : (i - 1) + (i - 1) / (kSides / 2);
-    const long double angle = 2 * std::acos(-1.0L) * k / kSides;
-    const long double sine = std::sin(angle), cosine = std::cos(angle);
+  bounds.reserve(kSides);
+  for (const auto& [sine, cosine] : turns_to_sides()) {
     const PlanarLine outward{cosine * line.a - sine * line.b, sine * line.a + cosine * line.b, 0};
     const long double farthest = std::max(outward.at(border.a), outward.at(border.b));
     bounds.push_back({-outward.a, -outward.b, farthest + distance});
@@ -74,6 +90,15 @@ long double rounding_radius(const Scene& scene, const PreparedScene& prepared,
 
 long double rounding_reach(long double radius) { return kReach * radius; }
 
+bool are_near_one(const PlanarLoop& points, std::span<const Border> borders, long double radius) {
+  if (!(radius > 0) || points.empty() || !is_finite(points)) return false;
+  const long double reach = rounding_reach(radius);
+  return std::ranges::any_of(borders, [&](const Border& border) {
+    return std::ranges::all_of(
+        points, [&](const PlanarPoint& point) { return distance_to(border, point) <= reach; });
+  });
+}
+
 bool is_rounding(long double distance, long double radius) {
   return radius > 0 && distance <= rounding_reach(radius);
 }
@@ -86,6 +111,7 @@ bool is_rounding(const PlanarLoop& error, std::span<const Border> borders, long 
   for (const Border& border : borders) {
     if (box.meets(box_of({border.a, border.b}))) near.push_back(border);
   }
+  if (are_near_one(error, near, radius)) return true;
   const PlanarPoint middle = middle_of(error);
   const auto holds_middle = [&](const Border& border) {
     return distance_to(border, middle) <= reach;

@@ -28,6 +28,10 @@ struct Border {
   PlanarPoint a, b;
 };
 
+/// Whether all of the points lie within `radius` of one and the same border. Their hull does then,
+/// since what is so near a segment is convex.
+bool are_near_one(const PlanarLoop& points, std::span<const Border> borders, long double radius);
+
 /// Whether a convex, counter-clockwise piece of error lies within `radius` of some of the borders.
 bool is_rounding(const PlanarLoop& error, std::span<const Border> borders, long double radius);
 

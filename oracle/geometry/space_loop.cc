@@ -74,6 +74,33 @@ std::vector<Loop> without(std::vector<Loop> loops, std::span<const HalfSpace> bo
   return left;
 }
 
+PlaneView::PlaneView(const RationalPoint& normal) {
+  int axis = 0;
+  while (axis < 2 && normal[axis] == 0) ++axis;
+  const bool above = normal[axis] > 0;
+  x_ = (axis + (above ? 1 : 2)) % 3;
+  y_ = (axis + (above ? 2 : 1)) % 3;
+  // An area vector along the normal is told by one of its components.
+  scale_ = dot(normal, normal) / (2 * abs(normal[axis]));
+}
+
+int PlaneView::turn(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) const {
+  const mpq_class left = (b[x_] - a[x_]) * (c[y_] - a[y_]);
+  const mpq_class right = (b[y_] - a[y_]) * (c[x_] - a[x_]);
+  const int order = cmp(left, right);
+  return order > 0 ? 1 : order < 0 ? -1 : 0;
+}
+
+mpq_class PlaneView::area(const Loop& loop) const {
+  mpq_class sum;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const RationalPoint& before = loop[(i + loop.size() - 1) % loop.size()];
+    const RationalPoint& after = loop[(i + 1) % loop.size()];
+    sum += loop[i][x_] * (after[y_] - before[y_]);
+  }
+  return sum * scale_;
+}
+
 mpq_class area_along(const RationalPoint& normal, const Loop& loop) {
   RationalPoint sum;
   for (std::size_t i = 1; i + 1 < loop.size(); ++i) {

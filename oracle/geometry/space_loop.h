@@ -40,6 +40,24 @@ Loop cut(const Loop& loop, const HalfSpace& half);
 /// overlap if the given ones do not. No half-spaces: nothing is left.
 std::vector<Loop> without(std::vector<Loop> loops, std::span<const HalfSpace> bounds);
 
+/// A plane seen along an axis that it does not contain: turns and areas of what lies in it take two
+/// coordinates of three.
+class PlaneView {
+ public:
+  /// Requires: a normal that is not zero.
+  explicit PlaneView(const RationalPoint& normal);
+
+  /// 1 if the way from a over b to c turns left, seen from where the normal points; -1 right; 0 if
+  /// they are on one line. Requires: points in one plane with the normal.
+  int turn(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) const;
+  /// area_along() the normal. Requires: a loop in one plane with it.
+  mpq_class area(const Loop& loop) const;
+
+ private:
+  int x_ = 0, y_ = 1;  // coordinates in which left is left
+  mpq_class scale_;    // from twice the area seen to that along the normal
+};
+
 /// Area along a normal: half of normal . area vector. Signed by the loop's orientation.
 mpq_class area_along(const RationalPoint& normal, const Loop& loop);
 mpq_class area_along(const RationalPoint& normal, const std::vector<Loop>& loops);

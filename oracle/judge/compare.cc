@@ -327,6 +327,12 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells, Excuses& e
   for (std::size_t r = 0; r < faces.size(); ++r) {
     if (faces[r].empty()) continue;
     ++result_.regions;
+    if (!options_.measure_rounding &&
+        std::ranges::all_of(faces[r], [&](std::uint32_t f) { return rounding.contains(f); })) {
+      ++result_.rounding_regions;
+      for (std::uint32_t face : faces[r]) excuses.rounding[face] = true;
+      continue;
+    }
     ErrorRegion region = examine(faces[r], boundaries[r], cells);
     result_.width = greater_of(result_.width, region.witness.width);
     if (region.ill_conditioned) {

@@ -64,7 +64,6 @@ FamilyShades::FamilyShades(const PreparedScene& scene, LightVolumes& light,
       side_(side),
       frame_(scene.geometry, grid_loop(scene, parts.front())) {
   PlanarLoop all;
-  long double greatest = 0;
   for (const std::uint32_t part : parts_) {
     PlanarLoop loop;
     for (const Integers3& vertex : grid_loop(scene, part)) {
@@ -72,18 +71,17 @@ FamilyShades::FamilyShades(const PreparedScene& scene, LightVolumes& light,
     }
     for (const VertexId vertex : scene.loop(scene.parts[part])) {
       for (const double coordinate : scene.geometry.positions[vertex]) {
-        greatest = std::max(greatest, std::fabs(static_cast<long double>(coordinate)));
+        greatest_ = std::max(greatest_, std::fabs(static_cast<long double>(coordinate)));
       }
     }
-    turned_.push_back(area_of(loop) < 0);
-    if (turned_.back()) std::ranges::reverse(loop);
+    if (area_of(loop) < 0) std::ranges::reverse(loop);
     area_ += area_of(loop);
     all.insert(all.end(), loop.begin(), loop.end());
     lines_.push_back(lines_of(loop));
     loops_.push_back(std::move(loop));
   }
   // A line is off by less than its distance from the family's points; those that matter meet it.
-  error_ = 4 * kPlanarError * greatest;
+  error_ = 4 * kPlanarError * greatest_;
   const PlanarBox box = box_of(all);
   const long double margin = (box.high.x - box.low.x) + (box.high.y - box.low.y) + 1024 * error_;
   surroundings_ = {{box.low.x - margin, box.low.y - margin},

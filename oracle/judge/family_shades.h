@@ -65,10 +65,10 @@ class FamilyShades {
   /// Counter-clockwise, in order of the parts.
   const std::vector<PlanarLoop>& loops() const { return loops_; }
   const std::vector<std::vector<PlanarLine>>& lines() const { return lines_; }
-  /// Whether the loop of that part, the first being 0, runs the other way than the part's.
-  bool is_turned(std::size_t part) const { return turned_[part]; }
   long double area() const { return area_; }
-  /// Of a value of a line at a point of the family.
+  /// Distance from 0 of a coordinate of the family.
+  long double greatest() const { return greatest_; }
+  /// Of a value of a line that was made of planes at a point of the family.
   long double error() const { return error_; }
 
   /// What is in shadow, or in penumbra under an area light.
@@ -93,9 +93,8 @@ class FamilyShades {
   PlaneFrame frame_;
   std::vector<PlanarLoop> loops_;
   std::vector<std::vector<PlanarLine>> lines_;
-  std::vector<bool> turned_;
   PlanarLoop surroundings_;
-  long double area_ = 0, error_ = 0;
+  long double area_ = 0, greatest_ = 0, error_ = 0;
   std::optional<Shades> partly_, wholly_;
   std::optional<FlatHalf> before_light_;
 };

@@ -6,6 +6,7 @@
 #define GNOMON_ORACLE_JUDGE_ROUNDING_CELLS_H
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -30,13 +31,17 @@ class RoundingCells {
 
  private:
   PlanarPoint at(const ChartPoint& point) const { return frame_.at(chart_.lift(point)); }
+  const PlanarPoint& at_vertex(std::uint32_t vertex);
+  const std::vector<Border>& claimed_borders();
 
   const PlaneFrame& frame_;
   const Chart& chart_;
   const Overlay& overlay_;
   const Edges& claimed_;
   long double radius_;
-  std::vector<Border> claimed_borders_;  // made when first asked for
+  // Made when first asked for.
+  std::vector<Border> claimed_borders_;
+  std::vector<std::optional<PlanarPoint>> places_;  // by vertex
 };
 
 }  // namespace gnomon::oracle

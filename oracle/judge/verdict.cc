@@ -230,6 +230,7 @@ void Certifier::compare_all() {
   comparison_options.width_resolution = report_.width / 16;
   comparison_options.exact_limit = options_.exact_limit;
   comparison_options.most_regions = options_.most_regions;
+  comparison_options.measure_rounding = options_.measure_rounding;
   comparison_options.share_tolerance = report_.share_tolerance;
   comparison_options.double_tolerance = report_.tolerance;
   // Fragments' points and as many random ones, each against every part.

@@ -135,23 +135,17 @@ void WitnessChecker::check_exact_family(Family& family, std::vector<Piece>& piec
 
 void WitnessChecker::check_exact_tiling(Family& family, std::vector<Piece>& pieces) {
   const RationalPoint& normal = light_->solid(family.parts.front()).normal;
+  const PieceSides sides(normal, family.shades.greatest());
   mpq_class whole, sum;
+  std::vector<Piece> parts;
   for (const std::uint32_t part : family.parts) {
+    parts.emplace_back(part, light_->solid(part).loop, normal);
+    parts.back().lay(family.shades.frame());
     whole += area_along(normal, light_->solid(part).loop);
   }
   for (Piece& piece : pieces) {
     sum += piece.area;
-    const auto holds_piece = [&](std::size_t p) {
-      const std::vector<PlanarLine>& lines = family.shades.lines()[p];
-      const Solid& solid = light_->solid(family.parts[p]);
-      // Lines and walls of a part that looks the other way are in another order.
-      if (lines.size() != solid.walls.size() || family.shades.is_turned(p)) return false;
-      for (std::size_t w = 0; w < lines.size(); ++w) {
-        if (!is_inside(piece, lines[w], solid.walls[w], family)) return false;
-      }
-      return true;
-    };
-    if (std::ranges::any_of(std::views::iota(std::size_t{0}, family.parts.size()), holds_piece)) {
+    if (std::ranges::any_of(parts, [&](const Piece& part) { return sides.holds(part, piece); })) {
       continue;
     }
     mpq_class inside;
@@ -199,18 +193,8 @@ bool WitnessChecker::is_inside(const Piece& piece, const PlanarLine& line, const
 
 bool WitnessChecker::overlap(Piece& a, Piece& b, const Family& family) const {
   const RationalPoint& normal = light_->solid(family.parts.front()).normal;
-  const auto beyond = [&](Piece& own, const Piece& other) {
-    const std::vector<HalfSpace>& walls = own.walls_of(normal);
-    for (std::size_t i = 0; i < walls.size(); ++i) {
-      const PlanarLine line = own.line_of(i);
-      if (is_outside(other, line, walls[i], family)) return true;
-    }
-    return false;
-  };
-  if (a.walls_of(normal).size() == a.loop.size() && b.walls_of(normal).size() == b.loop.size() &&
-      (beyond(a, b) || beyond(b, a))) {
-    return false;
-  }
+  const PieceSides sides(normal, family.shades.greatest());
+  if (sides.are_apart(a, b) || sides.are_apart(b, a)) return false;
   Loop rest = a.loop;
   for (const HalfSpace& wall : b.walls_of(normal)) {
     rest = cut(rest, wall);

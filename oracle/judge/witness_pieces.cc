@@ -102,7 +102,7 @@ Piece::Piece(std::uint32_t of_part, space::Loop own, const RationalPoint& normal
 }
 
 void Piece::measure(const RationalPoint& normal) {
-  area = area_along(normal, loop);
+  area = space::PlaneView(normal).area(loop);
   if (area < 0) {
     std::reverse(loop.begin(), loop.end());
     area = -area;
@@ -124,15 +124,13 @@ void Piece::lay(const PlaneFrame& frame) {
   // A loop may turn the other way than the frame's plane.
   flat_turned_ = area_of(flat) < 0;
   if (flat_turned_) std::ranges::reverse(flat);
-  flat_lines = lines_of(flat);
   flat_box = box_of(flat);
 }
 
-PlanarLine Piece::line_of(std::size_t edge) const {
-  const std::size_t size = flat.size();
-  // Edge i runs from vertex i to the next; turned, it starts where it ended.
-  const std::size_t from = flat_turned_ ? (2 * size - 2 - edge) % size : edge;
-  return line_through(flat[from], flat[(from + 1) % size]);
+double Piece::reach() const {
+  double most = 0;
+  for (int k = 0; k < 3; ++k) most = std::max({most, std::fabs(low[k]), std::fabs(high[k])});
+  return most;
 }
 
 bool Piece::overlaps_box_of(const Piece& other) const {
@@ -142,12 +140,32 @@ bool Piece::overlaps_box_of(const Piece& other) const {
   return true;
 }
 
+namespace {
+
+/// Never turns right, and goes up and comes down once each: edges' directions go around once.
+bool turns_left_once(const space::Loop& loop, const space::PlaneView& view) {
+  int changes = 0;
+  bool first_up = false, up = false;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const RationalPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    if (a == b || view.turn(a, b, loop[(i + 2) % loop.size()]) < 0) return false;
+    const bool next_up = a < b;
+    changes += i > 0 && next_up != up;
+    if (i == 0) first_up = next_up;
+    up = next_up;
+  }
+  changes += up != first_up;
+  return changes == 2;
+}
+
+}  // namespace
+
 bool Piece::is_convex(const RationalPoint& normal) const {
+  const space::PlaneView view(normal);
+  if (turns_left_once(loop, view)) return true;
   for (std::size_t v = 0; v < loop.size(); ++v) {
-    const RationalPoint &a = loop[v], &b = loop[(v + 1) % loop.size()];
-    const RationalPoint inward = cross(normal, minus(b, a));
     for (const RationalPoint& point : loop) {
-      if (dot(inward, minus(point, a)) < 0) return false;
+      if (view.turn(loop[v], loop[(v + 1) % loop.size()], point) < 0) return false;
     }
   }
   return true;
@@ -176,6 +194,44 @@ const std::vector<HalfSpace>& Piece::walls_of(const RationalPoint& normal) {
     if (dot(inward, inward) != 0) walls_.emplace_back(std::move(inward), a);
   }
   return walls_;
+}
+
+int PieceSides::side(const Piece& a, std::size_t edge, const Piece& b, std::size_t v) const {
+  const std::size_t next = edge + 1 < a.loop.size() ? edge + 1 : 0;
+  const PlanarPoint &from = a.flat_at(edge), &to = a.flat_at(next), &at = b.flat_at(v);
+  const long double ux = to.x - from.x, uy = to.y - from.y, vx = at.x - from.x, vy = at.y - from.y;
+  const long double turn = ux * vy - uy * vx;
+  // Coordinates are off by e = kPlanarError M at most and their differences by 2 e, so that the two
+  // products are by 2 e (|ux| + |uy| + |vx| + |vy|) + 8 e^2 together. What sums and products round
+  // off is less than 2^-62 of |u| |v|, where |u| is at most 4 sqrt(2) M: a second such term is
+  // more.
+  const long double e = kPlanarError * std::max({reach_, static_cast<long double>(a.reach()),
+                                                 static_cast<long double>(b.reach())});
+  const long double error =
+      4 * e * (std::fabs(ux) + std::fabs(uy) + std::fabs(vx) + std::fabs(vy) + 4 * e);
+  if (turn > error) return 1;
+  if (turn < -error) return -1;
+  const RationalPoint& point = b.loop[v];
+  if (point == a.loop[edge] || point == a.loop[next]) return 0;
+  return view_.turn(a.loop[edge], a.loop[next], point);
+}
+
+bool PieceSides::are_apart(const Piece& a, const Piece& b) const {
+  for (std::size_t edge = 0; edge < a.loop.size(); ++edge) {
+    bool beyond = true;
+    for (std::size_t v = 0; v < b.loop.size() && beyond; ++v) beyond = side(a, edge, b, v) <= 0;
+    if (beyond && a.loop[edge] != a.loop[(edge + 1) % a.loop.size()]) return true;
+  }
+  return false;
+}
+
+bool PieceSides::holds(const Piece& a, const Piece& b) const {
+  for (std::size_t edge = 0; edge < a.loop.size(); ++edge) {
+    for (std::size_t v = 0; v < b.loop.size(); ++v) {
+      if (side(a, edge, b, v) < 0) return false;
+    }
+  }
+  return true;
 }
 
 namespace {

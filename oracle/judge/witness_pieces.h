@@ -57,7 +57,6 @@ struct Piece {
 
   // The loop in the frame of the plane, once it is laid there.
   PlanarLoop flat;
-  std::vector<PlanarLine> flat_lines;
   PlanarBox flat_box;
 
   /// Requires: a loop in the plane of the part, whose normal is given.
@@ -69,12 +68,16 @@ struct Piece {
   Piece(std::uint32_t of_part, space::Loop own, const RationalPoint& normal);
 
   void lay(const PlaneFrame& frame);
-  /// The line of an edge of the loop in the frame, with the piece inside.
-  PlanarLine line_of(std::size_t edge) const;
   /// The vertex of the loop that a vertex of `flat` is of.
   const RationalPoint& vertex_at(std::size_t flat_index) const {
     return loop[flat_turned_ ? loop.size() - 1 - flat_index : flat_index];
   }
+  /// Where a vertex of the loop is in the frame.
+  const PlanarPoint& flat_at(std::size_t vertex) const {
+    return flat[flat_turned_ ? loop.size() - 1 - vertex : vertex];
+  }
+  /// Greatest distance of a coordinate from 0, or a little more.
+  double reach() const;
   bool overlaps_box_of(const Piece& other) const;
   bool is_convex(const RationalPoint& normal) const;
   /// By doubles: clearly outside of one of the half-spaces, and so of what they bound.
@@ -88,6 +91,28 @@ struct Piece {
 
   std::vector<space::HalfSpace> walls_;
   bool flat_turned_ = false;
+};
+
+/// On which sides of their edges convex pieces of one plane lie to each other. Exact: doubts of the
+/// frame are settled in rational numbers.
+class PieceSides {
+ public:
+  /// `reach`: greatest distance from 0 of a coordinate of what the frame is of.
+  PieceSides(const RationalPoint& normal, long double reach) : view_(normal), reach_(reach) {}
+
+  /// Some edge of a has all of b outside or on it: what they have in common has no area. Requires:
+  /// both laid in the same frame.
+  bool are_apart(const Piece& a, const Piece& b) const;
+  /// No vertex of b is outside of an edge of a. Requires: as above.
+  bool holds(const Piece& a, const Piece& b) const;
+
+ private:
+  /// Of the edge that starts at vertex `edge` of a, where vertex v of b is: 1 inside, 0 on its
+  /// line.
+  int side(const Piece& a, std::size_t edge, const Piece& b, std::size_t v) const;
+
+  space::PlaneView view_;
+  long double reach_;
 };
 
 /// In scene units.

@@ -56,6 +56,9 @@ struct ComparisonOptions {
   double width_resolution = 0;    // scene units; widths need not be told more closely
   std::size_t exact_limit = 200;  // boundary edges up to which an area is also given exactly
   std::size_t most_regions = 16;  // kept with their witness, widest first
+  /// False: regions that are rounding alone are counted as that and told no more of: `width` and
+  /// `worst` leave them out. What is judged stays the same.
+  bool measure_rounding = true;
   /// Of shares told alone: of the polygon; none: as their digits say (ToldShare::rounding), and
   /// `double_tolerance` of those that are doubles (ToldShare::is_double).
   std::optional<double> share_tolerance;
