@@ -317,7 +317,10 @@ bool PlaneProof::covers_exactly() const {
 
 bool PlaneProof::prove() {
   measure();
-  if (!(area_ > 0) || !std::isfinite(area_) || !read_fragments()) return false;
+  // Where coordinates tell little of the area, bounds of shares tell nothing.
+  constexpr long double kClear = 64;
+  if (!(area_ > kClear * error_ * perimeter_) || !std::isfinite(area_)) return false;
+  if (!read_fragments()) return false;
   exact_ = covers_exactly();
   if (!exact_ && (!tiles() || !within())) return false;
   return are_classes_right() && within();

