@@ -340,15 +340,15 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells, Excuses& e
     }
     keep(std::move(region));
   }
-  for (ErrorRegion& region : result_.worst) {
-    if (!region.witness.text.empty()) continue;
-    const ChartPoint point =
-        overlay_.chart().project(to_grid(answer_.prepared().geometry, region.witness.point));
-    Cell cell;
-    cell.inside = region.witness.truth.has_value();
-    cell.truth = region.witness.truth.value_or(LightState::kLit);
-    describe(region.witness, cell, point);
-  }
+  // The widest alone is described: who decides is looked for among all casters.
+  if (result_.worst.empty() || !result_.worst.front().witness.text.empty()) return;
+  Witness& widest = result_.worst.front().witness;
+  const ChartPoint point =
+      overlay_.chart().project(to_grid(answer_.prepared().geometry, widest.point));
+  Cell cell;
+  cell.inside = widest.truth.has_value();
+  cell.truth = widest.truth.value_or(LightState::kLit);
+  describe(widest, cell, point);
 }
 
 void GroupComparison::keep(ErrorRegion region) {
