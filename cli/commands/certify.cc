@@ -32,7 +32,8 @@ namespace gnomon::cli {
 
 namespace {
 
-/// Up to so many parts the slow exact kernels run without being asked for.
+/// Up to so many parts the slow exact kernels run without being asked for, and every error is
+/// measured.
 constexpr std::size_t kSmallScene = 200;
 /// So many decisions are flipped without being asked for.
 constexpr std::uint32_t kFlips = 30;
@@ -50,7 +51,7 @@ struct CertifyCommandOptions {
   double clearance = 0;
   std::optional<std::uint64_t> leaks;
   std::optional<std::uint32_t> flips;
-  bool strict = false, subset = false, explain = false, times = false;
+  bool strict = false, subset = false, explain = false, times = false, measure = false;
   bool combined = false;
   std::string report_directory;
   std::string json;
@@ -251,6 +252,7 @@ class CertifyRun {
     certify_options.clearance = options_.clearance;
     certify_options.subset = options_.subset;
     certify_options.leaks = options_.leaks;
+    certify_options.borders = !options_.measure && loaded_.prepared.parts.size() > kSmallScene;
     certify_options.lights = loaded_.lights;
     certify_options.progress = progress_.callback();
     certify_options.interrupted = &interrupted();
@@ -463,6 +465,10 @@ void add_certify_command(CLI::App& app, Action& action) {
       ->check(not_negative())
       ->type_name("W");
   command.add_flag("--strict", options->strict, "Tolerance and width 0: identical or failed");
+  command.add_flag(
+      "--measure", options->measure,
+      "Measure all error, on scenes of more than " + std::to_string(kSmallScene) +
+          " parts too, where else\nsuccess is proven by borders and small error bounded");
   command
       .add_option("--clearance", options->clearance,
                   "Errors that moving one vertex by this much would undo are apart, not failures")

@@ -172,9 +172,10 @@ Decision Decider::decide() {
     bool maybe_covers;
   };
   std::vector<Estimate> estimates;
+  std::vector<Vector<double>> loop;
   for (std::uint32_t part = 0; part < scene_.parts.size(); ++part) {
     if (part == receiver_ || !scene_.parts[part].casts) continue;
-    std::vector<Vector<double>> loop;
+    loop.clear();
     double size = 0;
     for (VertexId vertex : scene_.loop(scene_.parts[part])) {
       loop.push_back(scene_.geometry.positions[vertex]);

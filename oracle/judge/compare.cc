@@ -15,6 +15,7 @@
 #include "oracle/geometry/group_overlay.h"
 #include "oracle/geometry/region_width.h"
 #include "oracle/judge/cells.h"
+#include "oracle/judge/claimed_groups.h"
 #include "oracle/judge/clearance.h"
 #include "oracle/judge/rounding_cells.h"
 #include "oracle/judge/share_check.h"
@@ -70,13 +71,6 @@ void count_leaks(const Overlay& overlay, const std::vector<Cell>& cells, LightSt
     if (claims_wrongly(f) && wrong[f] == f && !touches[f]) ++result.invented;
     if (is_true(f) && right[f] == f && !found[f]) ++result.lost;
   }
-}
-
-bool contains(const std::vector<ChartPoint>& convex, const ChartPoint& point) {
-  for (std::size_t i = 0; i < convex.size(); ++i) {
-    if (orientation(convex[i], convex[(i + 1) % convex.size()], point) <= 0) return false;
-  }
-  return true;
 }
 
 struct ProjectedFragment {
@@ -352,15 +346,15 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells, Excuses& e
     }
     keep(std::move(region));
   }
-  for (ErrorRegion& region : result_.worst) {
-    if (!region.witness.text.empty()) continue;
-    const ChartPoint point =
-        overlay_.chart().project(to_grid(answer_.prepared().geometry, region.witness.point));
-    Cell cell;
-    cell.inside = region.witness.truth.has_value();
-    cell.truth = region.witness.truth.value_or(LightState::kLit);
-    describe(region.witness, cell, point);
-  }
+  // The widest alone is described: who decides is looked for among all casters.
+  if (result_.worst.empty() || !result_.worst.front().witness.text.empty()) return;
+  Witness& widest = result_.worst.front().witness;
+  const ChartPoint point =
+      overlay_.chart().project(to_grid(answer_.prepared().geometry, widest.point));
+  Cell cell;
+  cell.inside = widest.truth.has_value();
+  cell.truth = widest.truth.value_or(LightState::kLit);
+  describe(widest, cell, point);
 }
 
 void GroupComparison::keep(ErrorRegion region) {
@@ -529,57 +523,6 @@ const char* name_of(ErrorKind kind) {
   }
   return "";
 }
-
-namespace {
-
-/// The group whose plane a fragment is nearest to; of several nearly as near, one that it lies in.
-std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
-                      const std::vector<Chart>& charts, const ClaimedFragment& fragment) {
-  if (entry.groups.size() == 1) return 0;
-  const PreparedScene& prepared = answer.prepared();
-  std::vector<HomogeneousPoint> points;
-  RationalPoint centre;
-  for (const RationalPoint& point : fragment.loop) {
-    points.push_back(to_grid(prepared.geometry, point));
-    for (int k = 0; k < 3; ++k) centre[k] += point[k];
-  }
-  if (fragment.loop.empty()) return 0;
-  for (mpq_class& coordinate : centre) coordinate /= fragment.loop.size();
-  const HomogeneousPoint middle = to_grid(prepared.geometry, centre);
-  std::vector<double> distances;
-  for (const Chart& chart : charts) {
-    const Integers3& normal = chart.support().normal;
-    const double length = enclose_square_root(mpq_class(dot(normal, normal))).middle();
-    double most = 0;
-    for (const HomogeneousPoint& point : points) {
-      most =
-          std::max(most, enclose_ratio(value_at(chart.support(), point), point.w).upper / length);
-    }
-    distances.push_back(most);
-  }
-  const double nearest = *std::min_element(distances.begin(), distances.end());
-  const double near = nearest + std::ldexp(1.0, static_cast<int>(prepared.position_bits) - 30);
-  std::size_t best = entry.groups.size();
-  for (std::size_t g = 0; g < entry.groups.size(); ++g) {
-    if (distances[g] > near) continue;
-    const ChartPoint point = charts[g].project(middle);
-    for (std::uint32_t part : entry.groups[g].parts) {
-      std::vector<ChartPoint> loop;
-      for (const Integers3& vertex : grid_loop(prepared, part))
-        loop.push_back(charts[g].at(vertex));
-      if (orientation(loop[0], loop[1], loop[2]) < 0) std::reverse(loop.begin(), loop.end());
-      if (contains(loop, point) &&
-          (best == entry.groups.size() || distances[g] < distances[best])) {
-        best = g;
-      }
-    }
-  }
-  if (best < entry.groups.size()) return best;
-  return static_cast<std::size_t>(std::min_element(distances.begin(), distances.end()) -
-                                  distances.begin());
-}
-
-}  // namespace
 
 PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
                                 const AnswerEntry& entry, const ClaimedPolygon* candidate,

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <mutex>
@@ -17,6 +18,7 @@
 #include "gnomon/oracle/visibility.h"
 #include "gnomon/result/claimed_pieces.h"
 #include "gnomon/result/shared_claims.h"
+#include "oracle/judge/border_proof.h"
 #include "oracle/judge/point_check.h"
 
 namespace gnomon::oracle {
@@ -51,6 +53,9 @@ class Certifier {
   void match_lights(const Claims& candidate, Block block);
   bool skips(AnswerEntry& entry, const ClaimedLight& found, bool listed);
   void compare_all();
+  ComparisonOptions comparison_options() const;
+  bool prove(std::size_t task);
+  void look_for_error();
   void sum_up();
   void judge();
   void note_shares();
@@ -210,6 +215,57 @@ void Certifier::match_lights(const Claims& candidate, Block block) {
   }
 }
 
+ComparisonOptions Certifier::comparison_options() const {
+  ComparisonOptions options;
+  options.clearance = options_.clearance;
+  options.width_resolution = report_.width / 16;
+  options.exact_limit = options_.exact_limit;
+  options.most_regions = options_.most_regions;
+  options.measure_rounding = options_.measure_rounding;
+  options.share_tolerance = report_.share_tolerance;
+  options.double_tolerance = report_.tolerance;
+  return options;
+}
+
+/// False if the side must be overlaid.
+bool Certifier::prove(std::size_t task) {
+  if (!options_.borders || options_.strict || options_.clearance > 0 || options_.leaks) {
+    return false;
+  }
+  const Task& own = tasks_[task];
+  std::optional<PolygonComparison> bounds =
+      prove_by_borders(answer_, own.light, own.entry, own.candidate, own.terms,
+                       {.share = report_.tolerance, .width = report_.width});
+  if (!bounds || fails(*bounds)) return false;
+  comparisons_[task] = std::move(*bounds);
+  return true;
+}
+
+/// Borders do not tell a right side from one that is all but right. Where no error is known, sides
+/// that may have some are overlaid, those with the most room for it first, until one has.
+void Certifier::look_for_error() {
+  const auto errs = [](const PolygonComparison& own) { return own.regions > 0; };
+  if (!report_.problems.empty() || std::ranges::any_of(comparisons_, errs)) return;
+  std::vector<std::size_t> doubtful;
+  for (std::size_t i = 0; i < tasks_.size(); ++i) {
+    if (comparisons_[i].by_borders && !comparisons_[i].misclassified.zero) doubtful.push_back(i);
+  }
+  std::ranges::stable_sort(doubtful, std::greater<>(), [&](std::size_t i) {
+    return comparisons_[i].misclassified.fraction.upper;
+  });
+  const ComparisonOptions own_options = comparison_options();
+  for (const std::size_t i : doubtful) {
+    if (options_.interrupted && options_.interrupted->load(std::memory_order_relaxed)) {
+      report_.interrupted = true;
+      return;
+    }
+    const Task& task = tasks_[i];
+    comparisons_[i] =
+        compare_entry(answer_, task.light, task.entry, task.candidate, task.terms, own_options);
+    if (errs(comparisons_[i])) return;
+  }
+}
+
 void Certifier::compare_all() {
   const PreparedScene& prepared = answer_.prepared();
   report_.pairs = static_cast<std::uint64_t>(prepared.parts.size()) * prepared.parts.size();
@@ -225,14 +281,7 @@ void Certifier::compare_all() {
       visibility.try_emplace(task.light, prepared, prepared.lights[task.light]);
     }
   }
-  ComparisonOptions comparison_options;
-  comparison_options.clearance = options_.clearance;
-  comparison_options.width_resolution = report_.width / 16;
-  comparison_options.exact_limit = options_.exact_limit;
-  comparison_options.most_regions = options_.most_regions;
-  comparison_options.measure_rounding = options_.measure_rounding;
-  comparison_options.share_tolerance = report_.share_tolerance;
-  comparison_options.double_tolerance = report_.tolerance;
+  const ComparisonOptions own_options = comparison_options();
   // Fragments' points and as many random ones, each against every part.
   const std::uint64_t point_pairs =
       2 * std::uint64_t{options_.points_a_polygon} * tasks_.size() * prepared.parts.size();
@@ -254,9 +303,9 @@ void Certifier::compare_all() {
                          answer_.is_area(task.light) ? nullptr : &visibility.at(task.light),
                          options_.points_a_polygon, options_.seed);
       }
-    } else {
-      comparisons_[i] = compare_entry(answer_, task.light, task.entry, task.candidate, task.terms,
-                                      comparison_options);
+    } else if (!prove(i)) {
+      comparisons_[i] =
+          compare_entry(answer_, task.light, task.entry, task.candidate, task.terms, own_options);
     }
     done[i] = 1;
     const std::lock_guard lock(mutex);
@@ -272,6 +321,7 @@ void Certifier::compare_all() {
   });
   done_.assign(done.begin(), done.end());
   report_.interrupted = std::find(done_.begin(), done_.end(), false) != done_.end();
+  if (!report_.interrupted) look_for_error();
 }
 
 bool Certifier::fails(const PolygonComparison& comparison) const {
@@ -419,6 +469,7 @@ void Certifier::sum_up() {
     totals.lost += own.lost;
     totals.t_vertices += own.t_vertices;
     totals.self_crossing += own.self_crossing;
+    if (own.by_borders && !own.misclassified.zero) ++totals.by_borders;
     report_.oracle_fault = report_.oracle_fault || own.inconsistent;
     const PointCheck& points = point_checks_[i];
     report_.points_checked += points.checked;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "oracle/geometry/chart.h"
 #include "oracle/geometry/convex_loop.h"
+#include "oracle/visibility/light_index.h"
 
 namespace gnomon::oracle {
 
@@ -42,6 +44,7 @@ struct PointRegions::Data {
   const PreparedScene& scene;
   const PreparedLight& light;
   std::vector<PartData> parts;
+  std::optional<LightIndex> index;  // of all that casts
 
   Data(const PreparedScene& prepared, const PreparedLight& prepared_light)
       : scene(prepared), light(prepared_light) {}
@@ -196,6 +199,11 @@ PointRegions::PointRegions(const PreparedScene& scene, const PreparedLight& ligh
   data_->parts.resize(scene.parts.size());
   for (std::size_t i = 0; i < scene.parts.size(); ++i) data_->read_part(i);
   data_->approximate();
+  std::vector<std::uint32_t> casters;
+  for (std::uint32_t i = 0; i < data_->parts.size(); ++i) {
+    if (data_->parts[i].casts) casters.push_back(i);
+  }
+  data_->index.emplace(scene, light, casters);
 }
 
 PointRegions::~PointRegions() = default;
@@ -211,16 +219,30 @@ bool PointRegions::light_in_plane(std::uint32_t part) const {
 
 bool PointRegions::casts(std::uint32_t part) const { return data_->parts[part].casts; }
 
+std::vector<std::uint32_t> PointRegions::casters_near(std::uint32_t receiver) const {
+  const Data::PartData& own = data_->parts[receiver];
+  std::vector<std::uint32_t> casters = data_->index->overlapping(receiver);
+  std::erase_if(casters, [&](std::uint32_t caster) {
+    return caster == receiver || data_->certainly_apart(own, data_->parts[caster]);
+  });
+  return casters;
+}
+
+std::vector<ExactPlane> PointRegions::shadow_planes(std::uint32_t caster) const {
+  const Data::PartData& own = data_->parts[caster];
+  std::vector<ExactPlane> planes{opposite(own.plane)};
+  planes.insert(planes.end(), own.edges.begin(), own.edges.end());
+  return planes;
+}
+
 std::vector<ShadowPiece> PointRegions::shadows_on(std::uint32_t receiver) const {
   const Data::PartData& own = data_->parts[receiver];
   const Chart chart(own.plane);
   const ConvexLoop whole = loop_in_chart(chart, own.loop);
   std::vector<ShadowPiece> pieces;
   ConvexLoop loop, workspace;
-  for (std::uint32_t i = 0; i < data_->parts.size(); ++i) {
+  for (const std::uint32_t i : casters_near(receiver)) {
     const Data::PartData& caster = data_->parts[i];
-    if (i == receiver || !caster.casts) continue;
-    if (data_->certainly_apart(own, caster)) continue;
     loop = whole;
     bool some = clip(loop, chart.trace(opposite(caster.plane)), workspace);
     for (std::size_t e = 0; some && e < caster.edges.size(); ++e) {

@@ -81,6 +81,8 @@ void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals, bool
   json.member("worst_uncovered", totals.worst_uncovered);
   json.member("worst_overlapping", totals.worst_overlapping);
   json.member("worst_outside", totals.worst_outside);
+  json.member("worst_share", totals.worst_share());
+  json.member("by_borders", totals.by_borders);
   write_enclosure(json, "area", totals.area);
   write_enclosure(json, "lit", totals.lit);
   write_enclosure(json, "shadow", totals.shadow);

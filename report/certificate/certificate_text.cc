@@ -74,25 +74,23 @@ std::vector<std::string> row(const JudgedRun& run, double facing_area,
                                  : rounded(run.cpu_seconds, 3) + " s";
   }
   const std::string& name = run.foreign ? run.name : run.kernel;
-  if (!run.report) return {name, policy(run), "no result", "-", "-", "-", "-", time};
+  if (!run.report) return {name, policy(run), "no result", "-", "-", "-", "-", "-", time};
   const oracle::Report& report = *run.report;
   const oracle::ComparisonTotals& totals = report.totals;
   std::string verdict = name_of(report.verdict);
   if (report.interrupted) verdict = "interrupted";
   if (report.by_points) {
-    return {name,
-            policy(run),
-            verdict,
-            grouped(report.points_wrong) + "/" + grouped(report.points_checked),
-            grouped(totals.wrong_polygons),
-            "-",
-            grouped(run.fragments),
+    return {name,    policy(run),
+            verdict, grouped(report.points_wrong) + "/" + grouped(report.points_checked),
+            "-",     grouped(totals.wrong_polygons),
+            "-",     grouped(run.fragments),
             time};
   }
   return {name,
           policy(run),
           verdict,
           bound(error_share(totals, facing_area)),
+          bound(totals.worst_share()),
           grouped(totals.wrong_polygons) + "/" + grouped(totals.polygons),
           bound(totals.width.upper),
           grouped(run.fragments),
@@ -150,6 +148,10 @@ void add_notes(const JudgedRun& run, const NamedScene& named, TextTable& table) 
     table.add_note("and " + plural(report.problems.size() - kMostProblems, "problem") + " more");
   }
   for (const std::string& note : report.notes) table.add_note(note);
+  if (report.totals.by_borders > 0) {
+    table.add_note("of " + plural(report.totals.by_borders, "polygon side") +
+                   " error is bounded by borders, not measured (--measure)");
+  }
   if (!run.explanation.empty()) table.add_note("first differing decision: " + run.explanation);
   if (run.decisions) {
     for (std::string& note : decisions_text(*run.decisions, run.kernel, named)) {
@@ -264,6 +266,7 @@ std::string certificate_text(const Certificate& certificate) {
                                        {"policy"},
                                        {"verdict"},
                                        {by_points ? "wrong points" : "wrong area", Align::kRight},
+                                       {"worst share", Align::kRight},
                                        {"polygons", Align::kRight},
                                        {"width", Align::kRight},
                                        {"fragments", Align::kRight},

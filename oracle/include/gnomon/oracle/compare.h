@@ -85,6 +85,9 @@ struct PolygonComparison {
   std::uint64_t invented = 0, lost = 0, t_vertices = 0, self_crossing = 0;
   std::vector<ErrorRegion> worst;  // widest first
   bool inconsistent = false;       // the oracle contradicts itself: a finding about us
+  /// Right but for what its borders leave room for: areas and widths of error are bounds from
+  /// above, zero where there is none; regions, leaks and T-vertices are not counted.
+  bool by_borders = false;
   /// The candidate tells shares alone. `misclassified` is then by how much the worst of them is
   /// off, which is at most the area that is: a share that is right may lie in the wrong place. What
   /// is within what the share's digits say, or within the tolerance asked for, is not judged.

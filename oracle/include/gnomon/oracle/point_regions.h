@@ -15,7 +15,8 @@
 // coplanar with R, P_O is 0 on all of R and the intersection is empty, as the definition asks.
 //
 // Exactness: on the grid's integers; vertices are meets of two lines of input planes. Doubles only
-// cull pairs that an error bound proves disjoint.
+// cull pairs that an error bound proves disjoint, found by a raster of what overlaps from the
+// light.
 #ifndef GNOMON_ORACLE_POINT_REGIONS_H
 #define GNOMON_ORACLE_POINT_REGIONS_H
 
@@ -30,6 +31,7 @@
 namespace gnomon::oracle {
 
 struct ChartPoint;
+struct ExactPlane;
 
 /// One caster's shadow on one receiver: a convex polygon, counter-clockwise in the receiver's
 /// chart.
@@ -51,6 +53,11 @@ class PointRegions {
   bool light_in_plane(std::uint32_t part) const;
   /// True if the part casts: it has a side that faces the light and is a caster.
   bool casts(std::uint32_t part) const;
+  /// Parts that may shadow some of a part, in order: all that do, and few that do not. Thread-safe.
+  std::vector<std::uint32_t> casters_near(std::uint32_t receiver) const;
+  /// What is strictly in front of all of them is in the shadow of a caster; its own plane first.
+  /// Requires: casts(caster).
+  std::vector<ExactPlane> shadow_planes(std::uint32_t caster) const;
   /// All shadows on a part, in order of casters. Requires: lit_side(part) != kOn. Thread-safe.
   std::vector<ShadowPiece> shadows_on(std::uint32_t receiver) const;
 

@@ -20,6 +20,7 @@
 #ifndef GNOMON_ORACLE_VERDICT_H
 #define GNOMON_ORACLE_VERDICT_H
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -41,10 +42,14 @@ struct CertifyOptions {
   std::optional<double> width;  // scene units; default 1e-9 of the scene's diagonal
   /// Of shares told alone, a fraction of each polygon; none: as their digits say.
   std::optional<double> share_tolerance;
-  bool strict = false;                       // tolerance and width 0, and rounding counts
-  double clearance = 0;                      // scene units; error below it is ill-conditioned
-  bool subset = false;                       // lights and polygons may be missing
-  std::optional<std::uint64_t> leaks;        // fail with more invented and lost regions than this
+  bool strict = false;                 // tolerance and width 0, and rounding counts
+  double clearance = 0;                // scene units; error below it is ill-conditioned
+  bool subset = false;                 // lights and polygons may be missing
+  std::optional<std::uint64_t> leaks;  // fail with more invented and lost regions than this
+  /// Success is proven by borders where they suffice, and polygon sides overlaid where they do not
+  /// (ComparisonTotals::by_borders): the same verdict, sooner, but errors that are small enough are
+  /// bounded and not measured. Without effect if strict or with a clearance or `leaks`.
+  bool borders = false;
   std::vector<std::uint32_t> lights;         // indices into PreparedScene::lights; empty: all
   std::uint64_t most_pairs = 1'000'000'000;  // a minute for a city of that size; area: minutes
   std::uint32_t points_a_polygon = 8;  // above the limit: of its fragments, and as many at random
@@ -77,6 +82,12 @@ struct ComparisonTotals {
   std::uint64_t ill_conditioned_regions = 0, rounding_regions = 0;
   double rounding_radius = 0;  // greatest, scene units
   std::uint64_t invented = 0, lost = 0, t_vertices = 0, self_crossing = 0;
+  std::uint64_t by_borders = 0;  // polygon sides whose error is bounded by borders alone
+
+  /// The greatest of the worst shares.
+  double worst_share() const {
+    return std::max({worst_misclassified, worst_uncovered, worst_overlapping, worst_outside});
+  }
 };
 
 struct Report {
