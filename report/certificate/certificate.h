@@ -52,7 +52,7 @@ struct Certificate {
   bool interrupted = false;  // runs that were not reached are missing
 };
 
-/// For people: a head that names scene and tolerances, a table of at most 100 columns, the worst
+/// For people: a head that names scene and tolerances, a table of at most 110 columns, the worst
 /// place of every run that failed below its row.
 std::string certificate_text(const Certificate& certificate);
 

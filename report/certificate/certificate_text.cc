@@ -21,6 +21,9 @@ std::string joined(const std::vector<std::string>& words, std::size_t most = 6) 
   return text;
 }
 
+/// Columns of characters that all kernels' names, verdicts and numbers need side by side.
+constexpr std::size_t kTableWidth = 110;
+
 std::string plural(std::uint64_t count, const std::string& one) {
   return grouped(count) + ' ' + one + (count == 1 ? "" : "s");
 }
@@ -148,6 +151,11 @@ void add_notes(const JudgedRun& run, const NamedScene& named, TextTable& table) 
     table.add_note("and " + plural(report.problems.size() - kMostProblems, "problem") + " more");
   }
   for (const std::string& note : report.notes) table.add_note(note);
+  if (report.verdict != oracle::Verdict::kFailed &&
+      report.totals.worst_share() > report.tolerance) {
+    table.add_note(
+        "the worst share is what doubles' own rounding explains, which is excused (--strict)");
+  }
   if (report.totals.by_borders > 0) {
     table.add_note("of " + plural(report.totals.by_borders, "polygon side") +
                    " error is bounded by borders, not measured (--measure)");
@@ -284,7 +292,7 @@ std::string certificate_text(const Certificate& certificate) {
       add_notes(run, {certificate.scene, certificate.prepared}, table);
     }
     if (algorithms.size() > 1) text += "by " + algorithm + ":\n";
-    text += table.to_string();
+    text += table.to_string(kTableWidth);
     if (i < certificate.runs.size()) text += '\n';
   }
   const std::string end = conclusion(certificate);
