@@ -145,11 +145,12 @@ TEST_F(Findings, AreTheSameBytesEveryTimeAndOneFolder) {
   EXPECT_NE(finding_name(again), finding_name(finding));
 }
 
-TEST_F(Findings, AreaLightsHaveAPlaceInsteadOfADecision) {
+TEST_F(Findings, AreaLightsHaveAPlaceAndDecisions) {
   const Finding finding = shrunken(found(area_families().front(), "float", Property::kOracle));
   auto texts = files(written(finding));
   EXPECT_THAT(texts["README.md"],
-              AllOf(HasSubstr("Decisions are compared for point and directional lights"),
+              AllOf(HasSubstr("## The first decision that differs"),
+                    HasSubstr("Every decision of the run agrees with the exact one"),
                     HasSubstr("| worst place | light ")));
   EXPECT_NE(texts["candidate.svg"], "");
 }
