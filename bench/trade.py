@@ -27,7 +27,7 @@ EXACT = {"plane", "epeck", "rational"}
 METHODS = ["sectors", "svbsp", "receiver", "merged"]
 MAP_KERNELS = ["double", "longdouble", "epick", "plane"]
 SHEARED_KERNELS = ["double", "plane"]
-FAMILIES = ["city", "quads", "room", "terrain", "tetra", "coplanar-tiles", "near-coplanar", "nested-boxes"]
+FAMILIES = ["city", "quads", "room", "terrain", "tetra", "coplanar-tiles", "near-coplanar"]
 RIGHT = {"identical", "within tolerance"}
 THICKNESSES = [0, *(float(f"1e-{power}") for power in range(15, 2, -1))]
 
