@@ -28,6 +28,9 @@ METHODS = ["sectors", "svbsp", "receiver", "merged"]
 MAP_KERNELS = ["double", "longdouble", "epick", "plane"]
 SHEARED_KERNELS = ["double", "plane"]
 FAMILIES = ["city", "quads", "room", "terrain", "tetra", "coplanar-tiles", "near-coplanar"]
+# All but "bits", each of whose steps takes minutes, and area lights, which other methods take.
+AXES = ["offset", "scale-up", "scale-down", "slivers", "near-parallel", "far-lamp", "near-lamp", "low-lamp", "grazing-sun",
+        "gap", "rotation", "detail", "mixed", "tiles", "nested", "fan", "lights"]
 RIGHT = {"identical", "within tolerance"}
 THICKNESSES = [0, *(float(f"1e-{power}") for power in range(15, 2, -1))]
 
@@ -132,7 +135,7 @@ def thickness_table(found):
 
 
 def first_failures(curves, method, kernel):
-    """Axis -> (first step that fails, or "-", and how)."""
+    """Axis -> (first step that fails, or "-", or with "?" the first that is not judged, and how)."""
     cells = {}
     for curve in curves:
         if curve["system"] != method or curve["kernel"] != kernel:
@@ -142,7 +145,7 @@ def first_failures(curves, method, kernel):
             cells[curve["axis"]] = ("-", "")
         else:
             how = next(step["failure"] for step in curve["steps"] if step["k"] == first)
-            cells[curve["axis"]] = (str(first), how)
+            cells[curve["axis"]] = (f"{first}?", "") if how == "not judged" else (str(first), how)
     return cells
 
 
@@ -187,7 +190,7 @@ def measure(runs, short):
     recorded = ["tests/regressions/offsets"] if short else ["tests/regressions"]
     thickness = runs.json_of("thickness", "tradeoff", *recorded, "--thickness", "--repeat", "1",
                              *options("--algorithm", ["sectors", "svbsp"]))
-    axes = ["gap", "--steps", "3"] if short else []
+    axes = ["gap", "--steps", "3"] if short else AXES
     for_all = ["--repeat", "1", "--time", "10"]
     some, all_of_map = (options("--kernel", kernels) for kernels in (SHEARED_KERNELS, MAP_KERNELS))
     point_lights = options("--algorithm", ["sectors", "svbsp"])

@@ -75,8 +75,8 @@ TEST(Extremes, WhereDoubleIsSafe) {
        {SafeRange{"offset", 17}, SafeRange{"scale-up", 300}, SafeRange{"scale-down", 300},
         SafeRange{"slivers", 18}, SafeRange{"near-parallel", 18}, SafeRange{"far-lamp", 500},
         SafeRange{"near-lamp", 20}, SafeRange{"low-lamp", 18}, SafeRange{"grazing-sun", 18},
-        SafeRange{"gap", 30}, SafeRange{"detail", 18}, SafeRange{"tiles", 8},
-        SafeRange{"nested", 12}, SafeRange{"fan", 6}}) {
+        SafeRange{"gap", 30}, SafeRange{"detail", 18}, SafeRange{"mixed", 11},
+        SafeRange{"tiles", 8}, SafeRange{"nested", 12}, SafeRange{"fan", 6}}) {
     const ExtremeAxis* const axis = axis_by_name(name);
     ASSERT_NE(axis, nullptr) << name;
     const int stride = std::max(1, (last - axis->first) / 3);
