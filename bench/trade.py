@@ -31,6 +31,7 @@ FAMILIES = ["city", "quads", "room", "terrain", "tetra", "coplanar-tiles", "near
 # All but "bits", each of whose steps takes minutes, and area lights, which other methods take.
 AXES = ["offset", "scale-up", "scale-down", "slivers", "near-parallel", "far-lamp", "near-lamp", "low-lamp", "grazing-sun",
         "gap", "rotation", "detail", "mixed", "tiles", "nested", "fan", "lights"]
+PICTURED = ["near-parallel", "gap", "mixed"]
 RIGHT = {"identical", "within tolerance"}
 THICKNESSES = [0, *(float(f"1e-{power}") for power in range(15, 2, -1))]
 
@@ -56,6 +57,14 @@ class Runs:
             if status != 4:
                 raise SystemExit(f"trade.py: {self.failed[-1]}")
         return json.loads(path.read_text())
+
+
+    def picture(self, path):
+        """The curves of some axes, from what the map has measured."""
+        command = [self.gnomon, "extremes", *PICTURED, "--repeat", "1", "--time", "10", "--plot", str(path),
+                   *options("--algorithm", ["sectors", "svbsp"]), *options("--kernel", MAP_KERNELS),
+                   "--log", str(self.folder / "map.log")]
+        subprocess.run(command, stdout=subprocess.DEVNULL, cwd=ROOT, check=True)
 
 
 def grouped(rows, *keys):
@@ -224,6 +233,8 @@ def main():
             write_section(document, name, text)
         else:
             print(f"docs/{document}, {name}\n\n{text}")
+    if asked.write:
+        runs.picture(ROOT / "docs/img/extremes.svg")
     for failure in runs.failed:
         print(f"trade.py: {failure}", file=sys.stderr)
     return 1 if runs.failed else 0
