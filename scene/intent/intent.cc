@@ -55,8 +55,8 @@ void measure_box(const PreparedScene& prepared, Intent& intent) {
   intent.diagonal = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
 }
 
-/// Greatest distance of a vertex from the plane that lies halfway between the outermost ones along the
-/// area vector.
+/// Greatest distance of a vertex from the plane that lies halfway between the outermost ones along
+/// the area vector.
 double bend_of(const PreparedScene& prepared, const LocalPoints& points, std::uint32_t polygon) {
   Vector area;
   std::vector<Vector> corners;
