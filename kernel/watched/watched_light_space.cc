@@ -160,12 +160,7 @@ void WatchedLightSpace::describe(DifferingDecision& decision, const PlaneName& n
   decision.corner = {corner.vertex.source, at(corner.before).name, at(corner.after).name,
                      corner.support};
   const std::array<mpq_class, 3> point = exact_.exact_position(exact_corner(corner));
-  for (std::size_t k = 0; k < 3; ++k) {
-    decision.position[k] = corner.vertex.source != kMadeVertex
-                               ? scene_->geometry().positions[corner.vertex.source][k]
-                               : point[k].get_d();
-  }
-  decision.tested_position = nearest_doubles_of(corner.vertex.tested);
+  tell_positions(decision, scene_->geometry(), corner.vertex, point);
   if (decision.exact == Side::kOn) return;
   decision.ulps = size_in_ulps(scene_->geometry(), plane, point, scene_->rounded()->digits());
 }
@@ -216,13 +211,10 @@ WatchedLightSpace::Vertex WatchedLightSpace::crossing(PlaneRef ref, PlaneRef edg
   name_making(vertex, ref, edge, leaving, from.support);
   vertex.hash = leaving ? hash_of_meeting(along, plane) : hash_of_meeting(plane, along);
   if (!rounded_ || !plane.tested.valid()) return vertex;
-  const WideCorner a = tested_corner(from), b = tested_corner(to);
-  if (cuts_edge(*rounded_, plane.tested, a, b)) {
-    vertex.tested = rounded_->crossing(plane.tested, along.tested, leaving, a, b);
-  } else {
-    vertex.tested =
-        rounded_vertex(exact_position({vertex.before, vertex, vertex.after, from.support}));
-  }
+  vertex.tested = rounded_crossing(
+      *rounded_, plane.tested, along.tested, leaving, tested_corner(from), tested_corner(to), [&] {
+        return exact_position({vertex.before, vertex, vertex.after, from.support});
+      });
   return vertex;
 }
 

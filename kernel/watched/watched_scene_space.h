@@ -23,6 +23,29 @@ bool cuts_edge(Rounded& rounded, PlaneRef plane, const WideCorner& from, const W
   return side != Side::kOn && side == opposite(rounded.side_of_plane(plane, to));
 }
 
+/// The rounded kernel's vertex where the edge `from`, `to` crosses a plane: where it finds the ends
+/// on no two sides and would make none, the exact point in its numbers.
+template <class Rounded, class ExactPoint>
+WideVertex rounded_crossing(Rounded& rounded, PlaneRef plane, PlaneRef edge, bool leaving,
+                            const WideCorner& from, const WideCorner& to,
+                            const ExactPoint& exact_point) {
+  if (cuts_edge(rounded, plane, from, to)) {
+    return rounded.crossing(plane, edge, leaving, from, to);
+  }
+  return rounded_vertex(exact_point());
+}
+
+/// Where both kernels have a vertex; `point`: exactly, scene units.
+template <class Vertex>
+void tell_positions(DifferingDecision& decision, const Geometry& geometry, const Vertex& vertex,
+                    const std::array<mpq_class, 3>& point) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    decision.position[k] =
+        vertex.source != kMadeVertex ? geometry.positions[vertex.source][k] : point[k].get_d();
+  }
+  decision.tested_position = nearest_doubles_of(vertex.tested);
+}
+
 class WatchedSceneSpace {
  public:
   using Exact = ImplicitSceneSpace<NoStats>;

@@ -156,12 +156,7 @@ void WatchedVolumeSpace::describe(DifferingDecision& decision, const Plane& plan
   decision.corner = {corner.vertex.source, at(corner.before).name, at(corner.after).name,
                      corner.support < edges().planes ? corner.support : CornerName::kNoSupport};
   const std::array<mpq_class, 3> point = exact_.exact_position(exact_corner(corner));
-  for (std::size_t k = 0; k < 3; ++k) {
-    decision.position[k] = corner.vertex.source != kMadeVertex
-                               ? geometry().positions[corner.vertex.source][k]
-                               : point[k].get_d();
-  }
-  decision.tested_position = nearest_doubles_of(corner.vertex.tested);
+  tell_positions(decision, geometry(), corner.vertex, point);
   if (decision.exact == Side::kOn) return;
   decision.ulps =
       size_in_ulps(geometry(), exact_.in_scene(plane.exact), point, scene_->rounded()->digits());
@@ -205,13 +200,10 @@ WatchedVolumeSpace::Vertex WatchedVolumeSpace::crossing(PlaneRef ref, PlaneRef e
   name_making(vertex, ref, edge, leaving, from.support);
   vertex.hash = hash_of_meeting(ref, edge, from.support);
   if (!rounded_ || !plane.tested.valid()) return vertex;
-  const WideCorner a = tested_corner(from), b = tested_corner(to);
-  if (cuts_edge(*rounded_, plane.tested, a, b)) {
-    vertex.tested = rounded_->crossing(plane.tested, along.tested, leaving, a, b);
-  } else {
-    vertex.tested =
-        rounded_vertex(exact_position({vertex.before, vertex, vertex.after, from.support}));
-  }
+  vertex.tested = rounded_crossing(
+      *rounded_, plane.tested, along.tested, leaving, tested_corner(from), tested_corner(to), [&] {
+        return exact_position({vertex.before, vertex, vertex.after, from.support});
+      });
   return vertex;
 }
 
