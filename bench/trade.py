@@ -218,6 +218,8 @@ def main():
     parser.add_argument("--short", action="store_true")
     parser.add_argument("--write", action="store_true")
     asked = parser.parse_args()
+    if not pathlib.Path(asked.gnomon).is_file():
+        parser.error(f"{asked.gnomon}: there is no such program")
     asked.folder.mkdir(parents=True, exist_ok=True)
     runs = Runs(str(pathlib.Path(asked.gnomon).resolve()), asked.folder)
     trade, thickness, (parallel, sheared, area) = measure(runs, asked.short)
