@@ -179,8 +179,8 @@ auto ContourWalk<Numbers, Sides>::group_of_events(std::size_t begin) const -> Ev
   if constexpr (Numbers::kCertified) {
     if (group.is_open) {
       // The ends round by u, the sum that made them by as much.
-      group.low = {least_of(first), 4 * Ball::kUnit, {}};
-      group.high = {reach, 4 * Ball::kUnit, {}};
+      group.low = {least_of(first), 2.1 * Ball::kUnit, {}};
+      group.high = {reach, 2.1 * Ball::kUnit, {}};
     }
   }
   return group;

@@ -50,11 +50,17 @@ struct ContourBounds {
   /// 8 * 2u D + 8u D = 112u D; sums of two and three of them round by 8u D + 16u D. 240u D, which
   /// is this times D and kSunReach.
   static constexpr double kSunLine = 128 * kUnit;
-  /// Of n . (r - a) with r - a of size 2 S from exact positions, off by 10u S: 2 (16u D 2 S + 2 D
-  /// 10u S + 4u D S) + 8u D S = 120u D S. So it is off by S line errors, and that of a lamp, by the
-  /// count above, by line errors times the size of the difference, too. Of depth . r likewise: 2 (2
-  /// * 8u + 8u + 2u) M + (8u + 2u + u) M + 9u M = 72u M, in units of M and kSunReach: within
-  /// kDepth.
+  /// Of depth . r likewise: 2 (2 * 8u + 8u + 2u) M + (8u + 2u + u) M + 9u M = 72u M, in units of M
+  /// and kSunReach: within kDepth.
+
+  /// Of n . s for n = apex x step, the apex off by 2u and differences of exact positions by u, in
+  /// units of the sum of m_k |s_k| with m_k that of the two products of n_k, without sign: each of
+  /// those is off by 2u + u of itself and rounds by u, their difference by u m_k: 5u. s_k, the
+  /// product and sums of two and three: u + u + 2u. 9u.
+  static constexpr double kPlane = 9.2 * kUnit;
+  /// The same where differences and the apex are exact: u + u, u, and 2u. Nothing is rounded, if
+  /// the sum is below 2^53 of their units.
+  static constexpr double kPlaneOfExact = 5.1 * kUnit;
 };
 
 }  // namespace gnomon

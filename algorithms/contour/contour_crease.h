@@ -82,15 +82,20 @@ void ContourWalk<Numbers, Sides>::crease(std::uint32_t q) {
   }
   const Segment<Numbers> whole{inside.low, inside.high, certainly_before(inside.low, inside.high)};
   uncovered<Numbers>({&whole, 1}, covers_, free_);
-  const T rate = T(dot_product(crease.line, polygons_->corner(polygons_->polygons[p_], 0)) *
-                   measure_->scale[p_]);
+  T rate = T(dot_product(crease.line, polygons_->corner(polygons_->polygons[p_], 0)) *
+             measure_->scale[p_]);
+  double per_unit = 1;
+  if constexpr (Numbers::kCertified) {
+    per_unit = 1 / light_->unit_of_lines();
+    rate *= per_unit;
+  }
   for (const Segment<Numbers>& segment : free_) {
     sum.flags |= segment.sure ? kHoldsLit | kHoldsShadow : kPerhapsLit | kPerhapsShadow;
     double error = 0;
     if constexpr (Numbers::kCertified) {
       const double reach = polygons_->reach[p_];
       const double value_error =
-          (3.1 * crease.line_error + 12 * Ball::kUnit * largest(crease.line)) * reach;
+          (3.1 * crease.line_error + 34 * Ball::kUnit * largest(crease.line)) * reach * per_unit;
       error = share_error(p_, rate, value_error, segment.low, segment.high, 1, 1, 0, 0);
       if (!(error <= 2 * kLeast)) sum.flags |= kContourOpen;
     }

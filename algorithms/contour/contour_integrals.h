@@ -14,25 +14,19 @@
 
 namespace gnomon {
 
-/// n . c for edge k of p and corner 0 of q, and its error; from exact positions, n . (c - a).
+/// n . c for edge k of p and corner 0 of q, and its error.
 template <class Numbers, class Sides>
 auto ContourWalk<Numbers, Sides>::value_of(std::uint32_t k, std::uint32_t q, double& error) const
     -> T {
   const FacingPolygon& own = polygons_->polygons[p_];
   const FacingPolygon& other = polygons_->polygons[q];
-  const Vector<T> line = polygons_->line(own, k);
   if constexpr (Numbers::kCertified) {
-    error = polygons_->error_of_line(own, k);
-    if (!light_->positions.empty()) {
-      double size;
-      const Vector<double> difference =
-          light_->difference(polygons_->vertex(other, 0), polygons_->vertex(own, k), size);
-      error *= size;
-      return dot_product(line, difference);
+    if (!light_->planes.empty()) {
+      return light_->planes.value(polygons_->edge(own, k), polygons_->vertex(other, 0), error);
     }
-    error = light_->proven(error * polygons_->reach[q]);
+    error = light_->proven(polygons_->error_of_line(own, k) * polygons_->reach[q]);
   }
-  return dot_product(line, polygons_->corner(other, 0));
+  return dot_product(polygons_->line(own, k), polygons_->corner(other, 0));
 }
 
 template <class Numbers, class Sides>

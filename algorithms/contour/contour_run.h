@@ -140,12 +140,10 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
     double error = 0;
     for (std::uint32_t k = 1; k + 1 < p.count; ++k) {
       if constexpr (Numbers::kCertified) {
-        if (!rays_.positions.empty()) {
-          double size;
-          const Vector<double> difference =
-              rays_.difference(polygons_.vertex(p, 0), polygons_.vertex(p, k), size);
-          whole += dot_product(polygons_.line(p, k), difference);
-          error += polygons_.error_of_line(p, k) * size;
+        if (!rays_.planes.empty()) {
+          double value_error;
+          whole += rays_.planes.value(polygons_.edge(p, k), polygons_.vertex(p, 0), value_error);
+          error += value_error;
           continue;
         }
         error += rays_.proven(polygons_.error_of_line(p, k) * polygons_.reach[i]);
@@ -171,8 +169,8 @@ void ContourRun<Space, Numbers>::measure(std::uint32_t begin, std::uint32_t end)
                                      polygons_.vertex(p, 0), ContourBounds::kSharp, value_error);
           error += value_error;
         }
-        whole *= rays_.exact->unit();
-        error *= rays_.exact->unit();
+        whole *= rays_.unit();
+        error *= rays_.unit();
         measure_.scale[i] = 1 / whole;
         measure_.relative_error[i] =
             1.01 * (error * measure_.scale[i] + ExactValues::kUnit + (p.count - 1) * Ball::kUnit);

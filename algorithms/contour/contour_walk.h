@@ -90,6 +90,16 @@ class ContourWalk {
     std::uint32_t entry = 0;  // of lists_[k].behind, or kSegment
     bool begins = false;
   };
+  /// A place in a pair of doubles.
+  struct SharpestPlace {
+    DoubleDouble t;
+    double error = 0;
+  };
+  /// From one place to another: where the first is, how far it is to the last, which is off by the
+  /// errors of the two and u of itself.
+  struct SharpStretch {
+    double first = 0, width = 0, first_error = 0, last_error = 0;
+  };
   /// Events up to `end` of events_, from one place to another; open if they are not in one place.
   struct EventGroup {
     PlaceOnEdge low, high;
@@ -166,8 +176,11 @@ class ContourWalk {
   void take_perhaps(std::uint32_t k, const Behind<Numbers>& receiver, const PlaceOnEdge& low,
                     const PlaceOnEdge& high);
   PlaceOnEdge sharpened(std::uint32_t k, const PlaceOnEdge& place, double most) const;
+  SharpestPlace sharpest(std::uint32_t k, const PlaceOnEdge& place) const;
   void sharpen(std::uint32_t k, const Behind<Numbers>* receiver, const PlaceOnEdge& low,
                const PlaceOnEdge& high, bool perhaps, double& share, double& error) const;
+  void integrate_sharp(std::uint32_t k, const Behind<Numbers>* receiver, SharpStretch stretch,
+                       bool perhaps, double& share, double& error) const;
   static T depth_at(const Behind<Numbers>& entry, const PlaceOnEdge& place) {
     return T(entry.depth_from + place.t * T(entry.depth_to - entry.depth_from));
   }

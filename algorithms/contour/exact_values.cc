@@ -21,16 +21,49 @@ ExactValues::ExactValues(const LightIntegers& light, unsigned ray_bits)
   unit_ = std::ldexp(d_z * d_z, static_cast<int>(3 * (b + e - static_cast<long>(ray_bits))));
 }
 
+template <class Int>
+auto ExactValues::line_of(VertexId a, VertexId b) const {
+  using Position = PositionFor<Int>;
+  const ExactGeometry<Position> exact(*light_.geometry);
+  const Vector3<Position> l = light_.position<Position>();
+  const Vector3<Position> p = exact.position(a), q = exact.position(b);
+  return [=, directional = light_.light.directional](VertexId v) {
+    const Vector3<Position> r = exact.position(v);
+    return directional ? determinant<Int>(l, difference(q, p), difference(r, p))
+                       : determinant<Int>(difference(l, p), difference(l, q), difference(l, r));
+  };
+}
+
 double ExactValues::line(VertexId a, VertexId b, VertexId v) const {
-  return with_width(width_of(light_.narrow, light_.side_bits), [&]<class Int>() {
-    using Position = PositionFor<Int>;
-    const ExactGeometry<Position> exact(*light_.geometry);
-    const Vector3<Position> l = light_.position<Position>();
-    const Vector3<Position> p = exact.position(a), q = exact.position(b), r = exact.position(v);
-    const Int value = light_.light.directional
-                          ? determinant<Int>(l, difference(q, p), difference(r, p))
-                          : determinant<Int>(difference(l, p), difference(l, q), difference(l, r));
-    return to_double_scaled(value, shift_);
+  return with_width(width_of(light_.narrow, light_.side_bits),
+                    [&]<class Int>() { return to_double_scaled(line_of<Int>(a, b)(v), shift_); });
+}
+
+namespace {
+
+/// The zero between two values; nothing if they have one sign.
+template <class Int>
+std::optional<DoubleDouble> zero_of(const Int& at_from, const Int& at_to) {
+  if (sign_of(at_from) == sign_of(at_to)) return std::nullopt;
+  return double_double(at_from) / double_double(Int(at_from - at_to));
+}
+
+}  // namespace
+
+// One bit more, for the difference of two values.
+std::optional<DoubleDouble> ExactValues::crossing(VertexId a, VertexId b, VertexId from,
+                                                  VertexId to) const {
+  return with_width(width_of(light_.narrow, light_.side_bits + 1), [&]<class Int>() {
+    const auto value = line_of<Int>(a, b);
+    return zero_of<Int>(value(from), value(to));
+  });
+}
+
+std::optional<DoubleDouble> ExactValues::crossing(PlaneId plane, VertexId from, VertexId to) const {
+  const unsigned bits = side_of_support_bits(light_.grid_bits()) + 1;
+  return with_width(narrowest_width(bits), [&]<class Int>() {
+    const ExactGeometry<Int> exact(*light_.geometry);
+    return zero_of<Int>(exact.value(plane, from), exact.value(plane, to));
   });
 }
 

@@ -21,10 +21,12 @@
 #include <vector>
 
 #include "algorithms/contour/contour_bounds.h"
+#include "algorithms/contour/edge_planes.h"
 #include "algorithms/contour/exact_values.h"
 #include "algorithms/contour/in_parallel.h"
 #include "algorithms/contour/numbers.h"
 #include "gnomon/kernel/geometry.h"
+#include "gnomon/kernel/orientation.h"
 #include "gnomon/kernel/sign.h"
 #include "kernel/concept/light_space.h"
 #include "kernel/implicit/light_integers.h"
@@ -43,28 +45,27 @@ struct LightRays {
   std::array<int, 3> axes{0, 1, 2};  // of positions
   Vector<double> to_light{};         // of a sun, as its rays have it, along the same axes
 
-  /// The ray of vertex v less that of vertex w, from their exact positions: off by 10u of the
-  /// largest component of the difference, `size`.
-  [[gnu::always_inline]] Vector<double> difference(VertexId v, VertexId w, double& size) const {
-    const Vector<double>&p = positions[v], &q = positions[w];
-    const Vector<double> step{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-    size = largest(step);
-    return {step[0] * to_light[2] - step[2] * to_light[0],
-            step[1] * to_light[2] - step[2] * to_light[1], 0};
-  }
+  /// Certified: the plane of each edge. None where the grid is wide, and of a lamp's exact rays,
+  /// whose lines are no worse where they are not exact, either.
+  EdgePlanes planes;
 
   /// Certified: the line from a to b at v, and what that is off by: det(r_a, r_b, r_v), for a sun
   /// less the factor exact->unit(). Off by at most `most` of itself, whatever cancels in it.
   double sharp_value(VertexId a, VertexId b, VertexId v, double most, double& error) const;
+  /// Certified: the factor of sharp_value() in the units of integrals, which are those of lines, or
+  /// of planes where there are any.
+  double unit() const { return planes.empty() ? exact->unit() : 1; }
+  /// What a line's value at a ray is to be divided by to be in those units.
+  double unit_of_lines() const { return planes.empty() ? 1 : exact->unit(); }
   /// A bound of dot_product(line, ray) from lines and rays, or 0 if nothing can have been rounded.
   double proven(double error) const {
     return error < ContourBounds::kLine * exact_size ? 0 : error;
   }
 
   /// Certified: what an integral may be off by before it is found from sharper values. Bounds count
-  /// the worst of all roundings: where they say so much, integrals are off by less than a tenth of
-  /// it, most by far less. A sun's bounds are less sharp: they come near this for usual polygons.
-  double rough() const { return (directional ? 512 : 256) * Ball::kUnit; }
+  /// the worst of all roundings. Those of lines say ten times what integrals are off by, or more;
+  /// those of planes count the terms that there are, and integrals may come near them.
+  double rough() const { return (!planes.empty() ? 96 : directional ? 512 : 256) * Ball::kUnit; }
 
   std::optional<ExactValues> exact;  // certified
   bool exact_rays = false;  // certified, of a lamp: rays are exactly their integers, scaled
@@ -292,6 +293,13 @@ void fill_certified(const LightIntegers& light, unsigned jobs,
               });
 }
 
+/// Whether all components of a light are exactly doubles, whatever their common step is.
+inline bool is_of_doubles(const LightPoint& light) {
+  return std::ranges::all_of(light.grid, [](const mpz_class& x) {
+    return x == 0 || mpz_sizeinbase(x.get_mpz_t(), 2) - mpz_scan1(x.get_mpz_t(), 0) <= 53;
+  });
+}
+
 /// The same for a sun, from positions that are exactly doubles.
 inline void fill_certified_sun(const LightIntegers& light, unsigned jobs,
                                LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
@@ -308,9 +316,12 @@ inline void fill_certified_sun(const LightIntegers& light, unsigned jobs,
               [&](std::uint32_t begin, std::uint32_t end) {
                 for (EdgeId e = begin; e < end; ++e) {
                   const auto [from, to] = geometry.edges[e];
-                  double size;
-                  const Vector<double> step = result.difference(to, from, size);
-                  result.lines[e] = cross_product(result.rays[from], step);
+                  const Vector<double>& at = result.positions[from];
+                  const Vector<double> step = difference_of(result.positions[to], at);
+                  const double size = largest(step);
+                  const Vector<double> of_rays{step[0] * d[2] - step[2] * d[0],
+                                               step[1] * d[2] - step[2] * d[1], 0};
+                  result.lines[e] = cross_product(result.rays[from], of_rays);
                   result.line_error[e] = ContourBounds::kSunLine * size;
                 }
               });
@@ -321,11 +332,15 @@ inline void fill_positions(const LightIntegers& light,
                            LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   constexpr unsigned kDoubleBits = 53;
   const Geometry& geometry = *light.geometry;
+  const std::array<int, 3> axes{light.axes.x, light.axes.y, light.axes.z};
+  for (int k = 0; k < 3; ++k) {
+    result.to_light[k] =
+        to_double_scaled(light.light.grid[axes[k]], static_cast<long>(light.light_bits));
+  }
   if (!light.light.directional || geometry.grid.bits() > kDoubleBits) {
     result.positions.clear();
     return;
   }
-  const std::array<int, 3> axes{light.axes.x, light.axes.y, light.axes.z};
   if (result.positions.empty() || result.axes != axes) {
     const double scale = std::ldexp(1.0, -static_cast<int>(light.grid_bits()));
     result.axes = axes;
@@ -335,10 +350,38 @@ inline void fill_positions(const LightIntegers& light,
       for (int k = 0; k < 3; ++k) result.positions[v][k] = static_cast<double>(p[axes[k]]) * scale;
     }
   }
-  for (int k = 0; k < 3; ++k) {
-    result.to_light[k] =
-        to_double_scaled(light.light.grid[axes[k]], static_cast<long>(light.light_bits));
+}
+
+/// The planes of edges, from a narrow grid. Requires: rays and lines.
+inline void fill_planes(const LightIntegers& light, unsigned jobs,
+                        LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
+  const Geometry& geometry = *light.geometry;
+  const bool directional = light.light.directional;
+  const auto g = static_cast<int>(light.grid_bits()), q = static_cast<int>(light.q_bits);
+  result.planes.clear();
+  if (!light.narrow || result.exact_rays) return;
+  if (!result.positions.empty()) {
+    result.planes.start(geometry.edges.size(), result.positions);
+  } else if (directional) {
+    const std::array<int, 3> axes{light.axes.x, light.axes.y, light.axes.z};
+    result.planes.start(geometry.edges.size(), geometry.grid, axes, std::ldexp(1.0, -g));
+  } else {
+    // Rays are the light less positions.
+    result.planes.start(geometry.edges.size(), geometry.grid, {0, 1, 2}, -std::ldexp(1.0, -q));
   }
+  if (!result.positions.empty() && g < 53 && is_of_doubles(light.light)) {
+    result.planes.set_bounds(ContourBounds::kPlaneOfExact,
+                             std::ldexp(1.0, 52 - 2 * g - static_cast<int>(light.light_bits)));
+  } else {
+    result.planes.set_bounds(ContourBounds::kPlane, 0);
+  }
+  in_parallel(jobs, size_of(geometry.edges), kRayGrain,
+              [&](std::uint32_t begin, std::uint32_t end) {
+                for (EdgeId e = begin; e < end; ++e) {
+                  const EdgeEnds& ends = geometry.edges[e];
+                  result.planes.set(e, ends, directional ? result.to_light : result.rays[ends.a]);
+                }
+              });
 }
 
 }  // namespace contour_detail
@@ -367,6 +410,7 @@ void make_light_rays(const Space& space, const Geometry& geometry, const LightPo
     with_width(width_of(integers.narrow, integers.q_bits + 2),
                [&]<class Int>() { contour_detail::fill_certified<Int>(integers, jobs, result); });
   }
+  contour_detail::fill_planes(integers, jobs, result);
   result.depths.resize(geometry.planes.size());
   result.depth_error.resize(geometry.planes.size());
   constexpr unsigned kDoubleBits = 53;

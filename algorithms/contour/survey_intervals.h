@@ -99,9 +99,8 @@ bool EdgeSurvey<Numbers, Sides>::interval(std::uint32_t p, std::uint32_t k, std:
   return true;
 }
 
-// Where edge k of p crosses the line of an edge of q, with the values of that line at the ends.
-// From exact positions they are found again, as differences from an end of q's edge, which are much
-// less off for short edges.
+// Where edge k of p crosses the line of an edge of q, with the values of that line at the ends, or
+// those of the edge's plane, which are much less off.
 template <class Numbers, class Sides>
 Place<Numbers> EdgeSurvey<Numbers, Sides>::meeting(std::uint32_t p, std::uint32_t k,
                                                    std::uint32_t q, std::uint32_t edge,
@@ -113,19 +112,13 @@ Place<Numbers> EdgeSurvey<Numbers, Sides>::meeting(std::uint32_t p, std::uint32_
                              ? PlaceName::vertex(polygons_->vertex(other, corner))
                              : PlaceName::line(polygons_->edge(other, edge).index());
   if constexpr (Numbers::kCertified) {
-    if (!light_->positions.empty()) {
-      // The same end, whichever polygon asks.
-      const PlaneRef ref = polygons_->edge(other, edge);
-      const VertexId base =
-          polygons_->vertex(other, ref.flipped() ? (edge + 1 == other.count ? 0 : edge + 1) : edge);
-      const Vector<double> line = polygons_->line(other, edge);
+    if (const EdgePlanes& planes = light_->planes; !planes.empty()) {
+      const EdgePlanes::Plane& plane = planes.of(polygons_->edge(other, edge).index());
+      const VertexId next = polygons_->vertex(own, k + 1 == own.count ? 0 : k + 1);
       double from_size, to_size;
-      const Vector<double> from = light_->difference(polygons_->vertex(own, k), base, from_size);
-      const Vector<double> to =
-          light_->difference(polygons_->vertex(own, k + 1 == own.count ? 0 : k + 1), base, to_size);
-      return zero_between<Numbers>(
-          dot_product(line, from), dot_product(line, to),
-          polygons_->error_of_line(other, edge) * std::max(from_size, to_size), name);
+      const double from = planes.value(plane, polygons_->vertex(own, k), from_size);
+      const double to = planes.value(plane, next, to_size);
+      return zero_between<Numbers>(from, to, planes.error(std::max(from_size, to_size)), name);
     }
   }
   return zero_between<Numbers>(at_from, at_to, Numbers::kCertified ? light_->proven(error) : 0,
