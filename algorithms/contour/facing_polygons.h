@@ -79,7 +79,8 @@ struct FacingPolygons {
   VertexId vertex(const FacingPolygon& p, std::uint32_t k) const { return vertices[p.first + k]; }
   PlaneRef edge(const FacingPolygon& p, std::uint32_t k) const { return edges[p.first + k]; }
 
-  /// Lays out the parts of `facing`, in its order. The arrays are kept from light to light.
+  /// Lays out the parts of `facing`, in its order. The arrays are kept from light to light, and are
+  /// right at once where the same sides face the light as the last: suns of one quarter of the day.
   void lay_out(const PreparedScene& scene, const FacingParts& facing, unsigned jobs);
   void find_shared_edges(std::size_t edge_count, unsigned jobs);
   /// Fills polygons [begin, end) with the numbers of one light.
@@ -94,6 +95,7 @@ struct FacingPolygons {
     __builtin_prefetch(bytes + sizeof(block) - 1);
   }
   void name_corners(const PreparedScene& scene, const FacingPolygon& p);
+  bool is_laid_out(const FacingParts& facing) const;
 
   std::vector<std::uint8_t> edge_users_;
 };
@@ -101,6 +103,7 @@ struct FacingPolygons {
 template <class Numbers>
 void FacingPolygons<Numbers>::lay_out(const PreparedScene& scene, const FacingParts& facing,
                                       unsigned jobs) {
+  if (is_laid_out(facing)) return;
   polygons.resize(facing.parts.size());
   vertices.resize(facing.edges + 3);
   edges.resize(facing.edges);
@@ -121,6 +124,16 @@ void FacingPolygons<Numbers>::lay_out(const PreparedScene& scene, const FacingPa
   lines.resize(block);
   line_error.resize(4 * std::size_t{block});
   reach.resize(polygons.size());
+}
+
+template <class Numbers>
+bool FacingPolygons<Numbers>::is_laid_out(const FacingParts& facing) const {
+  return !polygons.empty() &&
+         std::equal(polygons.begin(), polygons.end(), facing.parts.begin(), facing.parts.end(),
+                    [&](const FacingPolygon& p, std::uint32_t part) {
+                      return p.part == part &&
+                             p.reversed == (facing.facing[part].side == Side::kBack);
+                    });
 }
 
 template <class Numbers>

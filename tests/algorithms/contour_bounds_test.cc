@@ -124,6 +124,24 @@ struct BothRays {
               mpq_class(ExactValues::kLine) * abs(truth));
   }
 
+  /// Where an edge crosses the line of another, or a plane, against rationals.
+  void hold_crossings(const Geometry& geometry, VertexId a, VertexId b, VertexId from,
+                      VertexId to) const {
+    const auto hold = [](const std::optional<DoubleDouble>& t, const mpq_class& at_from,
+                         const mpq_class& at_to) {
+      ASSERT_EQ(t.has_value(), sgn(at_from) != sgn(at_to));
+      if (!t) return;
+      const mpq_class truth = at_from / (at_from - at_to);
+      ASSERT_LE(abs(truth - mpq_class(t->high) - mpq_class(t->low)),
+                mpq_class(ExactValues::kCrossing) * truth);
+    };
+    hold(rays.exact->crossing(a, b, from, to), determinant(a, b, from), determinant(a, b, to));
+    const ExactGeometry<mpz_class> in_grid(geometry);
+    for (PlaneId id = 0; id < geometry.planes.size(); ++id) {
+      hold(rays.exact->crossing(id, from, to), in_grid.value(id, from), in_grid.value(id, to));
+    }
+  }
+
   LightPoint point;
   Space::SceneSpace scene_space;
   Space space;
@@ -181,6 +199,7 @@ TEST_P(ContourBoundsTest, HoldLinesAndDepths) {
           ASSERT_EQ(off, 0) << edge << ' ' << v;
         }
         both.hold_sharp(from, to, v);
+        both.hold_crossings(scene.geometry, from, to, v, v == 0 ? 1 : v - 1);
         if (!rays.planes.empty()) {
           closest_plane = std::max(closest_plane, both.hold_plane(edge, from, to, v));
         }
