@@ -201,6 +201,29 @@ void ContourWalk<Numbers, Sides>::go_to(std::uint32_t k, PlaceOnEdge at, const P
   }
 }
 
+// The first caster just after `low`. Where the order of two is not known, one that was passed over
+// may yet be known to be before a later top: so all are compared again until none is.
+template <class Numbers, class Sides>
+auto ContourWalk<Numbers, Sides>::find_top(std::uint32_t k, const PlaceOnEdge& low,
+                                           const PlaceOnEdge& high) -> const Behind<Numbers>* {
+  const std::vector<Behind<Numbers>>& behind = lists_[k].behind;
+  const Behind<Numbers>* top = nullptr;
+  bool is_open = false, changed = true;
+  for (std::size_t round = 0; changed && round < active_.size(); ++round) {
+    changed = false;
+    for (const std::uint32_t i : active_) {
+      if (!casts(behind[i].polygon) || &behind[i] == top) continue;
+      const int order = top == nullptr ? 1 : order_just_after(k, behind[i], *top, low, high);
+      if (order > 0) {
+        changed = is_open;
+        top = &behind[i];
+      }
+      is_open = is_open || (order == 0 && plane(behind[i].polygon) != plane(top->polygon));
+    }
+  }
+  return top;
+}
+
 // Between two places where nothing begins or ends. `high` comes nearer where the order changes.
 // False: the two cannot be told apart.
 template <class Numbers, class Sides>
@@ -212,12 +235,7 @@ bool ContourWalk<Numbers, Sides>::piece(std::uint32_t k, const PlaceOnEdge& low,
     if (only.covers_both) take_from(k, only, low, high);
     return true;
   }
-  // The first caster just after `low`, and where another polygon's depth passes its.
-  const Behind<Numbers>* top = nullptr;
-  for (const std::uint32_t i : active_) {
-    if (!casts(behind[i].polygon)) continue;
-    if (top == nullptr || is_first(k, behind[i], *top, low, high)) top = &behind[i];
-  }
+  const Behind<Numbers>* top = find_top(k, low, high);
   if (top != nullptr) {
     for (const std::uint32_t i : active_) {
       if (&behind[i] != top) end_where_order_changes(behind[i], *top, low, high);
@@ -245,19 +263,20 @@ int ContourWalk<Numbers, Sides>::depth_order(const Behind<Numbers>& a, const Beh
   return sign_of_value(difference);
 }
 
-// Whether caster a comes before caster b just after `low`.
+// 1 if caster a comes before caster b just after `low`, -1 if b does; 0: in one plane, or not
+// known.
 template <class Numbers, class Sides>
-bool ContourWalk<Numbers, Sides>::is_first(std::uint32_t k, const Behind<Numbers>& a,
-                                           const Behind<Numbers>& b, const PlaceOnEdge& low,
-                                           const PlaceOnEdge& high) {
-  if (plane(a.polygon) == plane(b.polygon)) return false;
-  if (const int order = range_order(a.polygon, b.polygon); order != 0) return order > 0;
+int ContourWalk<Numbers, Sides>::order_just_after(std::uint32_t k, const Behind<Numbers>& a,
+                                                  const Behind<Numbers>& b, const PlaceOnEdge& low,
+                                                  const PlaceOnEdge& high) {
+  if (plane(a.polygon) == plane(b.polygon)) return 0;
+  if (const int order = range_order(a.polygon, b.polygon); order != 0) return order;
   int order = depth_order(a, b, low);
   const int at_high = depth_order(a, b, high);
   if (order * at_high < 0 && !(low.t < passing(a, b, low, high).t)) order = 0;  // it just changed
   if (order == 0) order = at_high;
   if (order == 0) order = level_order(k, a.polygon, b.polygon);
-  return order > 0;
+  return order;
 }
 
 // Two polygons whose depths along the edge are not told apart: on its outer side.

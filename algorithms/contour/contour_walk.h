@@ -153,8 +153,9 @@ class ContourWalk {
     if (of_a.low > of_b.high) return 1;
     return of_a.high < of_b.low ? -1 : 0;
   }
-  bool is_first(std::uint32_t k, const Behind<Numbers>& a, const Behind<Numbers>& b,
-                const PlaceOnEdge& low, const PlaceOnEdge& high);
+  const Behind<Numbers>* find_top(std::uint32_t k, const PlaceOnEdge& low, const PlaceOnEdge& high);
+  int order_just_after(std::uint32_t k, const Behind<Numbers>& a, const Behind<Numbers>& b,
+                       const PlaceOnEdge& low, const PlaceOnEdge& high);
   int level_order(std::uint32_t k, std::uint32_t a, std::uint32_t b);
   int known_order(std::uint32_t a, std::uint32_t b);
   PlaceOnEdge passing(const Behind<Numbers>& a, const Behind<Numbers>& b, const PlaceOnEdge& low,
