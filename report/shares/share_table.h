@@ -20,7 +20,7 @@
 #include "gnomon/kernel/kernel_list.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
-#include "report/sides/part_weights.h"
+#include "report/shares/share_columns.h"
 #include "report/text/text_sink.h"
 
 namespace gnomon::report {
@@ -48,11 +48,6 @@ class ShareTable {
                    std::string_view file) const;
 
  private:
-  struct Column {
-    std::uint32_t polygon;
-    Side side;
-  };
-  std::string name_of(const Column& column) const;
   const std::string& light_id(std::uint32_t light) const;
   std::string csv_head() const;
   std::string npy_head(std::size_t lights) const;
@@ -63,8 +58,7 @@ class ShareTable {
   const Scene& scene_;
   const PreparedScene& prepared_;
   ShareFormat format_;
-  PartWeights weights_;
-  std::vector<Column> columns_;
+  ShareColumns columns_;
   std::vector<std::string_view> classes_;  // one or three: see the page of formats
   std::vector<double> values_;             // of one light: by class, then by column
   std::string row_;
