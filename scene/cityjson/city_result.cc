@@ -85,11 +85,11 @@ void CityReader::warn(ReadResult& result) const {
     for (const Number& lod : lods) there += (there.empty() ? "" : ", ") + lod.to_text();
     result.warnings.push_back(counted(without_lod_, "city object has", "city objects have") +
                               " no geometry of level of detail " + options_.lod +
-                              " and left out; in the file: " + (there.empty() ? "none" : there));
+                              ": left out; in the file: " + (there.empty() ? "none" : there));
   }
   if (turned_solids_ != 0) {
     result.warnings.push_back(counted(turned_solids_, "solid looks", "solids look") +
-                              " inwards, against the standard, and turned over");
+                              " inwards, against the standard: turned over");
   }
   if (underflows_ != 0) {
     result.warnings.push_back(counted(underflows_, "coordinate is", "coordinates are") +

@@ -167,15 +167,15 @@ void EnergyScene::warn(std::vector<std::string>& warnings) const {
   }
   if (turned_openings_ != 0) {
     warnings.push_back(counted(turned_openings_, "window or door looks", "windows and doors look") +
-                       " the other way than the wall, and turned over");
+                       " the other way than the wall: turned over");
   }
   if (unexposed_ != 0) {
     warnings.push_back(counted(unexposed_, "outer surface is", "outer surfaces are") +
-                       " said not to be exposed to the sun, and there all the same");
+                       " said not to be exposed to the sun: kept");
   }
   if (multiplied_ != 0) {
     warnings.push_back(counted(multiplied_, "window has", "windows have") +
-                       " a multiplier, and there once");
+                       " a multiplier: each is there once");
   }
   if (underflows_ != 0) {
     warnings.push_back(counted(underflows_, "coordinate is", "coordinates are") +

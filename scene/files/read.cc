@@ -168,8 +168,8 @@ Error with_line_of_polygon(Error error, const std::filesystem::path& path,
   with_offsets.polygon_offsets = true;
   const auto again = parse_known_format(*text, shown_name(path), with_offsets);
   if (!again || index >= again->polygon_offsets.size()) return error;
-  const bool is_json = text->starts_with('{') || first_word_on(*text).starts_with("{");
-  // In JSON the pointer goes on to the loop or the hole.
+  const bool is_json = json_dialect(*text) == SceneFormat::kJson;
+  // In a scene of our own the pointer goes on to the loop or the hole.
   const std::size_t offset =
       is_json ? locate_pointer(*text, error.where.pointer) : again->polygon_offsets[index];
   error.where = place_in_text(error.where.file, *text, offset,

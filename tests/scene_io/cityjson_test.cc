@@ -88,7 +88,7 @@ TEST(CityJson, TheHighestLevelOfDetailOrTheOneAskedFor) {
   const auto asked = parse_scene(text, "a.json", options);
   ASSERT_TRUE(asked) << to_string(asked.error());
   EXPECT_EQ(asked->scene.polygons.size(), 6u);
-  EXPECT_THAT(asked->warnings, ElementsAre("1 city object has no geometry of level of detail 2 and "
+  EXPECT_THAT(asked->warnings, ElementsAre("1 city object has no geometry of level of detail 2: "
                                            "left out; in the file: 0, 2, 2.2"));
   options.lod = "two";
   EXPECT_EQ(code_of(text, "a.json", options), ErrorCode::kUsage);
@@ -124,7 +124,7 @@ TEST(CityJson, SolidsThatLookInwardsAreTurned) {
     [[5,6,2,1]], [[6,7,3,2]], [[7,4,0,3]] ]], "type": "Solid", "lod": "1"})";
   const auto result = parse_scene(file_of(object("a", inwards)), "a.json", {});
   ASSERT_TRUE(result);
-  EXPECT_THAT(result->warnings, ElementsAre("1 solid looks inwards, against the standard, and "
+  EXPECT_THAT(result->warnings, ElementsAre("1 solid looks inwards, against the standard: "
                                             "turned over"));
   const Scene good = scene_of(file_of(object("a", box())), "a.json");
   const auto up = [](const Scene& scene) {  // twice the area of the second surface, the top
