@@ -25,6 +25,7 @@ struct CityGeometryType {
 };
 /// Null for a type that CityJSON does not have.
 const CityGeometryType* city_geometry_type(std::string_view name);
+inline constexpr std::string_view kSolidType = "Solid";
 /// A geometry that stands for a template; it has no surfaces of its own.
 inline constexpr std::string_view kInstanceType = "GeometryInstance";
 

@@ -184,6 +184,10 @@ Expected<void> CityReader::read_object(Unit& unit, const JsonNode& key, const Js
                                          : add_geometry(unit, geometry, group.polygons);
     if (!done) return done;
   }
+  const bool is_plain_solid = picked->size() == 1 && picked->front().type != nullptr &&
+                              picked->front().type->name == kSolidType &&
+                              picked->front().node.find("boundaries")->size() == 1;
+  if (is_plain_solid) solids_.push_back(usable_id(name));
   if (!group.polygons.empty()) objects_.push_back(std::move(group));
   return {};
 }

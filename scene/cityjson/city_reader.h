@@ -90,6 +90,7 @@ class CityReader {
   std::unordered_set<std::string> prefixes_;
   std::vector<PolygonGroup> objects_, kinds_;
   std::unordered_map<std::string, std::size_t> kind_index_;
+  std::vector<std::string> solids_;     // objects that are one solid of one shell each
   std::vector<std::uint64_t> offsets_;  // of polygons
   std::vector<PolygonProblem> problems_;
   std::map<std::string, std::size_t> passed_over_;  // types of geometries without surfaces

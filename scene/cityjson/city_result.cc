@@ -31,7 +31,8 @@ std::string counted(std::size_t count, const std::string& one, const std::string
 }  // namespace
 
 /// {"groups": {object or kind: ids}, "cityjson": {"version", "referenceSystem", "semantics":
-/// [kinds]}}. A kind that is called like an object has " surfaces" behind its name.
+/// [kinds], "solids": [objects]}}. A kind that is called like an object has " surfaces" behind its
+/// name.
 std::string CityReader::extra() const {
   std::unordered_set<std::string_view> names;
   for (const PolygonGroup& object : objects_) names.insert(object.name);
@@ -66,6 +67,12 @@ std::string CityReader::extra() const {
     write(writer, "semantics");
     writer.StartArray();
     for (const PolygonGroup& kind : kinds_) write(writer, kind_name(kind));
+    writer.EndArray();
+  }
+  if (!solids_.empty()) {
+    write(writer, "solids");
+    writer.StartArray();
+    for (const std::string& name : solids_) write(writer, name);
     writer.EndArray();
   }
   writer.EndObject();

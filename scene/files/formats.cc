@@ -23,7 +23,7 @@ constexpr FileFormat kFormats[] = {
     {SceneFormat::kPlyBinary, "ply-binary", "binary PLY", "ply-binary", Holds::kMeshOfDoubles,
      nullptr,         read_ply,  write_ply_binary},
     {SceneFormat::kCityJson,  "cityjson",   "CityJSON",   "city.json",  Holds::kSurfaces,
-     looks_like_cityjson, read_cityjson, nullptr},
+     looks_like_cityjson, read_cityjson, write_cityjson},
     {SceneFormat::kCityJsonSeq, "cityjsonseq", "CityJSONSeq", "jsonl", Holds::kSurfaces,
      looks_like_cityjson_sequence, read_cityjson_sequence, nullptr, stream_cityjson_sequence},
     {SceneFormat::kEpJson, "epjson", "epJSON", "epjson", Holds::kSurfaces,

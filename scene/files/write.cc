@@ -64,7 +64,11 @@ Expected<WrittenScene> scene_to_text(const Scene& scene, SceneFormat format) {
     return fail(ErrorCode::kUsage, std::string(file.title) + " is read and not written",
                 shown_written_extensions());
   }
-  if (file.holds != Holds::kScene) result.warnings = left_out_of_mesh(scene, file.holds);
+  if (file.holds == Holds::kSurfaces) {
+    result.warnings = left_out_of_cityjson(scene);
+  } else if (file.holds != Holds::kScene) {
+    result.warnings = left_out_of_mesh(scene, file.holds);
+  }
   Expected<std::string> text = file.write(scene);
   if (!text) {
     text.error().where.file = scene.file;

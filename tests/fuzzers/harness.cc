@@ -52,6 +52,12 @@ void check_scene(const Scene& scene, SceneFormat format, NumberMeaning meaning, 
       std::find(writable.begin(), writable.end(), format_name(format)) == writable.end()) {
     return;
   }
+  if (format == SceneFormat::kCityJson) {
+    // Integers of many digits it cannot hold, and it says what else it cannot.
+    const auto city = scene_to_text(scene, format);
+    require(city || city.error().code == ErrorCode::kLimit, "a city model cannot be written");
+    if (!city || !city->warnings.empty()) return;
+  }
   ReadOptions options;
   options.numbers = scene.numbers;
   options.format = format;

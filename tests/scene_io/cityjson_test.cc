@@ -279,6 +279,71 @@ TEST(CityJson, SkipBadLeavesSurfacesOut) {
   EXPECT_THAT((*polygon_groups(result->scene))[0].polygons, ElementsAre(0, 1));
 }
 
+// ----------------------------------------------------------------------------------------- written
+
+TEST(WrittenCityJson, ReadsBackAsTheSame) {
+  const std::string semantics = R"(, "semantics": {"surfaces": [{"type": "RoofSurface"},
+    {"type": "WallSurface"}], "values": [[null, 0, 1, 1, null, 1]]})";
+  const std::string loose =
+      R"({"type": "MultiSurface", "lod": "1", "boundaries": [[[0,1,2,3],[8,9,10]], [[4,5,6]]]})";
+  const Scene scene = scene_of(
+      file_of(object("a#1", box(semantics)) + "," + object("b", loose),
+              R"("metadata": {"referenceSystem": "EPSG/7415"}, )" + std::string(kTransform)),
+      "a.json");
+  const auto written = scene_to_text(scene, SceneFormat::kCityJson);
+  ASSERT_TRUE(written) << to_string(written.error());
+  EXPECT_THAT(written->warnings, IsEmpty());
+  const Scene back = scene_of(written->text, "a.city.json");
+  expect_same_geometry(back, scene);
+  EXPECT_EQ(ids(back), ids(scene));
+  for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
+    EXPECT_EQ(back.is_two_sided(back.polygons[i]), scene.is_two_sided(scene.polygons[i])) << i;
+    EXPECT_EQ(back.polygons[i].holes, scene.polygons[i].holes) << i;
+  }
+  EXPECT_EQ(scene_to_text(back, SceneFormat::kCityJson)->text, written->text);
+  EXPECT_THAT(back.extra, HasSubstr("EPSG/7415"));
+  EXPECT_EQ(polygon_groups(back)->size(), polygon_groups(scene)->size());
+}
+
+TEST(WrittenCityJson, SaysWhatIsLost) {
+  const Scene scene = scene_of(full_json(), "s.json");
+  Scene small = scene;
+  small.vertices[7] = {};
+  const auto written = scene_to_text(small, SceneFormat::kCityJson);
+  ASSERT_TRUE(written) << to_string(written.error());
+  EXPECT_THAT(
+      written->warnings,
+      ElementsAre("3 polygons: the id becomes that of an object, and is read with /0",
+                  "1 polygon with one side: the format has them in solids only, and reads "
+                  "two sides",
+                  "casts of 1 polygon left out", "3 lights left out", "\"extra\" left out"));
+  const Scene back = scene_of(written->text, "s.city.json");
+  EXPECT_THAT(ids(back), ElementsAre("floor/0", "1/0", "2/0"));
+  small.vertices[7] = position("1e600", "0", "1e-600");
+  small.vertices[6] = position("1e-600", "0", "1e600");
+  const auto too_long = scene_to_text(small, SceneFormat::kCityJson);
+  ASSERT_FALSE(too_long);
+  EXPECT_EQ(too_long.error().code, ErrorCode::kLimit);
+  EXPECT_EQ(too_long.error().where.pointer, "/vertices/6/2");
+}
+
+TEST(WrittenCityJson, NamesNeverCollide) {
+  const std::string polygons =
+      R"({"id": "a", "loop": [0,1,2]}, {"id": "a/0", "loop": [0,1,2]}, {"id": "b/0", "loop": [0,1,2]},
+         {"id": "b/1", "loop": [0,1,2]}, {"id": "b", "loop": [0,1,2]}, {"id": "b/3", "loop": [0,1,2]})";
+  const Scene scene = scene_of(R"({"format": "gnomon-scene", "version": 1, "two_sided": true,
+                   "vertices": [[0,0,0],[0.1,0,0],[0,1,0]], "polygons": [)" +
+                                   polygons + "]}",
+                               "s.json");
+  const auto written = scene_to_text(scene, SceneFormat::kCityJson);
+  ASSERT_TRUE(written);
+  ReadOptions doubles;
+  doubles.numbers = NumberMeaning::kDouble;
+  const Scene back = scene_of(written->text, "s.city.json", doubles);
+  EXPECT_THAT(ids(back), ElementsAre("a/0", "a/0/0", "b/0", "b/1", "b//0", "b/3/0"));
+  EXPECT_EQ(back.vertices[1][0], Number(0.1));
+}
+
 // ------------------------------------------------------------------------------------- CityJSONSeq
 
 std::string feature(const std::string& name, const std::string& vertices) {
