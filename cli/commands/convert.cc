@@ -31,7 +31,7 @@ int run_convert(const ConvertOptions& options) {
   }
   if (!format) {
     return report_usage("the name does not say which format to write",
-                        "an extension " + shown_scene_extensions() + ", or --format",
+                        "an extension " + shown_written_extensions() + ", or --format",
                         options.target);
   }
   auto scene = read_scene_with_lights(options.scene);
@@ -70,8 +70,8 @@ void add_convert_command(CLI::App& app, Action& action) {
       ->required()
       ->type_name("FILE");
   command.add_option("--format", options->format, "Format of OUT, whatever its name")
-      ->check(CLI::IsMember(format_names()))
-      ->type_name(CLI::detail::join(format_names(), "|"));
+      ->check(CLI::IsMember(written_format_names()))
+      ->type_name(CLI::detail::join(written_format_names(), "|"));
   add_repair_options(command, options->repair);
   command.callback([options, &action] { action = [options] { return run_convert(*options); }; });
 }

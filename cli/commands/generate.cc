@@ -104,7 +104,7 @@ int run_generate(const GenerateOptions& options) {
     const auto by_extension = format_by_extension(options.output);
     if (!by_extension) {
       return report_usage("the name does not say which format to write",
-                          "an extension " + shown_scene_extensions(), options.output);
+                          "an extension " + shown_written_extensions(), options.output);
     }
     format = *by_extension;
   }

@@ -111,6 +111,10 @@ CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_flag("--skip-bad", options.skip_bad,
                    "Leave out polygons that cannot be used (they cross themselves, name no vertex\n"
                    "or too few, have a coordinate that is no number), and name them");
+  command
+      .add_option("--lod", options.lod,
+                  "Of CityJSON: this level of detail alone, instead of each object's highest")
+      ->type_name("L");
   add_jobs_option(command, options.jobs);
   return scene;
 }
@@ -125,6 +129,7 @@ ReadOptions read_options(const SceneOptions& options) {
   ReadOptions result;
   result.numbers = numbers_asked(options.numbers);
   result.skip_bad = options.skip_bad;
+  result.lod = options.lod;
   return result;
 }
 

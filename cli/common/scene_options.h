@@ -25,6 +25,7 @@ struct SceneOptions {
   unsigned jobs = 0;                // threads; 0: one a processor
   bool two_sided = false;           // all polygons, whatever the file says
   bool skip_bad = false;            // polygons that cannot be used are left out
+  std::string lod;                  // of CityJSON; empty: the highest
 };
 
 /// Also --jobs, since preparation takes all processors. The option of the scene's file is returned:

@@ -69,9 +69,7 @@ constexpr Mark kXmlMarks[] = {
 
 /// Pairs of key and value, or keys alone, written without blanks. The first that is there counts.
 constexpr Mark kJsonMarks[] = {
-    {R"("type":"CityJSON")", "CityJSON"},
-    {R"("type":"CityJSONFeature")", "CityJSON (a feature)"},
-    {R"("CityObjects":)", "CityJSON"},
+    {R"("type":"CityJSONFeature")", "CityJSON (a feature without the file that it is of)"},
     {R"("type":"FeatureCollection")", "GeoJSON"},
     {R"("type":"Topology")", "TopoJSON"},
     {R"("type":"Room")", "HBJSON"},
@@ -80,18 +78,13 @@ constexpr Mark kJsonMarks[] = {
     {R"("type":"ModelRadianceProperties")", "HBJSON"},
     {R"("type":"ModelProperties")", "HBJSON or DFJSON"},
     {R"("type":"Face3D")", "HBJSON"},
-    {R"("BuildingSurface:Detailed":)", "epJSON"},
-    {R"("Building":{)", "epJSON"},
     {R"("asset":{)", "glTF"},
     {R"("meshes":[)", "glTF"},
 };
 
 /// Words of texts that are neither XML nor JSON, where a line begins.
 constexpr Mark kLineMarks[] = {
-    {"BuildingSurface:Detailed", "IDF"},
-    {"!-Generator", "IDF"},
-    {"Zone,", "IDF"},
-    {"SimulationControl,", "IDF"},
+    {"SimulationControl,", "an IDF without surfaces"},
     {"OS:Version", "OpenStudio (OSM)"},
     {"facet normal", "STL"},
     {"SECTION", "DXF"},

@@ -22,6 +22,14 @@ constexpr FileFormat kFormats[] = {
      looks_like_ply,  read_ply,  write_ply_ascii},
     {SceneFormat::kPlyBinary, "ply-binary", "binary PLY", "ply-binary", Holds::kMeshOfDoubles,
      nullptr,         read_ply,  write_ply_binary},
+    {SceneFormat::kCityJson,  "cityjson",   "CityJSON",   "city.json",  Holds::kSurfaces,
+     looks_like_cityjson, read_cityjson, write_cityjson},
+    {SceneFormat::kCityJsonSeq, "cityjsonseq", "CityJSONSeq", "jsonl", Holds::kSurfaces,
+     looks_like_cityjson_sequence, read_cityjson_sequence, nullptr, stream_cityjson_sequence},
+    {SceneFormat::kEpJson, "epjson", "epJSON", "epjson", Holds::kSurfaces,
+     looks_like_epjson, read_epjson, nullptr},
+    {SceneFormat::kIdf, "idf", "IDF", "idf", Holds::kSurfaces,
+     looks_like_idf, read_idf, nullptr},
 };
 // clang-format on
 
@@ -54,9 +62,25 @@ std::string shown_scene_extensions() {
   return alternatives([](const FileFormat& format) { return "." + std::string(format.extension); });
 }
 
-std::vector<std::string> format_names() {
+std::string shown_written_extensions() {
+  std::vector<std::string> there;
+  for (const FileFormat& known : kFormats) {
+    if (known.write != nullptr && known.looks_like != nullptr) {
+      there.push_back("." + std::string(known.extension));
+    }
+  }
+  std::string text = there.front();
+  for (std::size_t i = 1; i < there.size(); ++i) {
+    text += (i + 1 == there.size() ? " or " : ", ") + there[i];
+  }
+  return text;
+}
+
+std::vector<std::string> written_format_names() {
   std::vector<std::string> names;
-  for (const FileFormat& known : kFormats) names.emplace_back(known.name);
+  for (const FileFormat& known : kFormats) {
+    if (known.write != nullptr) names.emplace_back(known.name);
+  }
   return names;
 }
 
@@ -70,16 +94,17 @@ std::optional<SceneFormat> format_by_name(std::string_view name) {
 }
 
 std::optional<SceneFormat> format_by_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  if (extension.empty()) return std::nullopt;
-  extension.erase(0, 1);
-  for (char& c : extension) {
+  std::string name = path.filename().string();
+  for (char& c : name) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
+  // Of .json and .city.json the longer one counts.
+  const FileFormat* longest = nullptr;
   for (const FileFormat& known : kFormats) {
-    if (known.extension == extension) return known.format;
+    if (!name.ends_with("." + std::string(known.extension))) continue;
+    if (longest == nullptr || known.extension.size() > longest->extension.size()) longest = &known;
   }
-  return std::nullopt;
+  return longest != nullptr ? std::optional(longest->format) : std::nullopt;
 }
 
 std::optional<SceneFormat> format_by_content(std::string_view text) {

@@ -15,6 +15,8 @@
 
 namespace gnomon {
 
+class TextWindow;
+
 /// How well the first bytes of a file fit a format.
 enum class Likeness : std::uint8_t {
   kNone,
@@ -27,20 +29,25 @@ enum class Holds : std::uint8_t {
   kScene,          // everything
   kMesh,           // vertices and loops, the numbers as text
   kMeshOfDoubles,  // vertices and loops, the numbers as doubles
+  kSurfaces,       // vertices, loops, holes, ids and groups, the numbers as decimals
 };
 
 struct FileFormat {
   SceneFormat format;
   std::string_view name;       // on the command line
   std::string_view title;      // in messages
-  std::string_view extension;  // of files, in lower case and without its dot
+  std::string_view extension;  // of files, in lower case and without its first dot
   Holds holds;
   /// Null for a second way of writing the format of another row, which that row recognizes.
   Likeness (*looks_like)(std::string_view text);
   /// `file`: the name of the file, for messages.
   Expected<ReadResult> (*read)(const std::string& text, const std::string& file,
                                const ReadOptions& options);
+  /// Null for a format that is only read.
   Expected<std::string> (*write)(const Scene& scene);
+  /// Reads a file of which only a part at a time is in memory; null if that cannot be.
+  Expected<ReadResult> (*stream)(TextWindow& window, const std::string& file,
+                                 const ReadOptions& options) = nullptr;
 };
 
 /// All formats, in the order in which messages list them.

@@ -9,6 +9,7 @@
 #include "scene/base/text_window.h"
 #include "scene/files/foreign_formats.h"
 #include "scene/files/formats.h"
+#include "scene/files/json_dialect.h"
 #include "scene/files/left_out.h"
 #include "scene/files/plain_json_scene.h"
 #include "scene/files/readers.h"
@@ -40,12 +41,28 @@ void UnderflowCount::report(std::string_view text, std::vector<std::string>& war
 
 namespace {
 
+bool is_any_json(std::optional<SceneFormat> format) {
+  return format == SceneFormat::kJson || format == SceneFormat::kCityJson ||
+         format == SceneFormat::kCityJsonSeq || format == SceneFormat::kEpJson;
+}
+
 Expected<ReadResult> parse_known_format(const std::string& text, const std::string& file,
                                         const ReadOptions& options) {
   std::optional<SceneFormat> format = options.format;
   if (!format && file == "<stdin>") format = SceneFormat::kJson;
   if (!format) format = format_by_extension(file);
   if (!format) format = format_by_content(text);
+  if (!options.format && is_any_json(format)) {
+    // Which JSON it is, no name tells for certain.
+    const auto dialect = json_dialect(text);
+    const bool is_sequence_of_none =
+        format == SceneFormat::kCityJsonSeq && dialect == SceneFormat::kCityJson;
+    if (dialect && *dialect != SceneFormat::kJson && !is_sequence_of_none) format = dialect;
+  }
+  if (!options.lod.empty() && format != SceneFormat::kCityJson &&
+      format != SceneFormat::kCityJsonSeq) {
+    return fail(ErrorCode::kUsage, file + ": --lod is for CityJSON alone");
+  }
   if (options.lights_only && format && file_format(*format).holds != Holds::kScene) {
     return fail(ErrorCode::kFormat, "lights come from JSON only", "a scene file with lights",
                 ErrorPlace{file, 0, 0, {}});
@@ -76,6 +93,19 @@ std::optional<ReadResult> read_plain_file(const std::filesystem::path& path,
   return read_plain_json(*window, shown_name(path), options);
 }
 
+/// A file of a format that need not be in memory as a whole.
+std::optional<Expected<ReadResult>> read_streamed_file(const std::filesystem::path& path,
+                                                       const ReadOptions& options) {
+  if (path == "-" || options.skip_bad || options.polygon_offsets || options.lights_only) {
+    return std::nullopt;
+  }
+  const auto format = options.format ? options.format : format_by_extension(path);
+  if (!format || file_format(*format).stream == nullptr) return std::nullopt;
+  auto window = TextWindow::of_file(path);
+  if (!window) return std::nullopt;
+  return file_format(*format).stream(*window, shown_name(path), options);
+}
+
 }  // namespace
 
 Expected<ReadResult> parse_scene(std::string text, const std::string& file,
@@ -92,6 +122,15 @@ Expected<ReadResult> parse_scene(std::string text, const std::string& file,
   if (code != ErrorCode::kSyntax && code != ErrorCode::kFormat) return result;
   // An OFF or PLY file is one, whatever words it holds; JSON is of many formats.
   const auto own = format_by_content(text);
+  const auto named = options.format ? options.format : format_by_extension(file);
+  if (own && named && !is_any_json(named) && *own != *named &&
+      file_format(*own).holds == Holds::kSurfaces) {
+    return fail(ErrorCode::kFormat,
+                "this is " + std::string(file_format(*own).title) + ", and called " +
+                    std::string(file_format(*named).title),
+                "a name that ends in ." + std::string(file_format(*own).extension),
+                ErrorPlace{file, 0, 0, {}});
+  }
   if (own && *own != SceneFormat::kJson && *own != SceneFormat::kObj) return result;
   const auto foreign = foreign_format(text);
   if (!foreign) return result;
@@ -104,6 +143,7 @@ Expected<ReadResult> read_scene(const std::filesystem::path& path, const ReadOpt
   Expected<std::string> text;
   try {
     if (auto plain = read_plain_file(path, options)) return *std::move(plain);
+    if (auto streamed = read_streamed_file(path, options)) return *std::move(streamed);
     text = read_file(path);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::kLimit, "the file does not fit into memory", {},
@@ -128,8 +168,8 @@ Error with_line_of_polygon(Error error, const std::filesystem::path& path,
   with_offsets.polygon_offsets = true;
   const auto again = parse_known_format(*text, shown_name(path), with_offsets);
   if (!again || index >= again->polygon_offsets.size()) return error;
-  const bool is_json = text->starts_with('{') || first_word_on(*text).starts_with("{");
-  // In JSON the pointer goes on to the loop or the hole.
+  const bool is_json = json_dialect(*text) == SceneFormat::kJson;
+  // In a scene of our own the pointer goes on to the loop or the hole.
   const std::size_t offset =
       is_json ? locate_pointer(*text, error.where.pointer) : again->polygon_offsets[index];
   error.where = place_in_text(error.where.file, *text, offset,

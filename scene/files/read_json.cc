@@ -10,6 +10,7 @@
 
 #include "gnomon/scene/validate.h"
 #include "scene/base/text_file.h"
+#include "scene/files/json_dialect.h"
 #include "scene/files/json_scene_handler.h"
 #include "scene/files/left_out.h"
 #include "scene/files/plain_json_scene.h"
@@ -84,7 +85,7 @@ void make_harmless(Scene& scene, const std::vector<PolygonProblem>& problems) {
 }  // namespace
 
 Likeness looks_like_json(std::string_view text) {
-  return first_word_on(text).starts_with("{") ? Likeness::kCertain : Likeness::kNone;
+  return json_dialect(text) == SceneFormat::kJson ? Likeness::kCertain : Likeness::kNone;
 }
 
 Expected<ReadResult> read_json(const std::string& text, const std::string& file,

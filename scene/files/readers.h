@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // What the table of formats (formats.h) has of each: the test whether a file looks like one, and
-// the reader. Each reader gets a whole file and its name for messages.
+// the reader. Each reader gets a whole file and its name for messages. Those of CityJSON and of the
+// energy engine have rooms of their own (cityjson/, energyplus/).
 #ifndef GNOMON_SCENE_FILES_READERS_H
 #define GNOMON_SCENE_FILES_READERS_H
 
@@ -14,10 +15,16 @@
 
 namespace gnomon {
 
+class TextWindow;
+
 Likeness looks_like_json(std::string_view text);
 Likeness looks_like_obj(std::string_view text);
 Likeness looks_like_off(std::string_view text);
 Likeness looks_like_ply(std::string_view text);
+Likeness looks_like_cityjson(std::string_view text);
+Likeness looks_like_cityjson_sequence(std::string_view text);
+Likeness looks_like_epjson(std::string_view text);
+Likeness looks_like_idf(std::string_view text);
 
 Expected<ReadResult> read_json(const std::string& text, const std::string& file,
                                const ReadOptions& options);
@@ -30,6 +37,20 @@ Expected<ReadResult> read_off(const std::string& text, const std::string& file,
                               const ReadOptions& options);
 Expected<ReadResult> read_ply(const std::string& text, const std::string& file,
                               const ReadOptions& options);
+Expected<ReadResult> read_cityjson(const std::string& text, const std::string& file,
+                                   const ReadOptions& options);
+Expected<ReadResult> read_cityjson_sequence(const std::string& text, const std::string& file,
+                                            const ReadOptions& options);
+Expected<ReadResult> read_epjson(const std::string& text, const std::string& file,
+                                 const ReadOptions& options);
+Expected<ReadResult> read_idf(const std::string& text, const std::string& file,
+                              const ReadOptions& options);
+
+/// What read_cityjson_sequence() says of the same text, of which only a line at a time is in
+/// memory. Requires: neither skip_bad nor polygon_offsets, for which the whole text is needed.
+/// Errors: also kFile.
+Expected<ReadResult> stream_cityjson_sequence(TextWindow& window, const std::string& file,
+                                              const ReadOptions& options);
 
 /// The text without its byte order mark and the blanks that it begins with.
 std::string_view first_word_on(std::string_view text);

@@ -60,7 +60,15 @@ Expected<void> append_position(std::string& text, const Position& position, Numb
 Expected<WrittenScene> scene_to_text(const Scene& scene, SceneFormat format) {
   WrittenScene result;
   const FileFormat& file = file_format(format);
-  if (file.holds != Holds::kScene) result.warnings = left_out_of_mesh(scene, file.holds);
+  if (file.write == nullptr) {
+    return fail(ErrorCode::kUsage, std::string(file.title) + " is read and not written",
+                shown_written_extensions());
+  }
+  if (file.holds == Holds::kSurfaces) {
+    result.warnings = left_out_of_cityjson(scene);
+  } else if (file.holds != Holds::kScene) {
+    result.warnings = left_out_of_mesh(scene, file.holds);
+  }
   Expected<std::string> text = file.write(scene);
   if (!text) {
     text.error().where.file = scene.file;

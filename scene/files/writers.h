@@ -4,6 +4,7 @@
 #define GNOMON_SCENE_FILES_WRITERS_H
 
 #include <string>
+#include <vector>
 
 #include "gnomon/scene/write.h"
 
@@ -14,6 +15,9 @@ Expected<std::string> write_obj(const Scene& scene);
 Expected<std::string> write_off(const Scene& scene);
 Expected<std::string> write_ply_ascii(const Scene& scene);
 Expected<std::string> write_ply_binary(const Scene& scene);
+Expected<std::string> write_cityjson(const Scene& scene);
+/// What a city model cannot hold of a scene: one line for each.
+std::vector<std::string> left_out_of_cityjson(const Scene& scene);
 
 /// Appends three numbers with `separator` between them. Errors: kNumber, kLimit, at `pointer`.
 Expected<void> append_position(std::string& text, const Position& position, NumberMeaning meaning,

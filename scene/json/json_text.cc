@@ -9,10 +9,6 @@ namespace gnomon {
 
 namespace {
 
-bool is_number_character(char c) {
-  return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E';
-}
-
 /// Does a number of this text lie beyond what RapidJSON takes? Generous: nothing is lost if not.
 bool is_long(std::string_view number) {
   constexpr std::size_t kManyCharacters = 300;

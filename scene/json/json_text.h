@@ -19,6 +19,11 @@ namespace gnomon {
 inline constexpr unsigned kJsonFlags =
     rapidjson::kParseIterativeFlag | rapidjson::kParseNumbersAsStringsFlag;
 
+/// May a number of JSON hold it?
+inline bool is_number_character(char c) {
+  return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.' || c == 'e' || c == 'E';
+}
+
 /// RapidJSON checks magnitudes against double even when it passes numbers on as texts, and refuses
 /// 1e400 or an integer of 310 digits, which are good decimals. This overwrites such numbers by a 0
 /// and spaces, so that offsets stay, and keeps their texts.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 #include "gnomon/scene/digest.h"
 #include "gnomon/scene/read.h"
@@ -46,7 +47,17 @@ void check_scene(const Scene& scene, SceneFormat format, NumberMeaning meaning, 
   }
   require(written(back, SceneFormat::kJson) == text, "written again, other JSON");
   require(geometry_digest(back) == geometry_digest(scene), "another digest");
-  if (format == SceneFormat::kJson) return;
+  const std::vector<std::string> writable = written_format_names();
+  if (format == SceneFormat::kJson ||
+      std::find(writable.begin(), writable.end(), format_name(format)) == writable.end()) {
+    return;
+  }
+  if (format == SceneFormat::kCityJson) {
+    // Integers of many digits it cannot hold, and it says what else it cannot.
+    const auto city = scene_to_text(scene, format);
+    require(city || city.error().code == ErrorCode::kLimit, "a city model cannot be written");
+    if (!city || !city->warnings.empty()) return;
+  }
   ReadOptions options;
   options.numbers = scene.numbers;
   options.format = format;
@@ -74,7 +85,7 @@ void check_error(const Error& error, std::string_view file, std::string_view tex
   // In binary data a place is told as a byte.
   if (!in_text || error.what.find("(byte ") != std::string::npos) return;
   // That a file is of another format is said of the whole of it.
-  if (error.where.line == 0 && foreign_format(text)) return;
+  if (error.where.line == 0 && (foreign_format(text) || format_by_content(text))) return;
   require(error.where.line > 0 && error.where.column > 0, "an error without a place: " + shown);
   const auto lines = static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n')) + 1;
   require(error.where.line <= lines, "an error behind the last line: " + shown);

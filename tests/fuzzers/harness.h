@@ -35,8 +35,8 @@ inline void require(bool holds, const std::string& what) {
 void check_error(const Error& error, std::string_view file, std::string_view text, bool in_text);
 
 /// Reads the text as a file of that name by either meaning of numbers. What can be read is valid,
-/// is the same again after it was written as JSON and as a file of its own format, and is written
-/// the same again.
+/// is the same again after it was written as JSON and, if it can be, as a file of its own format,
+/// and is written the same again.
 void check_scene_file(std::string_view text, const std::string& file, SceneFormat format,
                       bool lights_only = false);
 

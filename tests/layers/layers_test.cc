@@ -72,6 +72,8 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"repair", {"base", "intent"}},
         {"json", {"base"}},
         {"files", {"base", "json"}},
+        {"cityjson", {"base", "json", "model", "files"}},
+        {"energyplus", {"base", "json", "model", "files"}},
         {"generate", {"base"}}}},
       {"algorithms",
        {{"partition", {}},

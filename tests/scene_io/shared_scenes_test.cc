@@ -26,7 +26,7 @@ class SharedScenes : public ::testing::Test {
   }
   static std::vector<fs::path> files() {
     std::vector<fs::path> result;
-    for (const char* directory : {"json", "mesh"}) {
+    for (const char* directory : {"cityjson", "idf", "json", "mesh"}) {
       for (const auto& entry : fs::directory_iterator(fs::path(GNOMON_SHARED_SCENES) / directory)) {
         result.push_back(entry.path());
       }
@@ -86,6 +86,47 @@ TEST_F(SharedScenes, OthersSurviveEveryFormat) {
       }
     }
   }
+}
+
+TEST_F(SharedScenes, CityModelsAndEnergyModelsAreReadAsTheyAre) {
+  const auto scene = [](const char* name) {
+    auto result = read_scene(fs::path(GNOMON_SHARED_SCENES) / name);
+    EXPECT_TRUE(result) << name;
+    return result ? std::move(result->scene) : Scene();
+  };
+  const auto holes = [](const Scene& scene) {
+    std::size_t count = 0;
+    for (const Polygon& polygon : scene.polygons) count += polygon.holes.size();
+    return count;
+  };
+  EXPECT_EQ(scene("cityjson/cube.city.json").polygons.size(), 6u);
+  EXPECT_EQ(scene("cityjson/potatoes.city.json").polygons.size(), 6u);
+  EXPECT_EQ(scene("cityjson/japanese.city.json").polygons.size(), 198u);
+  EXPECT_EQ(holes(scene("cityjson/texture4.city.json")), 41u);
+  // The scene that was made of it by hand is moved by whole metres.
+  const Scene city = scene("cityjson/denhaag.city.json"), by_hand = scene("json/city-denhaag.json");
+  ASSERT_EQ(city.vertices.size(), by_hand.vertices.size());
+  const mpq_class translate(457782);
+  for (std::size_t i = 0; i < city.vertices.size(); ++i) {
+    EXPECT_EQ(city.vertices[i][1].exact(), by_hand.vertices[i][1].exact() + translate);
+  }
+  // Windows are holes here, and the order of polygons is that of the file.
+  const Scene house = scene("idf/ashrae140-case630.idf");
+  const Scene same_house = scene("json/ashrae140-case630.json");
+  ASSERT_EQ(house.polygons.size(), same_house.polygons.size());
+  for (std::size_t i = 0; i < house.polygons.size(); ++i) {
+    const Polygon &a = house.polygons[i], &b = same_house.polygons[i];
+    EXPECT_EQ(a.id, b.id);
+    ASSERT_EQ(a.loop.size(), b.loop.size());
+    // Loops of windows begin at the lower left corner.
+    EXPECT_TRUE(std::is_permutation(a.loop.begin(), a.loop.end(), b.loop.begin(),
+                                    [&](VertexId one, VertexId other) {
+                                      return house.vertices[one] == same_house.vertices[other];
+                                    }))
+        << a.id;
+  }
+  EXPECT_EQ(holes(house), 2u);
+  EXPECT_EQ(holes(scene("idf/single-family.idf")), 10u);
 }
 
 }  // namespace

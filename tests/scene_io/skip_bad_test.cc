@@ -112,8 +112,8 @@ TEST(ForeignFormats, AreCalledByTheirNames) {
   const auto is = [](const std::string& name) {
     return "this is " + name + ", which is not read here";
   };
-  EXPECT_EQ(foreign(R"({ "type": "CityJSON", "version": "1.1", "CityObjects": {} })", "a.json"),
-            is("CityJSON"));
+  EXPECT_EQ(foreign(R"({ "type": "CityJSON", "version": "1.1", "CityObjects": {} })", "a.obj"),
+            "this is CityJSON, and called OBJ");
   EXPECT_EQ(foreign(R"({"type": "Model", "rooms": [{"type": "Room"}]})", "a.json"), is("HBJSON"));
   EXPECT_EQ(foreign(R"({"asset": {"version": "2.0"}, "meshes": []})", "a.json"), is("glTF"));
   EXPECT_EQ(foreign(R"({"type": "FeatureCollection"})", "a.json"), is("GeoJSON"));
@@ -121,8 +121,8 @@ TEST(ForeignFormats, AreCalledByTheirNames) {
             is("gbXML"));
   EXPECT_EQ(foreign("<core:CityModel>", "a.obj"), is("CityGML"));
   EXPECT_EQ(foreign("<a/>", "a.json"), is("XML"));
-  EXPECT_EQ(foreign("!-Generator IDFEditor\n  Version,9.4;\n", "a.idf"), is("IDF"));
-  EXPECT_EQ(foreign("! comment\n\nBuildingSurface:Detailed,\n  wall;\n", "a.obj"), is("IDF"));
+  EXPECT_EQ(foreign("! comment\n\nBuildingSurface:Detailed,\n  wall;\n", "a.obj"),
+            "this is IDF, and called OBJ");
   EXPECT_EQ(foreign("solid cube\nfacet normal 0 0 1\n", "a.stl"), is("STL"));
   EXPECT_EQ(
       foreign(std::string(80, 'x') + std::string("\1\0\0\0", 4) + std::string(50, '\0'), "a.stl"),

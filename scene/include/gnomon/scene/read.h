@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// First step of the pipeline: a scene from a JSON, OBJ, OFF or PLY file (docs: formats). Structure
-// is checked here (validate.h), geometry by prepare.h.
+// First step of the pipeline: a scene from a file of one of the formats of scene_format.h (docs:
+// formats). Structure is checked here (validate.h), geometry by prepare.h.
 //
 // Guarantees: numbers go from their text straight to Number, never through another type (a float of
 // a binary PLY is exactly that float); every error names one place; memory stays within a small
@@ -31,6 +31,10 @@ struct ReadOptions {
   /// prepare() refuses. What remains keeps its ids.
   bool skip_bad = false;
   bool polygon_offsets = false;  // ReadResult::polygon_offsets are wanted
+  std::string lod;  // of CityJSON: this level of detail instead of each object's highest
+  /// Of EnergyPlus' formats: the building stays in its own axes where that is exact, and the sun
+  /// has to be turned by what "extra" says of its north.
+  bool keep_axes = false;
 };
 
 struct LeftOutPolygon {

@@ -13,17 +13,30 @@
 namespace gnomon {
 
 /// For reading, the two kinds of PLY are one: the file says which it is.
-enum class SceneFormat : std::uint8_t { kJson, kObj, kOff, kPlyAscii, kPlyBinary };
+enum class SceneFormat : std::uint8_t {
+  kJson,
+  kObj,
+  kOff,
+  kPlyAscii,
+  kPlyBinary,
+  kCityJson,
+  kCityJsonSeq,
+  kEpJson,
+  kIdf,
+};
 
-/// "json", "obj", "off", "ply" (ascii), "ply-binary".
+/// "json", "obj", "off", "ply" (ascii), "ply-binary", "cityjson", "cityjsonseq", "epjson", "idf".
 std::string_view format_name(SceneFormat format);
-/// The names of all formats.
-std::vector<std::string> format_names();
-/// The extensions of scene files, for messages: ".json, .obj, .off or .ply".
+/// The names of all formats that can be written.
+std::vector<std::string> written_format_names();
+/// The extensions of scene files, for messages: ".json, .obj, .off, ... or .idf"; and of those that
+/// can be written.
 std::string shown_scene_extensions();
+std::string shown_written_extensions();
 
 std::optional<SceneFormat> format_by_name(std::string_view name);
-/// The format of .json, .obj, .off or .ply, in upper or lower case.
+/// The format of .json, .obj, .off, ..., in upper or lower case. CityJSON and epJSON may be in
+/// files called .json, too.
 std::optional<SceneFormat> format_by_extension(const std::filesystem::path& path);
 /// The format that the first bytes fit; nothing if they fit none.
 std::optional<SceneFormat> format_by_content(std::string_view text);

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// What a reader of CityJSON says at the end: groups and semantics in the scene's "extra", warnings,
+// what was left out.
+#include <rapidjson/stringbuffer.h>
+#include <rapidjson/writer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_set>
+#include <utility>
+
+#include "scene/base/text_file.h"
+#include "scene/cityjson/city_reader.h"
+#include "scene/files/left_out.h"
+
+namespace gnomon {
+
+namespace {
+
+using Writer = rapidjson::Writer<rapidjson::StringBuffer>;
+
+void write(Writer& writer, std::string_view text) {
+  writer.String(text.data(), static_cast<rapidjson::SizeType>(text.size()));
+}
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+}  // namespace
+
+/// {"groups": {object or kind: ids}, "cityjson": {"version", "referenceSystem", "semantics":
+/// [kinds], "solids": [objects]}}. A kind that is called like an object has " surfaces" behind its
+/// name.
+std::string CityReader::extra() const {
+  std::unordered_set<std::string_view> names;
+  for (const PolygonGroup& object : objects_) names.insert(object.name);
+  rapidjson::StringBuffer buffer;
+  Writer writer(buffer);
+  const auto group = [&](const std::string& name, const PolygonGroup& group) {
+    write(writer, name);
+    writer.StartArray();
+    for (const std::uint32_t polygon : group.polygons) write(writer, scene_.polygons[polygon].id);
+    writer.EndArray();
+  };
+  const auto kind_name = [&](const PolygonGroup& kind) {
+    std::string name = kind.name;
+    while (names.contains(name)) name += " surfaces";
+    return name;
+  };
+  writer.StartObject();
+  write(writer, "groups");
+  writer.StartObject();
+  for (const PolygonGroup& object : objects_) group(object.name, object);
+  for (const PolygonGroup& kind : kinds_) group(kind_name(kind), kind);
+  writer.EndObject();
+  write(writer, "cityjson");
+  writer.StartObject();
+  write(writer, "version");
+  write(writer, version_);
+  if (!reference_system_.empty()) {
+    write(writer, "referenceSystem");
+    write(writer, reference_system_);
+  }
+  if (!kinds_.empty()) {
+    write(writer, "semantics");
+    writer.StartArray();
+    for (const PolygonGroup& kind : kinds_) write(writer, kind_name(kind));
+    writer.EndArray();
+  }
+  if (!solids_.empty()) {
+    write(writer, "solids");
+    writer.StartArray();
+    for (const std::string& name : solids_) write(writer, name);
+    writer.EndArray();
+  }
+  writer.EndObject();
+  writer.EndObject();
+  return {buffer.GetString(), buffer.GetSize()};
+}
+
+void CityReader::warn(ReadResult& result) const {
+  for (const auto& [type, count] : passed_over_) {
+    result.warnings.push_back(counted(count, "geometry", "geometries") + " of type " + type +
+                              " ignored: it has no surfaces");
+  }
+  if (without_lod_ != 0) {
+    std::vector<Number> lods = lods_;
+    std::ranges::sort(lods, {}, [](const Number& lod) { return lod.exact(); });
+    std::string there;
+    for (const Number& lod : lods) there += (there.empty() ? "" : ", ") + lod.to_text();
+    result.warnings.push_back(counted(without_lod_, "city object has", "city objects have") +
+                              " no geometry of level of detail " + options_.lod +
+                              ": left out; in the file: " + (there.empty() ? "none" : there));
+  }
+  if (turned_solids_ != 0) {
+    result.warnings.push_back(counted(turned_solids_, "solid looks", "solids look") +
+                              " inwards, against the standard: turned over");
+  }
+  if (underflows_ != 0) {
+    result.warnings.push_back(counted(underflows_, "coordinate is", "coordinates are") +
+                              " too small for full double precision");
+  }
+}
+
+/// By the sign of six times the volume, in doubles, and only where rounding cannot change it.
+void CityReader::look_outwards(const CityGeometry& geometry, std::size_t first) {
+  if (!geometry.is_solid) return;
+  constexpr double kCertain = 1e-9;
+  const auto coordinates = [this](VertexId vertex, std::size_t axis) {
+    return scene_.vertices[vertex][axis].nearest();
+  };
+  const std::vector<CitySurface>& surfaces = geometry.surfaces;
+  for (std::size_t begin = 0; begin < surfaces.size();) {
+    std::size_t end = begin;
+    double volume = 0, total = 0;
+    std::optional<std::array<double, 3>> origin;
+    for (; end < surfaces.size() && surfaces[end].solid == surfaces[begin].solid; ++end) {
+      const auto& loop = scene_.polygons[first + end].loop;
+      if (!surfaces[end].is_outer || loop.empty()) continue;
+      if (!origin) {
+        origin = {coordinates(loop[0], 0), coordinates(loop[0], 1), coordinates(loop[0], 2)};
+      }
+      const auto from_origin = [&](std::size_t i, std::size_t axis) {
+        return coordinates(loop[i], axis) - (*origin)[axis];
+      };
+      for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+        for (std::size_t x = 0; x < 3; ++x) {
+          const std::size_t y = (x + 1) % 3, z = (x + 2) % 3;
+          const double plus = from_origin(0, x) * from_origin(i, y) * from_origin(i + 1, z);
+          const double minus = from_origin(0, x) * from_origin(i, z) * from_origin(i + 1, y);
+          volume += plus - minus;
+          total += std::abs(plus) + std::abs(minus);
+        }
+      }
+    }
+    if (volume < -kCertain * total) {
+      ++turned_solids_;
+      for (std::size_t i = begin; i < end; ++i) {
+        Polygon& polygon = scene_.polygons[first + i];
+        std::ranges::reverse(polygon.loop);
+        for (auto& hole : polygon.holes) std::ranges::reverse(hole);
+      }
+    }
+    begin = end;
+  }
+}
+
+Expected<ReadResult> CityReader::finish(std::string_view text) {
+  scene_.extra = extra();
+  PlacesInText places(text);
+  // Places are known by line and column; a bad surface is named by where it begins.
+  for (PolygonProblem& problem : problems_) {
+    problem.error.where = places.at(file_, offsets_[problem.polygon]);
+  }
+  if (!options_.skip_bad && !options_.polygon_offsets) offsets_.clear();
+  ReadResult result{std::move(scene_), {}, {}, std::move(offsets_)};
+  warn(result);
+  leave_out(result, std::move(problems_));
+  if (result.scene.polygons.empty()) result.warnings.emplace_back("the scene has no polygons");
+  return result;
+}
+
+}  // namespace gnomon
