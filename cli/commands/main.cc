@@ -64,6 +64,7 @@ int run(int argc, char** argv) {
   Action action;
   add_certify_command(app, action);
   add_shadows_command(app, action);
+  add_year_command(app, action);
   add_verify_command(app, action);
   add_render_command(app, action);
   add_info_command(app, action);

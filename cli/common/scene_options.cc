@@ -87,11 +87,26 @@ void add_numbers_option(CLI::App& command, std::string& numbers) {
       ->type_name("double|decimal");
 }
 
-CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options) {
+CLI::Option* add_scene_file_options(CLI::App& command, SceneOptions& options) {
   CLI::Option* scene = command.add_option(
       "SCENE", options.scene, "Scene file: " + shown_scene_extensions() + "; - reads JSON");
   scene->required()->type_name("FILE");
   add_numbers_option(command, options.numbers);
+  command.add_flag("--two-sided", options.two_sided,
+                   "Both sides of all polygons receive and cast, whatever the file says");
+  command.add_flag("--skip-bad", options.skip_bad,
+                   "Leave out polygons that cannot be used (they cross themselves, name no vertex\n"
+                   "or too few, have a coordinate that is no number), and name them");
+  command
+      .add_option("--lod", options.lod,
+                  "Of CityJSON: this level of detail alone, instead of each object's highest")
+      ->type_name("L");
+  add_jobs_option(command, options.jobs);
+  return scene;
+}
+
+CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options) {
+  CLI::Option* scene = add_scene_file_options(command, options);
   repeatable(command.add_option("--point", options.points, "Add a point light x,y,z (repeatable)"))
       ->type_name("x,y,z");
   repeatable(command.add_option("--sun", options.suns,
@@ -106,16 +121,6 @@ CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options) {
   repeatable(
       command.add_option("--light", options.lights, "Only the light with this id (repeatable)"))
       ->type_name("ID");
-  command.add_flag("--two-sided", options.two_sided,
-                   "Both sides of all polygons receive and cast, whatever the file says");
-  command.add_flag("--skip-bad", options.skip_bad,
-                   "Leave out polygons that cannot be used (they cross themselves, name no vertex\n"
-                   "or too few, have a coordinate that is no number), and name them");
-  command
-      .add_option("--lod", options.lod,
-                  "Of CityJSON: this level of detail alone, instead of each object's highest")
-      ->type_name("L");
-  add_jobs_option(command, options.jobs);
   return scene;
 }
 
@@ -164,13 +169,15 @@ Expected<SceneAsRead> read_scene_with_lights(const SceneOptions& options) {
   return result;
 }
 
-Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) {
+Expected<LoadedScene> load_scene_under(const SceneOptions& options,
+                                       const std::function<Expected<void>(Scene&)>& set_lights) {
   LoadedScene loaded;
   Stopwatch stopwatch;
   auto scene = read_scene_with_lights(options);
   if (!scene) return tl::unexpected(scene.error());
   loaded.scene = std::move(scene->scene);
   loaded.left_out = std::move(scene->left_out);
+  if (auto set = set_lights(loaded.scene); !set) return tl::unexpected(std::move(set.error()));
   loaded.reading = stopwatch.lap();
   auto prepared = prepare(loaded.scene);
   if (!prepared) {
@@ -181,7 +188,13 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) 
   loaded.preparation = stopwatch.lap();
   if (interrupted()) return fail(ErrorCode::kInterrupted, "interrupted");
   warn_of_dropped(loaded);
+  return loaded;
+}
 
+Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) {
+  auto read = load_scene_under(options, [](Scene&) { return Expected<void>(); });
+  if (!read) return read;
+  LoadedScene& loaded = *read;
   const std::vector<Light>& lights = loaded.scene.lights;
   for (const std::string& id : options.lights) {
     const auto light = std::ranges::find(lights, id, &Light::id);
@@ -198,7 +211,7 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) 
     return fail(ErrorCode::kUsage, loaded.scene.file + ": there is no light",
                 "one in the scene, or --point=x,y,z, --sun=x,y,z or --area=x,y,z:x,y,z:...");
   }
-  return loaded;
+  return read;
 }
 
 void warn_of_intent(const LoadedScene& loaded) {

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct SceneOptions {
 /// Also --jobs, since preparation takes all processors. The option of the scene's file is returned:
 /// a command may do without.
 CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options);
+/// The same without lights, for commands that have their own.
+CLI::Option* add_scene_file_options(CLI::App& command, SceneOptions& options);
 /// --numbers alone, for commands that take no lights.
 void add_numbers_option(CLI::App& command, std::string& numbers);
 
@@ -60,6 +63,9 @@ ReadOptions read_options(const SceneOptions& options);
 /// The same, prepared and with the lights chosen. Errors: those of reading and preparing; kUsage
 /// for an unknown --light, and for a scene that is left without any light if `needs_light`.
 Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light);
+/// The same with whatever lights `set_lights` gives the scene that was read. Errors: its, too.
+Expected<LoadedScene> load_scene_under(const SceneOptions& options,
+                                       const std::function<Expected<void>(Scene&)>& set_lights);
 
 /// One warning if the scene perhaps does not mean what its numbers say (gnomon/scene/intent.h). Of
 /// a large scene only what costs next to nothing is looked at: `gnomon info` looks at everything.

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/commands/year_options.h"
+
+#include <charconv>
+#include <utility>
+
+#include "cli/common/algorithm_choice.h"
+#include "cli/common/commands.h"
+#include "gnomon/kernel/kernel_choice.h"
+#include "suns/place/epw.h"
+#include "suns/place/scene_place.h"
+
+namespace gnomon::cli {
+
+namespace {
+
+void add_time_options(CLI::App& command, YearOptions& options) {
+  command
+      .add_option("--year", options.year,
+                  "The year of days without one; what a weather file says of "
+                  "its years does not count")
+      ->check(CLI::Range(1961, 2500))
+      ->type_name("Y")
+      ->capture_default_str();
+  command.add_option("--from", options.from, "First day, such as 06-21 or 2026-06-21")
+      ->type_name("DAY");
+  command.add_option("--to", options.to, "Last day")->type_name("DAY");
+  command.add_option("--step", options.step, "Minutes of a step; they divide a day")
+      ->type_name("MIN")
+      ->capture_default_str();
+  command.add_option("--sun-at", options.sun_at, "Where in its step the sun is looked at")
+      ->check(CLI::IsMember({"start", "middle", "end"}))
+      ->type_name("start|middle|end")
+      ->capture_default_str();
+}
+
+void add_sun_options(CLI::App& command, YearOptions& options) {
+  command.add_option("--at", options.at, "The place: degrees, north and east positive; with --tz")
+      ->type_name("LAT,LON");
+  command
+      .add_option("--tz", options.zone,
+                  "Its standard time: hours from UTC, such as -7, 5.5 or +05:30")
+      ->type_name("H");
+  command.add_option("--epw", options.weather, "The place of this weather file instead")
+      ->type_name("FILE");
+  command.add_option("--elevation", options.elevation, "Metres above the sea")->type_name("M");
+  command
+      .add_option("--north", options.north,
+                  "Degrees from north, clockwise, to where the scene's y axis points; of IDF and\n"
+                  "epJSON their north axis, where the building was left in its own axes")
+      ->type_name("DEG");
+  command
+      .add_option("--sun-model", options.sun_model,
+                  "Whose sun: the IAU's (ERFA), or that of EnergyPlus, by which it must be judged")
+      ->check(CLI::IsMember({"erfa", "energyplus"}))
+      ->type_name("erfa|energyplus")
+      ->capture_default_str();
+  command
+      .add_option("--average-days", options.average_days,
+                  "energyplus: one sun for so many days, as EnergyPlus does by default with 20")
+      ->check(CLI::Range(1, 366))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_flag("--refraction", options.refraction, "The sun as air lifts it");
+  command.add_option("--pressure", options.pressure, "Hectopascals; that of the height if absent")
+      ->check(not_negative())
+      ->type_name("HPA");
+  command.add_option("--temperature", options.temperature, "Degrees Celsius; 10 if absent")
+      ->check(CLI::Range(-90.0, 60.0))
+      ->type_name("C");
+}
+
+void add_table_options(CLI::App& command, YearOptions& options) {
+  command
+      .add_option("-o,--output", options.output,
+                  "The table of lit shares, a row a step: .csv, .nc (netCDF) or .npy (NumPy);\n"
+                  "CSV on standard output if nothing else is asked for")
+      ->type_name("FILE");
+  command
+      .add_option("--eplus-shading", options.shading,
+                  "The table that EnergyPlus imports (Schedule:File:Shading): fronts alone")
+      ->type_name("FILE.csv");
+  command.add_option("--hours", options.hours, "Hours of sun of every side, by month")
+      ->type_name("FILE.csv");
+  command
+      .add_option("--db", options.database,
+                  "Keep the rows here as they are done, and go on with those that are here")
+      ->type_name("FILE");
+  command
+      .add_option("--shard", options.shard, "Only this share of the rows, such as 0/4; needs --db")
+      ->type_name("K/N");
+  repeatable(command.add_option("--merge", options.merge,
+                                "Add the rows of this database to --db, and compute none\n"
+                                "(repeatable)"))
+      ->type_name("FILE");
+  command.add_flag("--stats", options.stats, "Print counts and times to standard error");
+}
+
+Expected<suns::Place> place_asked(const YearOptions& options, const suns::ScenePlace& of_scene) {
+  suns::Place place;
+  if (!options.at.empty()) {
+    auto typed = suns::parse_place(options.at, "--at");
+    if (!typed) return typed;
+    auto zone = suns::parse_zone(options.zone, "--tz");
+    if (!zone) return tl::unexpected(std::move(zone.error()));
+    place = *std::move(typed);
+    place.zone = *zone;
+  } else if (!options.weather.empty()) {
+    auto read = suns::read_epw_place(options.weather);
+    if (!read) return read;
+    place = *std::move(read);
+  } else if (of_scene.place) {
+    place = *of_scene.place;
+  } else {
+    return fail(ErrorCode::kUsage, "no place is known",
+                "--at LAT,LON and --tz H, --epw FILE, or a scene that tells its own");
+  }
+  if (options.elevation) place.elevation = *options.elevation;
+  if (auto checked = suns::check_place(place, "the place"); !checked) {
+    return tl::unexpected(std::move(checked.error()));
+  }
+  return place;
+}
+
+}  // namespace
+
+void add_year_options(CLI::App& command, YearOptions& options) {
+  add_scene_file_options(command, options.scene);
+  add_sun_options(command, options);
+  add_time_options(command, options);
+  add_table_options(command, options);
+  command.add_option("--kernel", options.kernel, kernel_names(", ") + ", or exact")
+      ->type_name("K")
+      ->capture_default_str();
+  add_algorithm_option(command, options.algorithm);
+}
+
+Expected<void> check_year_options(const YearOptions& options) {
+  const auto wrong = [](std::string what, std::string expected) -> Expected<void> {
+    return fail(ErrorCode::kUsage, std::move(what), std::move(expected));
+  };
+  if (!options.at.empty() && !options.weather.empty()) {
+    return wrong("--at and --epw are two places", "one of them");
+  }
+  if (options.at.empty() != options.zone.empty()) {
+    return wrong(options.at.empty() ? "--tz without a place" : "--at without a time zone",
+                 "--at LAT,LON and --tz H together");
+  }
+  if (options.average_days > 1 && options.sun_model != "energyplus") {
+    return wrong("--average-days is of EnergyPlus' sun", "--sun-model energyplus too");
+  }
+  if (!options.refraction && (options.pressure || options.temperature)) {
+    return wrong("--pressure and --temperature are those of --refraction", "--refraction too");
+  }
+  if (options.database.empty() && (!options.shard.empty() || !options.merge.empty())) {
+    return wrong(options.shard.empty() ? "--merge without a database"
+                                       : "--shard without a database to keep its rows in",
+                 "--db FILE too");
+  }
+  if (!options.shard.empty() && !options.merge.empty()) {
+    return wrong("--merge computes no rows, and --shard some", "one of them");
+  }
+  return {};
+}
+
+Expected<suns::YearOptions> suns_asked(const YearOptions& options, const Scene& scene) {
+  const suns::ScenePlace of_scene = suns::place_of_scene(scene);
+  auto place = place_asked(options, of_scene);
+  if (!place) return tl::unexpected(std::move(place.error()));
+  suns::YearOptions result;
+  result.place = *std::move(place);
+  const std::chrono::year year(options.year);
+  const auto day = [&](const std::string& text, const char* option, auto otherwise) {
+    if (text.empty()) return Expected<std::chrono::local_days>(std::chrono::local_days(otherwise));
+    return suns::parse_day(text, year, option);
+  };
+  auto first = day(options.from, "--from", year / std::chrono::January / 1);
+  if (!first) return tl::unexpected(std::move(first.error()));
+  auto last = day(options.to, "--to", year / std::chrono::December / 31);
+  if (!last) return tl::unexpected(std::move(last.error()));
+  result.first = *first;
+  result.last = *last;
+  result.step = suns::Minutes(options.step);
+  result.sun_at = options.sun_at == "start"    ? suns::SunAt::kStart
+                  : options.sun_at == "middle" ? suns::SunAt::kMiddle
+                                               : suns::SunAt::kEnd;
+  result.model = suns::sun_model_by_name(options.sun_model).value();
+  result.average_days = options.average_days;
+  result.refraction = options.refraction;
+  result.air.pressure = options.pressure.value_or(suns::standard_pressure(result.place.elevation));
+  result.air.temperature = options.temperature.value_or(result.air.temperature);
+  result.north = options.north.value_or(of_scene.north);
+  return result;
+}
+
+Expected<YearShard> parse_year_shard(const std::string& text) {
+  YearShard shard;
+  if (text.empty()) return shard;
+  const char *at = text.data(), *end = at + text.size();
+  auto read = std::from_chars(at, end, shard.index);
+  bool is_shard = read.ec == std::errc() && read.ptr != end && *read.ptr == '/';
+  if (is_shard) {
+    read = std::from_chars(read.ptr + 1, end, shard.count);
+    is_shard = read.ec == std::errc() && read.ptr == end && shard.index < shard.count;
+  }
+  if (is_shard) return shard;
+  return fail(ErrorCode::kUsage, "--shard " + text + ": no share of the rows",
+              "K/N with K from 0 to N-1, such as 0/4");
+}
+
+}  // namespace gnomon::cli

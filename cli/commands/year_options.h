@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// gnomon year: its options as typed, and what they mean for a scene.
+#ifndef GNOMON_CLI_COMMANDS_YEAR_OPTIONS_H
+#define GNOMON_CLI_COMMANDS_YEAR_OPTIONS_H
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/common/scene_options.h"
+#include "gnomon/kernel/error.h"
+#include "suns/year/year_of_suns.h"
+
+namespace gnomon::cli {
+
+struct YearOptions {
+  SceneOptions scene;
+  std::string kernel{"plane"}, algorithm{"auto"};
+  // Where and when.
+  std::string at, zone, weather;
+  std::optional<double> elevation, north;
+  int year = 2025;
+  std::string from, to;
+  int step = 60;
+  std::string sun_at{"middle"};
+  std::string sun_model{"erfa"};
+  int average_days = 1;
+  bool refraction = false;
+  std::optional<double> pressure, temperature;
+  // What is written.
+  std::string output, shading, hours;
+  std::string database, shard;
+  std::vector<std::string> merge;
+  bool stats = false;
+
+  bool writes_tables() const { return !output.empty() || !shading.empty() || !hours.empty(); }
+};
+
+void add_year_options(CLI::App& command, YearOptions& options);
+
+/// The suns that are asked for: of the place of --at, --epw, or the scene itself, in this order.
+/// Errors: kUsage, and those of reading a weather file.
+Expected<suns::YearOptions> suns_asked(const YearOptions& options, const Scene& scene);
+
+/// Every n-th row from the k-th on.
+struct YearShard {
+  std::size_t index = 0, count = 1;
+  bool has(std::size_t row) const { return row % count == index; }
+};
+/// Errors: kUsage.
+Expected<YearShard> parse_year_shard(const std::string& text);
+
+/// What does not go together, whatever the scene is. Errors: kUsage.
+Expected<void> check_year_options(const YearOptions& options);
+
+}  // namespace gnomon::cli
+
+#endif  // GNOMON_CLI_COMMANDS_YEAR_OPTIONS_H
