@@ -20,6 +20,7 @@
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
 #include "cli/common/progress.h"
+#include "cli/common/statistics.h"
 #include "gnomon/kernel/kernel_choice.h"
 #include "gnomon/scene/digest.h"
 #include "report/text/number_text.h"
@@ -130,6 +131,8 @@ class YearRun {
   Expected<void> compute_into_database();
   Expected<void> write_from_database();
   void tell(const Tables& tables) const;
+  /// What has passed since the last call was for one of the phases.
+  void passed(Seconds& phase) { phase += stopwatch_.lap(); }
 
   const YearOptions& options_;
   ShadowOptions shadows_;
@@ -139,6 +142,8 @@ class YearRun {
   report::ShareColumns columns_;
   report::YearHead head_;
   std::optional<YearDatabase> database_;
+  Stopwatch stopwatch_;
+  PhaseTimes phases_;
 };
 
 /// Computes the rows that are asked for. Errors: those of taking a row; kInterrupted.
@@ -151,16 +156,20 @@ Expected<void> YearRun::compute(const YearRows::Take& take, std::size_t& done) {
                   static_cast<double>(std::max<std::size_t>(1, suns_.rows.size())));
   };
   bool goes_on = rows.advance();
+  passed(phases_.output);
   if (goes_on && !suns_.lights.empty()) {
     shadows_.lights.clear();
     for (std::uint32_t i = 0; i < suns_.lights.size(); ++i) shadows_.lights.push_back(i);
     shadows_.control.interrupted = &interrupted();
     shadows_.control.light_done = [&](LightResult&& light) {
+      passed(phases_.shadows);
       goes_on = rows.add(light);
       show();
+      passed(phases_.output);
       return goes_on;
     };
     auto computed = compute_shadows(loaded_.prepared, shadows_);
+    passed(phases_.shadows);
     if (!computed) {
       done = rows.done();
       return tl::unexpected(std::move(computed.error()));
@@ -249,9 +258,15 @@ void YearRun::tell(const Tables& tables) const {
 }
 
 Expected<void> YearRun::run() {
-  if (!database_) return compute_into_tables();
-  if (auto done = compute_into_database(); !done) return done;
-  return write_from_database();
+  stopwatch_.lap();
+  auto done = database_ ? compute_into_database() : compute_into_tables();
+  if (done && database_) done = write_from_database();
+  passed(phases_.output);
+  if (options_.stats) {
+    const std::string text = times_text(loaded_, phases_);
+    std::fwrite(text.data(), 1, text.size(), stderr);
+  }
+  return done;
 }
 
 Expected<std::vector<std::size_t>> rows_to_compute(const YearOptions& options, std::size_t count,

@@ -93,7 +93,7 @@ void add_table_options(CLI::App& command, YearOptions& options) {
                                 "Add the rows of this database to --db, and compute none\n"
                                 "(repeatable)"))
       ->type_name("FILE");
-  command.add_flag("--stats", options.stats, "Print counts and times to standard error");
+  command.add_flag("--stats", options.stats, "Print times and memory to standard error");
 }
 
 Expected<suns::Place> place_asked(const YearOptions& options, const suns::ScenePlace& of_scene) {

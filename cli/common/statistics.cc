@@ -79,9 +79,15 @@ std::string statistics_text(const LoadedScene& loaded, const ShadowResult& resul
     }
   }
   if (result.stages.total() > 0) text += stages_text(result.stages);
-  text += "CPU seconds (elapsed): " + phase("reading", loaded.reading) + ", " +
-          phase("preparation", loaded.preparation) + ", " + phase("shadows", times.shadows);
-  if (has_bsp) text += ", of these scene BSP " + rounded(result.scene_bsp_seconds, 3);
+  return text + times_text(loaded, times, has_bsp ? result.scene_bsp_seconds : 0);
+}
+
+std::string times_text(const LoadedScene& loaded, const PhaseTimes& times,
+                       double scene_bsp_seconds) {
+  std::string text = "CPU seconds (elapsed): " + phase("reading", loaded.reading) + ", " +
+                     phase("preparation", loaded.preparation) + ", " +
+                     phase("shadows", times.shadows);
+  if (scene_bsp_seconds > 0) text += ", of these scene BSP " + rounded(scene_bsp_seconds, 3);
   text += ", " + phase("output", times.output) + '\n';
   const std::uint64_t peak = peak_bytes();
   text += "peak memory: " + grouped(peak >> 20) + " MiB";

@@ -19,6 +19,10 @@ struct PhaseTimes {
 /// For people; some lines. Peak memory is that of the process so far.
 std::string statistics_text(const LoadedScene& loaded, const ShadowResult& result,
                             const PhaseTimes& times);
+/// Of that the times and the memory alone; `scene_bsp_seconds`: within `shadows`, 0 if there is
+/// none.
+std::string times_text(const LoadedScene& loaded, const PhaseTimes& times,
+                       double scene_bsp_seconds = 0);
 
 }  // namespace gnomon::cli
 

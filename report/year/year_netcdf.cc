@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Years as netCDF-4, by the CF conventions, compressed: dimensions time and side; lit(time, side),
-// the times, and where the sun stood. Written beside its place and moved there when it is whole.
+// in single precision, the times, and where the sun stood. Written beside its place and moved there
+// when it is whole.
 #include <fmt/format.h>
 #include <netcdf.h>
 
@@ -48,7 +49,7 @@ class YearNetcdf final : public YearWriter {
 
   // Rows are handed over so many at a time, which is also how they lie in the file.
   static constexpr std::size_t kRowsOfChunk = 64, kSidesOfChunk = 1024;
-  static constexpr int kDeflate = 4;
+  static constexpr int kDeflate = 2;
 
   std::filesystem::path file_, temporary_;
   const YearHead* head_;
@@ -74,7 +75,7 @@ int YearNetcdf::number(const char* name, const char* long_name, const char* unit
 
 void YearNetcdf::define_lit() {
   const std::array<int, 2> dimensions{time_dimension_, side_dimension_};
-  call(nc_def_var(id_, "lit", NC_DOUBLE, 2, dimensions.data(), &lit_));
+  call(nc_def_var(id_, "lit", NC_FLOAT, 2, dimensions.data(), &lit_));
   const std::array<std::size_t, 2> chunk{
       kRowsOfChunk, std::max<std::size_t>(1, std::min(kSidesOfChunk, head_->sides.size()))};
   call(nc_def_var_chunking(id_, lit_, NC_CHUNKED, chunk.data()));
@@ -114,10 +115,9 @@ Expected<void> YearNetcdf::begin() {
   const double zone = static_cast<double>(place.zone.count()) / 60;
   call(nc_put_att_double(id_, NC_GLOBAL, "time_zone", NC_DOUBLE, 1, &zone));
   call(nc_enddef(id_));
-  for (std::size_t i = 0; i < head_->sides.size(); ++i) {
-    const char* name = head_->sides[i].c_str();
-    call(nc_put_var1_string(id_, side, &i, &name));
-  }
+  std::vector<const char*> names;
+  for (const std::string& name : head_->sides) names.push_back(name.c_str());
+  call(nc_put_var_string(id_, side, names.data()));
   return done();
 }
 

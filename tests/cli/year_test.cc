@@ -177,7 +177,7 @@ TEST_F(Year, FormatsSayTheSame) {
       double from_npy = 0;
       std::memcpy(&from_npy, npy.data() + 192 + (3 * i + k) * sizeof(double), sizeof(double));
       EXPECT_EQ(share, from_npy);
-      EXPECT_EQ(share, values[3 * i + k]);
+      EXPECT_EQ(static_cast<float>(share), values[3 * i + k]);
     }
     hours += csv.values[i][3];
   }
