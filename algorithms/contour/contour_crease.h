@@ -146,7 +146,7 @@ void ContourWalk<Numbers, Sides>::hide_crease(const Crease<Numbers>& crease, std
     } else {
       stretch.low = later_of(stretch.low, pierced);
     }
-    if (!shorten(stretch.low, stretch.high)) return;
+    if (!shorten_cover(stretch.low, stretch.high)) return;
   }
   covers_.push_back(stretch);
 }

@@ -218,8 +218,9 @@ void ContourWalk<Numbers, Sides>::meet_on_edge(std::uint32_t k, std::uint32_t q,
     Behind<Numbers> before = entry, after = entry;
     before.high = earlier_of(stretch.high, pierced);
     after.low = later_of(stretch.low, pierced);
-    if (shorten(before.low, before.high)) put(lists, through.cover, from < 0, casts(q), before);
-    if (shorten(after.low, after.high)) put(lists, through.cover, to < 0, casts(q), after);
+    if (shorten_cover(before.low, before.high))
+      put(lists, through.cover, from < 0, casts(q), before);
+    if (shorten_cover(after.low, after.high)) put(lists, through.cover, to < 0, casts(q), after);
   }
 }
 

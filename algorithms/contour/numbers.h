@@ -193,6 +193,18 @@ bool shorten(Place<Numbers>& low, Place<Numbers>& high) {
   return false;
 }
 
+/// The same of a stretch that hides something. If the numbers say that it has a length, and it may
+/// have none, its ends are blurred: what is seen on both sides of it is only together what it is
+/// without the stretch, and must not be found from where one end would be alone.
+template <class Numbers>
+bool shorten_cover(Place<Numbers>& low, Place<Numbers>& high) {
+  if (Numbers::kCertified && low.t < high.t && !certainly_before(low, high)) {
+    low.name = low.name.blurred();
+    high.name = high.name.blurred();
+  }
+  return shorten(low, high);
+}
+
 }  // namespace gnomon
 
 #endif  // GNOMON_ALGORITHMS_CONTOUR_NUMBERS_H

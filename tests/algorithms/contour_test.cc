@@ -87,14 +87,26 @@ TEST(Contour, CreasesInOneLine) {
   } while (std::ranges::next_permutation(sheets).found);
 }
 
-/// Of three casters behind an edge the bounds leave open who of the first two is nearer. The third is
-/// known to be before the one and behind the other, which must not be passed over.
+/// Of three casters behind an edge the bounds leave open who of the first two is nearer. The third
+/// is known to be before the one and behind the other, which must not be passed over.
 TEST(Contour, TopWhereAnOrderIsOpen) {
   const auto generator = fuzz::Generator::parse("family-needles");
   ASSERT_TRUE(generator);
   const auto scene = Case::make(generator->make(214).scene);
   ASSERT_TRUE(scene);
   EXPECT_EQ(check_contour(*scene), "") << text_of(scene->scene());
+}
+
+/// A stretch that may be there or not, between the plane of another polygon and its edge: where its
+/// ends are found each by itself from sharper values, what is on both sides of it overlaps.
+TEST(Contour, StretchesThatMayHaveNoLength) {
+  const auto generator = fuzz::Generator::parse("mix");
+  ASSERT_TRUE(generator);
+  for (const std::uint64_t seed : {20405075u, 20984103u}) {
+    const auto scene = Case::make(generator->make(seed).scene);
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(check_contour(*scene), "") << text_of(scene->scene());
+  }
 }
 
 /// Boxes around a lamp, and a room around all of it: polygons on all sides of the light.
