@@ -23,6 +23,7 @@
 #include "cli/common/statistics.h"
 #include "gnomon/kernel/kernel_choice.h"
 #include "gnomon/scene/digest.h"
+#include "report/shares/gross_shares.h"
 #include "report/text/number_text.h"
 #include "report/year/row_sum.h"
 #include "report/year/sun_hours.h"
@@ -35,9 +36,16 @@ namespace {
 /// Everything that rows are written to.
 class Tables {
  public:
-  static Expected<Tables> open(const YearOptions& options, const report::YearHead& head);
+  /// Keeps a reference to the walls.
+  static Expected<Tables> open(const YearOptions& options, const report::YearHead& head,
+                               const report::GrossShares& gross);
 
-  Expected<void> add(const suns::SunTime& sun, std::span<const double> lit) {
+  /// `lit`: of the sides; those of whole walls are added here.
+  Expected<void> add(const suns::SunTime& sun, std::span<const double> sides) {
+    row_.assign(sides.begin(), sides.end());
+    row_.resize(sides.size() + gross_->size());
+    gross_->read(sides, std::span(row_).subspan(sides.size()));
+    const std::span<const double> lit = row_;
     sum_.add(sun, lit);
     if (hours_) hours_->add(sun, lit);
     for (const auto& writer : writers_) {
@@ -58,10 +66,14 @@ class Tables {
   std::optional<report::SunHours> hours_;
   std::string hours_file_;
   report::RowSum sum_;
+  const report::GrossShares* gross_ = nullptr;
+  std::vector<double> row_;
 };
 
-Expected<Tables> Tables::open(const YearOptions& options, const report::YearHead& head) {
+Expected<Tables> Tables::open(const YearOptions& options, const report::YearHead& head,
+                              const report::GrossShares& gross) {
   Tables tables;
+  tables.gross_ = &gross;
   const auto take = [&](auto writer) -> Expected<void> {
     if (!writer) return tl::unexpected(std::move(writer.error()));
     tables.writers_.push_back(*std::move(writer));
@@ -120,8 +132,13 @@ class YearRun {
         times_(std::move(times)),
         suns_(std::move(suns)),
         columns_(loaded_.scene, loaded_.prepared),
+        gross_(options.gross ? report::GrossShares(loaded_.scene, loaded_.prepared, columns_)
+                             : report::GrossShares()),
         head_(std::move(head)),
-        database_(std::move(database)) {}
+        database_(std::move(database)) {
+    head_.sides = columns_.names();
+    for (std::string& name : gross_.names()) head_.sides.push_back(std::move(name));
+  }
 
   Expected<void> run();
 
@@ -140,6 +157,7 @@ class YearRun {
   std::vector<suns::SunTime> times_;
   SunsOfRows suns_;
   report::ShareColumns columns_;
+  report::GrossShares gross_;
   report::YearHead head_;
   std::optional<YearDatabase> database_;
   Stopwatch stopwatch_;
@@ -180,7 +198,7 @@ Expected<void> YearRun::compute(const YearRows::Take& take, std::size_t& done) {
 }
 
 Expected<void> YearRun::compute_into_tables() {
-  auto tables = Tables::open(options_, head_);
+  auto tables = Tables::open(options_, head_, gross_);
   if (!tables) return tl::unexpected(std::move(tables.error()));
   Expected<void> added;
   std::size_t done = 0;
@@ -228,7 +246,7 @@ Expected<void> YearRun::write_from_database() {
                options_.writes_tables() ? "; no table is written before all are" : "");
     return {};
   }
-  auto tables = Tables::open(options_, head_);
+  auto tables = Tables::open(options_, head_, gross_);
   if (!tables) return tl::unexpected(std::move(tables.error()));
   for (const std::size_t row : *rows) {
     if (interrupted()) return fail(ErrorCode::kInterrupted, "interrupted");
@@ -251,7 +269,7 @@ void YearRun::tell(const Tables& tables) const {
   const std::string text =
       fmt::format("{} rows, {} with the sun up, of {} sides; checksum {}\n",
                   report::grouped(times_.size()), report::grouped(static_cast<std::uint64_t>(day)),
-                  report::grouped(columns_.size()), tables.checksum());
+                  report::grouped(head_.sides.size()), tables.checksum());
   const bool table_on_screen =
       options_.output == "-" || (!options_.writes_tables() && options_.database.empty());
   std::fwrite(text.data(), 1, text.size(), table_on_screen ? stderr : stdout);
@@ -333,7 +351,6 @@ Expected<void> compute_year(const YearOptions& options) {
   if (kernel->thin) shadows.kernel.thickness = 0;
   algorithm->apply(shadows.method);
   shadows.tuning.jobs = options.scene.jobs;
-  head.sides = report::ShareColumns(loaded->scene, loaded->prepared).names();
   YearRun run(options, std::move(shadows), *std::move(loaded), std::move(times), *std::move(suns),
               std::move(head), std::move(database));
   return run.run();

@@ -82,6 +82,9 @@ void add_table_options(CLI::App& command, YearOptions& options) {
       ->type_name("FILE.csv");
   command.add_option("--hours", options.hours, "Hours of sun of every side, by month")
       ->type_name("FILE.csv");
+  command.add_flag("--gross", options.gross,
+                   "Beside each wall with windows or doors in its holes a column WALL#gross, the\n"
+                   "share of all of it, openings included");
   command
       .add_option("--db", options.database,
                   "Keep the rows here as they are done, and go on with those that are here")

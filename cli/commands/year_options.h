@@ -32,7 +32,7 @@ struct YearOptions {
   std::string output, shading, hours;
   std::string database, shard;
   std::vector<std::string> merge;
-  bool stats = false;
+  bool gross = false, stats = false;
 
   bool writes_tables() const { return !output.empty() || !shading.empty() || !hours.empty(); }
 };

@@ -18,7 +18,8 @@ class YearShading final : public YearWriter {
  public:
   YearShading(OutputFile output, const YearHead& head) : output_(std::move(output)) {
     for (std::size_t i = 0; i < head.sides.size(); ++i) {
-      if (!head.sides[i].ends_with("#back")) columns_.push_back(i);
+      if (!head.sides[i].ends_with("#back") && !head.sides[i].ends_with("#gross"))
+        columns_.push_back(i);
     }
   }
   Expected<void> begin(const YearHead& head) {

@@ -42,7 +42,7 @@ class YearWriter {
 Expected<std::unique_ptr<YearWriter>> open_year_table(const std::filesystem::path& file,
                                                       const YearHead& head);
 /// The table of sunlit fractions that EnergyPlus imports (Schedule:File:Shading): of fronts alone,
-/// with the end of each step as the time. Errors: kFile.
+/// without those of whole walls, with the end of each step as the time. Errors: kFile.
 Expected<std::unique_ptr<YearWriter>> open_shading_table(const std::filesystem::path& file,
                                                          const YearHead& head);
 

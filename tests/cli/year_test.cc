@@ -195,6 +195,26 @@ TEST_F(Year, FormatsSayTheSame) {
   EXPECT_EQ(std::ranges::count(shading, '\n'), 121);
 }
 
+/// A wall of 2 x 2 with a window of 1 x 1 in its hole, under a ledge.
+TEST_F(Year, WallsWithTheirWindows) {
+  write_text(file("wall.json"), R"({"format": "gnomon-scene", "version": 1,
+ "vertices": [[0,0,0],[2,0,0],[2,0,2],[0,0,2], [0.5,0,0.5],[1.5,0,0.5],[1.5,0,1.5],[0.5,0,1.5],
+              [0,0,2],[2,0,2],[2,-0.5,2],[0,-0.5,2]],
+ "polygons": [{"id": "wall", "loop": [0,1,2,3], "holes": [[7,6,5,4]]},
+              {"id": "window", "loop": [4,5,6,7]},
+              {"id": "ledge", "loop": [8,9,10,11], "two_sided": true}]})");
+  const Table table =
+      table_of(run(phoenix(file("wall.json"), {"--gross", "--from", "12-21", "--to", "12-21"})));
+  unsigned partly = 0;
+  for (const auto& row : table.values) {
+    ASSERT_EQ(row.size(), 8u);
+    const double wall = row[3], window = row[4], gross = row[7];
+    EXPECT_NEAR(gross, (3 * wall + window) / 4, 1e-15);
+    partly += gross > 0 && gross < 1;
+  }
+  EXPECT_GT(partly, 4u);
+}
+
 TEST_F(Year, ShardsAddUp) {
   const std::vector<std::string> span{"--from", "02-01", "--to", "02-02"};
   const auto with = [&](std::vector<std::string> more) {
