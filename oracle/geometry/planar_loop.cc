@@ -29,6 +29,10 @@ PlanarBox box_of(const PlanarLoop& loop, long double margin) {
   return {{box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin}};
 }
 
+PlanarBox box_of(const PlanarPoint& a, const PlanarPoint& b) {
+  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+}
+
 bool is_finite(const PlanarLoop& loop) {
   return std::ranges::all_of(
       loop, [](const PlanarPoint& p) { return std::isfinite(p.x) && std::isfinite(p.y); });

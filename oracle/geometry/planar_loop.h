@@ -36,6 +36,7 @@ struct PlanarBox {
 
 /// Requires: at least one point.
 PlanarBox box_of(const PlanarLoop& loop, long double margin = 0);
+PlanarBox box_of(const PlanarPoint& a, const PlanarPoint& b);
 bool is_finite(const PlanarLoop& loop);
 /// The line through two points with the inside to its left; all zero if they are one point.
 PlanarLine line_through(const PlanarPoint& a, const PlanarPoint& b);
