@@ -7,6 +7,8 @@
 #include <numeric>
 #include <queue>
 
+#include "oracle/geometry/box_tree.h"
+
 namespace gnomon::oracle {
 
 namespace {
@@ -43,6 +45,16 @@ double distance(Planar p, Planar a, Planar b) {
   const double t = std::clamp((px * dx + py * dy) / squared, 0.0, 1.0);
   if (t > 0 && t < 1) return std::fabs(px * dy - py * dx) / std::sqrt(squared);
   return std::hypot(px - t * dx, py - t * dy);
+}
+
+/// Of a box from a point; a little less where rounding might make it more than that of what it
+/// holds.
+double distance(Planar p, const PlanarBox& box) {
+  const double dx = std::max({0.0, static_cast<double>(box.low.x) - p.x,
+                              p.x - static_cast<double>(box.high.x)});
+  const double dy = std::max({0.0, static_cast<double>(box.low.y) - p.y,
+                              p.y - static_cast<double>(box.high.y)});
+  return (1 - 0x1p-40) * std::sqrt(dx * dx + dy * dy);
 }
 
 double farthest(const Piece& piece, const BoundaryEdge& edge) {
@@ -284,12 +296,17 @@ class RegionMeasure {
                      const mpq_class& high_x, mpq_class middle_x, mpq_class middle_y);
   /// Halves the pieces, widest first, until no disc can be much larger than the one found.
   double lower_bound(double fine);
+  /// How far some point of a piece can be from the edge where that is least; the piece's own bound
+  /// if that is less.
+  double nearest_edge(const Piece& piece) const;
+  double distance_to_edges(Planar point) const;
 
   const Overlay& overlay_;
   const ChartMetric& metric_;
   double unit_;
   mpz_class base_x_, base_y_;
   SlabCut slabs_;
+  BoxTree tree_;  // of the slabs' edges
   double size_ = 0;
   std::priority_queue<Piece> queue_;
   std::size_t made_ = 0;
@@ -349,7 +366,34 @@ bool RegionMeasure::add_trapezoid(const BoundaryEdge& below, const BoundaryEdge&
   return complete_;
 }
 
+double RegionMeasure::nearest_edge(const Piece& piece) const {
+  return tree_.least(
+      piece.upper,
+      [&](const PlanarBox& box) {
+        double most = 0;
+        for (int i = 0; i < piece.count; ++i) {
+          most = std::max(most, distance(piece.corners[i], box));
+        }
+        return most;
+      },
+      [&](std::uint32_t edge) { return farthest(piece, slabs_.edges()[edge]); });
+}
+
+double RegionMeasure::distance_to_edges(Planar point) const {
+  return tree_.least(
+      std::numeric_limits<double>::infinity(),
+      [&](const PlanarBox& box) { return distance(point, box); },
+      [&](std::uint32_t edge) {
+        return distance(point, slabs_.edges()[edge].a, slabs_.edges()[edge].b);
+      });
+}
+
 double RegionMeasure::lower_bound(double fine) {
+  std::vector<PlanarBox> boxes;
+  for (const BoundaryEdge& edge : slabs_.edges()) {
+    boxes.push_back(box_of(PlanarPoint{edge.a.x, edge.a.y}, PlanarPoint{edge.b.x, edge.b.y}));
+  }
+  tree_ = BoxTree(std::move(boxes));
   const std::size_t most_steps = std::min(kMostSteps, 600 + kStepsAnEdge * slabs_.edges().size());
   double lower = 0;
   for (std::size_t step = 0; step < most_steps && !queue_.empty(); ++step) {
@@ -357,15 +401,8 @@ double RegionMeasure::lower_bound(double fine) {
     if (piece.upper <= std::max(lower * kCloseEnough, fine)) break;
     queue_.pop();
     if (!piece.refined) {
-      for (const BoundaryEdge& edge : slabs_.edges()) {
-        piece.upper = std::min(piece.upper, farthest(piece, edge));
-      }
-      const Planar centre = centre_of(piece);
-      double radius = std::numeric_limits<double>::infinity();
-      for (const BoundaryEdge& edge : slabs_.edges()) {
-        radius = std::min(radius, distance(centre, edge.a, edge.b));
-      }
-      lower = std::max(lower, radius);
+      piece.upper = nearest_edge(piece);
+      lower = std::max(lower, distance_to_edges(centre_of(piece)));
       piece.refined = true;
       queue_.push(piece);
       continue;
