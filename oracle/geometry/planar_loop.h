@@ -50,6 +50,9 @@ long double area_of(const PlanarLoop& loop);
 long double perimeter_of(const PlanarLoop& loop);
 /// The diameter of the largest disc in a counter-clockwise convex loop.
 long double width_of(const PlanarLoop& loop);
+/// Of the narrowest strip along an edge of their hull that holds some points; infinite if they are
+/// one point.
+long double strip_width_of(const PlanarLoop& points);
 
 /// What is left of a convex loop inside; empty if nothing is.
 PlanarLoop cut(const PlanarLoop& loop, const PlanarLine& line);
