@@ -33,8 +33,9 @@ struct BoundaryEdge {
 struct Piece {
   std::array<Planar, 4> corners;
   int count = 4;
-  double upper = 0;      // bound of the radius
-  bool refined = false;  // against all edges, not only its own
+  std::uint32_t below = 0, above = 0;  // the edges that it lies between
+  double upper = 0;                    // bound of the radius
+  bool refined = false;                // against all edges, not only its own
   bool operator<(const Piece& other) const { return upper < other.upper; }
 };
 
@@ -64,6 +65,16 @@ double farthest(const Piece& piece, const BoundaryEdge& edge) {
     result = std::max(result, distance(piece.corners[i], edge.a, edge.b));
   }
   return result;
+}
+
+/// No disc has a radius above the mean of its centre's distances from two edges, which is convex.
+double half_between(const Piece& piece, const BoundaryEdge& below, const BoundaryEdge& above) {
+  double result = 0;
+  for (int i = 0; i < piece.count; ++i) {
+    result = std::max(result, distance(piece.corners[i], below.a, below.b) +
+                                  distance(piece.corners[i], above.a, above.b));
+  }
+  return result / 2;
 }
 
 Planar centre_of(const Piece& piece) {
@@ -352,13 +363,14 @@ bool RegionMeasure::add_trapezoid(const BoundaryEdge& below, const BoundaryEdge&
   };
   piece.corners = {corner(below, low_x), corner(below, high_x), corner(above, high_x),
                    corner(above, low_x)};
-  // Along the slab's direction every point of the piece is near one of the two edges.
+  piece.below = static_cast<std::uint32_t>(&below - slabs_.edges().data());
+  piece.above = static_cast<std::uint32_t>(&above - slabs_.edges().data());
   const auto apart = [&](int i, int j) {
     return std::hypot(piece.corners[i].x - piece.corners[j].x,
                       piece.corners[i].y - piece.corners[j].y);
   };
-  piece.upper = std::min(
-      {farthest(piece, below), farthest(piece, above), std::max(apart(0, 3), apart(1, 2)) / 2});
+  piece.upper =
+      std::min({farthest(piece, below), farthest(piece, above), half_between(piece, below, above)});
   const double area_like = std::min(piece.upper, apart(1, 0));
   if (area_like > widest_) {
     widest_ = area_like;
@@ -404,6 +416,8 @@ double RegionMeasure::lower_bound(double fine) {
     if (piece.upper <= std::max(lower * kCloseEnough, fine)) break;
     queue_.pop();
     if (!piece.refined) {
+      piece.upper = std::min(piece.upper, half_between(piece, slabs_.edges()[piece.below],
+                                                       slabs_.edges()[piece.above]));
       piece.upper = nearest_edge(piece);
       lower = std::max(lower, distance_to_edges(centre_of(piece)));
       piece.refined = true;
