@@ -117,13 +117,16 @@ class GroupComparison {
   void examine_regions(const std::vector<Cell>& cells, Excuses& excuses);
   /// Keeps the widest, those that count before those that are excused.
   void keep(ErrorRegion region, const std::vector<std::uint32_t>& faces);
+  /// Among those that are kept.
+  std::size_t place_of(const ErrorRegion& region) const;
   long double width_at_most(RoundingCells& places,
                             const std::vector<std::uint32_t>& boundary) const;
   double known_width(bool excused) const;
-  /// `known`: the width need not be told more closely, scene units.
+  /// `rounding`: all of it is. `known`: the width need not be told more closely, scene units. No
+  /// more than the width is told of what will not be kept.
   ErrorRegion examine(const std::vector<std::uint32_t>& faces,
                       const std::vector<std::uint32_t>& boundary, const std::vector<Cell>& cells,
-                      double known);
+                      bool rounding, double known);
   void describe(Witness& witness, const Cell& cell, const ChartPoint& point) const;
   std::string describe_shadow(Witness& witness, const std::string& claimed,
                               const ChartPoint& point) const;
@@ -349,7 +352,7 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells, Excuses& e
       if (all_rounding) ++result_.rounding_regions;
       continue;
     }
-    ErrorRegion region = examine(faces[r], boundaries[r], cells, known);
+    ErrorRegion region = examine(faces[r], boundaries[r], cells, all_rounding, known);
     result_.width = greater_of(result_.width, region.witness.width);
     if (region.ill_conditioned) {
       ++result_.ill_conditioned_regions;
@@ -357,8 +360,8 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells, Excuses& e
         excuses.ill_conditioned[face] = true;
         excuses.rounding[face] = false;
       }
+      region.rounding = false;
     } else if (all_rounding) {
-      region.rounding = true;
       ++result_.rounding_regions;
     } else {
       result_.judged_width = greater_of(result_.judged_width, region.witness.width);
@@ -401,23 +404,29 @@ double GroupComparison::known_width(bool excused) const {
   return last.witness.width.upper;
 }
 
-void GroupComparison::keep(ErrorRegion region, const std::vector<std::uint32_t>& faces) {
+std::size_t GroupComparison::place_of(const ErrorRegion& region) const {
   const auto worse = [](const ErrorRegion& a, const ErrorRegion& b) {
     if (a.excused() != b.excused()) return b.excused();
     return a.witness.width.middle() > b.witness.width.middle();
   };
-  auto place = std::upper_bound(result_.worst.begin(), result_.worst.end(), region, worse);
-  if (place == result_.worst.end() && result_.worst.size() >= options_.most_regions) return;
+  return static_cast<std::size_t>(std::ranges::upper_bound(result_.worst, region, worse) -
+                                  result_.worst.begin());
+}
+
+void GroupComparison::keep(ErrorRegion region, const std::vector<std::uint32_t>& faces) {
+  const std::size_t place = place_of(region);
+  if (place >= options_.most_regions) return;
   std::vector<bool> chosen(overlay_.overlay().faces().size(), false);
   for (const std::uint32_t face : faces) chosen[face] = true;
   region.area = overlay_.share(chosen, options_.exact_limit);
-  result_.worst.insert(place, std::move(region));
+  result_.worst.insert(result_.worst.begin() + static_cast<std::ptrdiff_t>(place),
+                       std::move(region));
   if (result_.worst.size() > options_.most_regions) result_.worst.pop_back();
 }
 
 ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
                                      const std::vector<std::uint32_t>& boundary,
-                                     const std::vector<Cell>& cells, double known) {
+                                     const std::vector<Cell>& cells, bool rounding, double known) {
   const Overlay& overlay = overlay_.overlay();
   const Geometry& geometry = answer_.prepared().geometry;
   const ChartMetric metric(overlay_.chart());
@@ -426,6 +435,8 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
   const RegionShape shape = measure_region(overlay, metric, boundary, resolution);
   Witness& witness = region.witness;
   witness.width = not_negative(shape.width * enclose(geometry.step));
+  region.rounding = rounding;
+  if (!(options_.clearance > 0) && place_of(region) >= options_.most_regions) return region;
   // The point belongs to one of the faces: say what is wrong right there. A region of several faces
   // is represented by the face that errs worst.
   std::uint32_t worst = faces.front();
