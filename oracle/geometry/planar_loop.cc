@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace gnomon::oracle {
@@ -27,6 +28,10 @@ PlanarBox box_of(const PlanarLoop& loop, long double margin) {
     box.high = {std::max(box.high.x, point.x), std::max(box.high.y, point.y)};
   }
   return {{box.low.x - margin, box.low.y - margin}, {box.high.x + margin, box.high.y + margin}};
+}
+
+PlanarBox box_of(const PlanarPoint& a, const PlanarPoint& b) {
+  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
 }
 
 bool is_finite(const PlanarLoop& loop) {
@@ -103,6 +108,19 @@ long double width_of(const PlanarLoop& loop) {
     (rest.empty() ? high : low) = radius;
   }
   return 2 * high;
+}
+
+long double strip_width_of(const PlanarLoop& points) {
+  long double least = std::numeric_limits<long double>::infinity();
+  for (const PlanarLine& line : lines_of(hull_of(points))) {
+    long double low = 0, high = 0;  // the line's own points
+    for (const PlanarPoint& point : points) {
+      low = std::min(low, line.at(point));
+      high = std::max(high, line.at(point));
+    }
+    least = std::min(least, high - low);
+  }
+  return least;
 }
 
 PlanarLoop cut(const PlanarLoop& loop, const PlanarLine& line) {

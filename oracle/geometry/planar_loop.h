@@ -36,6 +36,7 @@ struct PlanarBox {
 
 /// Requires: at least one point.
 PlanarBox box_of(const PlanarLoop& loop, long double margin = 0);
+PlanarBox box_of(const PlanarPoint& a, const PlanarPoint& b);
 bool is_finite(const PlanarLoop& loop);
 /// The line through two points with the inside to its left; all zero if they are one point.
 PlanarLine line_through(const PlanarPoint& a, const PlanarPoint& b);
@@ -49,6 +50,9 @@ long double area_of(const PlanarLoop& loop);
 long double perimeter_of(const PlanarLoop& loop);
 /// The diameter of the largest disc in a counter-clockwise convex loop.
 long double width_of(const PlanarLoop& loop);
+/// Of the narrowest strip along an edge of their hull that holds some points; infinite if they are
+/// one point.
+long double strip_width_of(const PlanarLoop& points);
 
 /// What is left of a convex loop inside; empty if nothing is.
 PlanarLoop cut(const PlanarLoop& loop, const PlanarLine& line);

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <queue>
+
+#include "oracle/geometry/box_tree.h"
 
 namespace gnomon::oracle {
 
@@ -30,8 +33,9 @@ struct BoundaryEdge {
 struct Piece {
   std::array<Planar, 4> corners;
   int count = 4;
-  double upper = 0;      // bound of the radius
-  bool refined = false;  // against all edges, not only its own
+  std::uint32_t below = 0, above = 0;  // the edges that it lies between
+  double upper = 0;                    // bound of the radius
+  bool refined = false;                // against all edges, not only its own
   bool operator<(const Piece& other) const { return upper < other.upper; }
 };
 
@@ -45,12 +49,32 @@ double distance(Planar p, Planar a, Planar b) {
   return std::hypot(px - t * dx, py - t * dy);
 }
 
+/// Of a box from a point; a little less where rounding might make it more than that of what it
+/// holds.
+double distance(Planar p, const PlanarBox& box) {
+  const double dx =
+      std::max({0.0, static_cast<double>(box.low.x) - p.x, p.x - static_cast<double>(box.high.x)});
+  const double dy =
+      std::max({0.0, static_cast<double>(box.low.y) - p.y, p.y - static_cast<double>(box.high.y)});
+  return (1 - 0x1p-40) * std::sqrt(dx * dx + dy * dy);
+}
+
 double farthest(const Piece& piece, const BoundaryEdge& edge) {
   double result = 0;
   for (int i = 0; i < piece.count; ++i) {
     result = std::max(result, distance(piece.corners[i], edge.a, edge.b));
   }
   return result;
+}
+
+/// No disc has a radius above the mean of its centre's distances from two edges, which is convex.
+double half_between(const Piece& piece, const BoundaryEdge& below, const BoundaryEdge& above) {
+  double result = 0;
+  for (int i = 0; i < piece.count; ++i) {
+    result = std::max(result, distance(piece.corners[i], below.a, below.b) +
+                                  distance(piece.corners[i], above.a, above.b));
+  }
+  return result / 2;
 }
 
 Planar centre_of(const Piece& piece) {
@@ -92,10 +116,29 @@ double scaled(const mpz_class& value) {
   return std::ldexp(mantissa, static_cast<int>(std::clamp(exponent - kBits, -5000L, 5000L)));
 }
 
+/// A rational that is not reduced, which costs more than all else here; the denominator is
+/// positive.
+struct Fraction {
+  mpz_class numerator, denominator = 1;
+  friend bool operator<(const Fraction& a, const Fraction& b) {
+    return cmp(mpz_class(a.numerator * b.denominator), mpz_class(b.numerator * a.denominator)) < 0;
+  }
+};
+
+Fraction middle_of(const Fraction& a, const Fraction& b) {
+  return {a.numerator * b.denominator + b.numerator * a.denominator,
+          2 * a.denominator * b.denominator};
+}
+
 /// y of a line that is not vertical, at x: exactly.
-mpq_class height_at(const ChartLine& line, const mpq_class& x) {
-  mpq_class y = (mpq_class(line.a) * x + line.c) / line.b;
-  return -y;
+Fraction height_at(const ChartLine& line, const Fraction& x) {
+  Fraction y{line.a * x.numerator + line.c * x.denominator, line.b * x.denominator};
+  if (y.denominator < 0) {
+    y.denominator = -y.denominator;
+  } else {
+    y.numerator = -y.numerator;
+  }
+  return y;
 }
 
 }  // namespace
@@ -123,11 +166,10 @@ struct SlabDirection {
   ChartPoint turn(const ChartPoint& point) const {
     return {q * point.x - p * point.y, p * point.x + q * point.y, point.w};
   }
-  /// The inverse: back to the chart.
-  void turn_back(mpq_class& x, mpq_class& y) const {
-    const mpq_class u = x;
-    x = (q * u + p * y) / (p * p + q * q);
-    y = (q * y - p * u) / (p * p + q * q);
+  /// The inverse: back to the chart. Not reduced.
+  ChartPoint turn_back(const Fraction& x, const Fraction& y) const {
+    const mpz_class u = x.numerator * y.denominator, v = y.numerator * x.denominator;
+    return {q * u + p * v, q * v - p * u, (p * p + q * q) * x.denominator * y.denominator};
   }
 };
 
@@ -219,15 +261,14 @@ void SlabCut::cut(const Use& use) {
 template <class Use>
 bool SlabCut::cut_slab(const std::vector<std::size_t>& crossing, const ChartPoint& from,
                        const ChartPoint& to, const Use& use) {
-  mpq_class low_x(from.x, from.w), high_x(to.x, to.w);
-  low_x.canonicalize();
-  high_x.canonicalize();
-  const mpq_class middle_x = (low_x + high_x) / 2;
-  std::vector<std::pair<mpq_class, std::size_t>> across;
+  const Fraction low_x{from.x, from.w}, high_x{to.x, to.w};
+  const Fraction middle_x = middle_of(low_x, high_x);
+  std::vector<std::pair<Fraction, std::size_t>> across;
   for (std::size_t e : crossing) across.emplace_back(height_at(edges_[e].line, middle_x), e);
-  std::sort(across.begin(), across.end());
+  std::ranges::sort(
+      across, std::less<>(), [](const auto& own) -> auto& { return own.first; });
   for (std::size_t i = 0; i + 1 < across.size(); i += 2) {
-    const mpq_class middle_y = (across[i].first + across[i + 1].first) / 2;
+    const Fraction middle_y = middle_of(across[i].first, across[i + 1].first);
     if (!use(edges_[across[i].second], edges_[across[i + 1].second], low_x, high_x, middle_x,
              middle_y)) {
       return false;
@@ -236,23 +277,14 @@ bool SlabCut::cut_slab(const std::vector<std::size_t>& crossing, const ChartPoin
   return true;
 }
 
-/// A point of a chart by its two coordinates.
-ChartPoint chart_point(const mpq_class& x, const mpq_class& y) {
-  const mpz_class w = lcm(x.get_den(), y.get_den());
-  ChartPoint point{x.get_num() * (w / x.get_den()), y.get_num() * (w / y.get_den()), w};
-  reduce(point);
-  return point;
-}
-
 class RegionMeasure {
  public:
   RegionMeasure(const Overlay& overlay, const ChartMetric& metric,
                 const std::vector<std::uint32_t>& boundary)
       : overlay_(overlay), metric_(metric), unit_(overlay.box_unit()) {
     read(boundary);
-    slabs_.cut([this](const BoundaryEdge& below, const BoundaryEdge& above, const mpq_class& low_x,
-                      const mpq_class& high_x, const mpq_class& middle_x,
-                      const mpq_class& middle_y) {
+    slabs_.cut([this](const BoundaryEdge& below, const BoundaryEdge& above, const Fraction& low_x,
+                      const Fraction& high_x, const Fraction& middle_x, const Fraction& middle_y) {
       return add_trapezoid(below, above, low_x, high_x, middle_x, middle_y);
     });
   }
@@ -265,31 +297,36 @@ class RegionMeasure {
     if (!complete_) upper = 2 * size_;  // said as it is: no better bound was computed
     const Enclosure width{std::max(0.0, 2 * (lower - rounding)) * unit_,
                           2 * (upper + rounding) * unit_};
+    reduce(interior_);
     return {width, std::move(interior_)};
   }
 
  private:
   /// Coordinates relative to the base, subtracted exactly, in units of the overlay's box.
-  Planar planar(const mpz_class& x, const mpz_class& x_w, const mpz_class& y,
-                const mpz_class& y_w) const {
-    const mpz_class dx = overlay_.fixed_value(x, x_w, kBits) - base_x_;
-    const mpz_class dy = overlay_.fixed_value(y, y_w, kBits) - base_y_;
+  Planar planar(const ChartPoint& point) const {
+    const mpz_class dx = overlay_.fixed_value(point.x, point.w, kBits) - base_x_;
+    const mpz_class dy = overlay_.fixed_value(point.y, point.w, kBits) - base_y_;
     const double u = scaled(dx), v = scaled(dy);
     return Planar{metric_.a * u + metric_.b * v, metric_.c * v};
   }
 
   void read(const std::vector<std::uint32_t>& boundary);
   /// False once there are too many.
-  bool add_trapezoid(const BoundaryEdge& below, const BoundaryEdge& above, const mpq_class& low_x,
-                     const mpq_class& high_x, mpq_class middle_x, mpq_class middle_y);
+  bool add_trapezoid(const BoundaryEdge& below, const BoundaryEdge& above, const Fraction& low_x,
+                     const Fraction& high_x, const Fraction& middle_x, const Fraction& middle_y);
   /// Halves the pieces, widest first, until no disc can be much larger than the one found.
   double lower_bound(double fine);
+  /// How far some point of a piece can be from the edge where that is least; the piece's own bound
+  /// if that is less.
+  double nearest_edge(const Piece& piece) const;
+  double distance_to_edges(Planar point) const;
 
   const Overlay& overlay_;
   const ChartMetric& metric_;
   double unit_;
   mpz_class base_x_, base_y_;
   SlabCut slabs_;
+  BoxTree tree_;  // of the slabs' edges
   double size_ = 0;
   std::priority_queue<Piece> queue_;
   std::size_t made_ = 0;
@@ -302,15 +339,12 @@ void RegionMeasure::read(const std::vector<std::uint32_t>& boundary) {
   const ChartPoint& base = overlay_.point(overlay_.halfedges()[boundary.front()].origin);
   base_x_ = overlay_.fixed_value(base.x, base.w, kBits);
   base_y_ = overlay_.fixed_value(base.y, base.w, kBits);
-  const auto planar_point = [&](const ChartPoint& point) {
-    return planar(point.x, point.w, point.y, point.w);
-  };
   std::vector<Planar> directions;
   std::vector<BoundaryEdge> edges;
   for (std::uint32_t halfedge : boundary) {
     const ChartPoint& p = overlay_.point(overlay_.halfedges()[halfedge].origin);
     const ChartPoint& q = overlay_.point(overlay_.target(halfedge));
-    edges.push_back({p, q, {}, planar_point(p), planar_point(q)});
+    edges.push_back({p, q, {}, planar(p), planar(q)});
     const Planar &a = edges.back().a, &b = edges.back().b;
     const double v = (b.y - a.y) / metric_.c;
     directions.push_back({(b.x - a.x - metric_.b * v) / metric_.a, v});
@@ -321,35 +355,60 @@ void RegionMeasure::read(const std::vector<std::uint32_t>& boundary) {
 }
 
 bool RegionMeasure::add_trapezoid(const BoundaryEdge& below, const BoundaryEdge& above,
-                                  const mpq_class& low_x, const mpq_class& high_x,
-                                  mpq_class middle_x, mpq_class middle_y) {
+                                  const Fraction& low_x, const Fraction& high_x,
+                                  const Fraction& middle_x, const Fraction& middle_y) {
   Piece piece;
-  const auto corner = [&](const BoundaryEdge& edge, mpq_class x) {
-    mpq_class y = height_at(edge.line, x);
-    slabs_.direction().turn_back(x, y);
-    return planar(x.get_num(), x.get_den(), y.get_num(), y.get_den());
+  const auto corner = [&](const BoundaryEdge& edge, const Fraction& x) {
+    return planar(slabs_.direction().turn_back(x, height_at(edge.line, x)));
   };
   piece.corners = {corner(below, low_x), corner(below, high_x), corner(above, high_x),
                    corner(above, low_x)};
-  // Along the slab's direction every point of the piece is near one of the two edges.
+  piece.below = static_cast<std::uint32_t>(&below - slabs_.edges().data());
+  piece.above = static_cast<std::uint32_t>(&above - slabs_.edges().data());
   const auto apart = [&](int i, int j) {
     return std::hypot(piece.corners[i].x - piece.corners[j].x,
                       piece.corners[i].y - piece.corners[j].y);
   };
-  piece.upper = std::min(
-      {farthest(piece, below), farthest(piece, above), std::max(apart(0, 3), apart(1, 2)) / 2});
+  piece.upper =
+      std::min({farthest(piece, below), farthest(piece, above), half_between(piece, below, above)});
   const double area_like = std::min(piece.upper, apart(1, 0));
   if (area_like > widest_) {
     widest_ = area_like;
-    slabs_.direction().turn_back(middle_x, middle_y);
-    interior_ = chart_point(middle_x, middle_y);
+    interior_ = slabs_.direction().turn_back(middle_x, middle_y);
   }
   queue_.push(piece);
   if (++made_ > kMostTrapezoids) complete_ = false;
   return complete_;
 }
 
+double RegionMeasure::nearest_edge(const Piece& piece) const {
+  return tree_.least(
+      piece.upper,
+      [&](const PlanarBox& box) {
+        double most = 0;
+        for (int i = 0; i < piece.count; ++i) {
+          most = std::max(most, distance(piece.corners[i], box));
+        }
+        return most;
+      },
+      [&](std::uint32_t edge) { return farthest(piece, slabs_.edges()[edge]); });
+}
+
+double RegionMeasure::distance_to_edges(Planar point) const {
+  return tree_.least(
+      std::numeric_limits<double>::infinity(),
+      [&](const PlanarBox& box) { return distance(point, box); },
+      [&](std::uint32_t edge) {
+        return distance(point, slabs_.edges()[edge].a, slabs_.edges()[edge].b);
+      });
+}
+
 double RegionMeasure::lower_bound(double fine) {
+  std::vector<PlanarBox> boxes;
+  for (const BoundaryEdge& edge : slabs_.edges()) {
+    boxes.push_back(box_of(PlanarPoint{edge.a.x, edge.a.y}, PlanarPoint{edge.b.x, edge.b.y}));
+  }
+  tree_ = BoxTree(std::move(boxes));
   const std::size_t most_steps = std::min(kMostSteps, 600 + kStepsAnEdge * slabs_.edges().size());
   double lower = 0;
   for (std::size_t step = 0; step < most_steps && !queue_.empty(); ++step) {
@@ -357,15 +416,10 @@ double RegionMeasure::lower_bound(double fine) {
     if (piece.upper <= std::max(lower * kCloseEnough, fine)) break;
     queue_.pop();
     if (!piece.refined) {
-      for (const BoundaryEdge& edge : slabs_.edges()) {
-        piece.upper = std::min(piece.upper, farthest(piece, edge));
-      }
-      const Planar centre = centre_of(piece);
-      double radius = std::numeric_limits<double>::infinity();
-      for (const BoundaryEdge& edge : slabs_.edges()) {
-        radius = std::min(radius, distance(centre, edge.a, edge.b));
-      }
-      lower = std::max(lower, radius);
+      piece.upper = std::min(piece.upper, half_between(piece, slabs_.edges()[piece.below],
+                                                       slabs_.edges()[piece.above]));
+      piece.upper = nearest_edge(piece);
+      lower = std::max(lower, distance_to_edges(centre_of(piece)));
       piece.refined = true;
       queue_.push(piece);
       continue;
@@ -393,12 +447,13 @@ std::vector<std::vector<ChartPoint>> trapezoids_of(const Overlay& overlay,
                {}});
   }
   std::vector<std::vector<ChartPoint>> trapezoids;
-  slabs.cut([&](const BoundaryEdge& below, const BoundaryEdge& above, const mpq_class& low_x,
-                const mpq_class& high_x, const mpq_class&, const mpq_class&) {
+  slabs.cut([&](const BoundaryEdge& below, const BoundaryEdge& above, const Fraction& low_x,
+                const Fraction& high_x, const Fraction&, const Fraction&) {
     std::vector<ChartPoint> corners;
     for (const auto& [edge, x] :
          {std::pair{&below, &low_x}, {&below, &high_x}, {&above, &high_x}, {&above, &low_x}}) {
-      corners.push_back(chart_point(*x, height_at(edge->line, *x)));
+      corners.push_back(slabs.direction().turn_back(*x, height_at(edge->line, *x)));
+      reduce(corners.back());
     }
     trapezoids.push_back(std::move(corners));
     return trapezoids.size() < kMostTrapezoids;

@@ -4,9 +4,11 @@
 //
 // Method: the region is cut exactly into trapezoids between its boundary edges. For a convex piece
 // T and a boundary edge e no disc centred in T has a radius above max dist(corner of T, e), since
-// the distance to a convex set is convex; the least of these over all e bounds T from above, a disc
-// around a point of T from below. Pieces are halved, worst first, until both bounds are close.
-// Guarantee: the bounds hold up to the rounding of the coordinates, which is added to them.
+// the distance to a convex set is convex; nor above half of max (dist(corner, e) + dist(corner, f))
+// for two edges e and f, which is right for long T between them. The least of these bounds T from
+// above, a disc around a point of T from below. Pieces are halved, worst first, until both bounds
+// are close. Guarantee: the bounds hold up to the rounding of the coordinates, which is added to
+// them.
 #ifndef GNOMON_ORACLE_GEOMETRY_REGION_WIDTH_H
 #define GNOMON_ORACLE_GEOMETRY_REGION_WIDTH_H
 

@@ -99,6 +99,12 @@ bool are_near_one(const PlanarLoop& points, std::span<const Border> borders, lon
   });
 }
 
+long double rounding_area(const Border& border, long double radius) {
+  // The sides of a polygon around a disc are off by 2 in 100.
+  const long double reach = 1.03L * rounding_reach(radius);
+  return reach * (2 * std::hypot(border.b.x - border.a.x, border.b.y - border.a.y) + 3.2L * reach);
+}
+
 bool is_rounding(long double distance, long double radius) {
   return radius > 0 && distance <= rounding_reach(radius);
 }
@@ -109,7 +115,7 @@ bool is_rounding(const PlanarLoop& error, std::span<const Border> borders, long 
   const PlanarBox box = box_of(error, reach);
   std::vector<Border> near;
   for (const Border& border : borders) {
-    if (box.meets(box_of({border.a, border.b}))) near.push_back(border);
+    if (box.meets(box_of(border.a, border.b))) near.push_back(border);
   }
   if (are_near_one(error, near, radius)) return true;
   const PlanarPoint middle = middle_of(error);

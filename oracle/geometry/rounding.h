@@ -35,6 +35,9 @@ bool are_near_one(const PlanarLoop& points, std::span<const Border> borders, lon
 /// Whether a convex, counter-clockwise piece of error lies within `radius` of some of the borders.
 bool is_rounding(const PlanarLoop& error, std::span<const Border> borders, long double radius);
 
+/// No more than this of an area can be rounding near one border.
+long double rounding_area(const Border& border, long double radius);
+
 /// A little more than the radius: what is farther is no rounding.
 long double rounding_reach(long double radius);
 

@@ -322,6 +322,8 @@ bool PlaneProof::prove() {
   if (!(area_ > kClear * error_ * perimeter_) || !std::isfinite(area_)) return false;
   if (!read_fragments()) return false;
   exact_ = covers_exactly();
+  // Whether exact loops are all right has to be told, and strips do not tell it.
+  if (!exact_ && !(radius_ > 0)) return false;
   if (!exact_ && (!tiles() || !within())) return false;
   return are_classes_right() && within();
 }

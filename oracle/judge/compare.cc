@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <ranges>
 
@@ -114,9 +116,17 @@ class GroupComparison {
   };
   void examine_regions(const std::vector<Cell>& cells, Excuses& excuses);
   /// Keeps the widest, those that count before those that are excused.
-  void keep(ErrorRegion region);
+  void keep(ErrorRegion region, const std::vector<std::uint32_t>& faces);
+  /// Among those that are kept.
+  std::size_t place_of(const ErrorRegion& region) const;
+  long double width_at_most(RoundingCells& places,
+                            const std::vector<std::uint32_t>& boundary) const;
+  double known_width(bool excused) const;
+  /// `rounding`: all of it is. `known`: the width need not be told more closely, scene units. No
+  /// more than the width is told of what will not be kept.
   ErrorRegion examine(const std::vector<std::uint32_t>& faces,
-                      const std::vector<std::uint32_t>& boundary, const std::vector<Cell>& cells);
+                      const std::vector<std::uint32_t>& boundary, const std::vector<Cell>& cells,
+                      bool rounding, double known);
   void describe(Witness& witness, const Cell& cell, const ChartPoint& point) const;
   std::string describe_shadow(Witness& witness, const std::string& claimed,
                               const ChartPoint& point) const;
@@ -318,33 +328,45 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells, Excuses& e
   }
   RoundingCells rounding(frame(), overlay_.chart(), overlay, claimed_edges_,
                          result_.rounding_radius);
-  for (std::size_t r = 0; r < faces.size(); ++r) {
-    if (faces[r].empty()) continue;
+  // The widest first, as far as that is seen at a glance: others are then known to be narrower.
+  std::vector<std::pair<long double, std::uint32_t>> order;
+  for (std::uint32_t r = 0; r < faces.size(); ++r) {
+    if (!faces[r].empty()) order.emplace_back(width_at_most(rounding, boundaries[r]), r);
+  }
+  // What is as wide but for rounding stays in the order of the regions.
+  std::ranges::stable_sort(order, std::greater<>(),
+                           [](const auto& own) { return static_cast<float>(own.first); });
+  for (const auto& [most, r] : order) {
     ++result_.regions;
-    if (!options_.measure_rounding &&
-        std::ranges::all_of(faces[r], [&](std::uint32_t f) { return rounding.contains(f); })) {
+    bool all_rounding = true;
+    for (const std::uint32_t face : faces[r]) {
+      excuses.rounding[face] = rounding.contains(face);
+      all_rounding = all_rounding && excuses.rounding[face];
+    }
+    if (all_rounding && !options_.measure_rounding) {
       ++result_.rounding_regions;
-      for (std::uint32_t face : faces[r]) excuses.rounding[face] = true;
       continue;
     }
-    ErrorRegion region = examine(faces[r], boundaries[r], cells);
+    const double known = known_width(all_rounding);
+    if (known > 0 && most <= known) {
+      if (all_rounding) ++result_.rounding_regions;
+      continue;
+    }
+    ErrorRegion region = examine(faces[r], boundaries[r], cells, all_rounding, known);
     result_.width = greater_of(result_.width, region.witness.width);
     if (region.ill_conditioned) {
       ++result_.ill_conditioned_regions;
-      for (std::uint32_t face : faces[r]) excuses.ill_conditioned[face] = true;
-    } else {
-      region.rounding = true;
       for (std::uint32_t face : faces[r]) {
-        excuses.rounding[face] = rounding.contains(face);
-        region.rounding = region.rounding && excuses.rounding[face];
+        excuses.ill_conditioned[face] = true;
+        excuses.rounding[face] = false;
       }
-      if (region.rounding) {
-        ++result_.rounding_regions;
-      } else {
-        result_.judged_width = greater_of(result_.judged_width, region.witness.width);
-      }
+      region.rounding = false;
+    } else if (all_rounding) {
+      ++result_.rounding_regions;
+    } else {
+      result_.judged_width = greater_of(result_.judged_width, region.witness.width);
     }
-    keep(std::move(region));
+    keep(std::move(region), faces[r]);
   }
   // The widest alone is described: who decides is looked for among all casters.
   if (result_.worst.empty() || !result_.worst.front().witness.text.empty()) return;
@@ -357,33 +379,64 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells, Excuses& e
   describe(widest, cell, point);
 }
 
-void GroupComparison::keep(ErrorRegion region) {
+/// Of the region between halfedges, scene units, seen at a glance: no disc in it is wider than a
+/// strip that holds it.
+long double GroupComparison::width_at_most(RoundingCells& places,
+                                           const std::vector<std::uint32_t>& boundary) const {
+  PlanarLoop points;
+  long double greatest = 0;
+  for (const std::uint32_t halfedge : boundary) {
+    const PlanarPoint& point =
+        points.emplace_back(places.at_vertex(overlay_.overlay().halfedges()[halfedge].origin));
+    greatest = std::max({greatest, std::fabs(point.x), std::fabs(point.y)});
+  }
+  const long double width = strip_width_of(points) + 8 * kPlanarError * greatest;
+  return std::isfinite(width) ? width : std::numeric_limits<long double>::infinity();
+}
+
+/// What a region has to be wider than to matter: neither a greatest width nor the regions that are
+/// kept change with one that is not.
+double GroupComparison::known_width(bool excused) const {
+  if (options_.clearance > 0 || result_.worst.size() < options_.most_regions) return 0;
+  if (result_.worst.empty()) return excused ? result_.width.upper : result_.judged_width.upper;
+  const ErrorRegion& last = result_.worst.back();
+  if (last.excused() != excused) return excused ? result_.width.upper : 0;
+  return last.witness.width.upper;
+}
+
+std::size_t GroupComparison::place_of(const ErrorRegion& region) const {
   const auto worse = [](const ErrorRegion& a, const ErrorRegion& b) {
     if (a.excused() != b.excused()) return b.excused();
     return a.witness.width.middle() > b.witness.width.middle();
   };
-  auto place = std::upper_bound(result_.worst.begin(), result_.worst.end(), region, worse);
-  if (place == result_.worst.end() && result_.worst.size() >= options_.most_regions) return;
-  result_.worst.insert(place, std::move(region));
+  return static_cast<std::size_t>(std::ranges::upper_bound(result_.worst, region, worse) -
+                                  result_.worst.begin());
+}
+
+void GroupComparison::keep(ErrorRegion region, const std::vector<std::uint32_t>& faces) {
+  const std::size_t place = place_of(region);
+  if (place >= options_.most_regions) return;
+  std::vector<bool> chosen(overlay_.overlay().faces().size(), false);
+  for (const std::uint32_t face : faces) chosen[face] = true;
+  region.area = overlay_.share(chosen, options_.exact_limit);
+  result_.worst.insert(result_.worst.begin() + static_cast<std::ptrdiff_t>(place),
+                       std::move(region));
   if (result_.worst.size() > options_.most_regions) result_.worst.pop_back();
 }
 
 ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
                                      const std::vector<std::uint32_t>& boundary,
-                                     const std::vector<Cell>& cells) {
+                                     const std::vector<Cell>& cells, bool rounding, double known) {
   const Overlay& overlay = overlay_.overlay();
   const Geometry& geometry = answer_.prepared().geometry;
   const ChartMetric metric(overlay_.chart());
   ErrorRegion region;
-  std::vector<bool> chosen;
-  if (result_.worst.size() < options_.most_regions || boundary.size() > 8) {
-    chosen.assign(cells.size(), false);
-    for (std::uint32_t face : faces) chosen[face] = true;
-  }
-  const double resolution = options_.width_resolution / geometry.step.get_d();
+  const double resolution = std::max(options_.width_resolution, known) / geometry.step.get_d();
   const RegionShape shape = measure_region(overlay, metric, boundary, resolution);
   Witness& witness = region.witness;
   witness.width = not_negative(shape.width * enclose(geometry.step));
+  region.rounding = rounding;
+  if (!(options_.clearance > 0) && place_of(region) >= options_.most_regions) return region;
   // The point belongs to one of the faces: say what is wrong right there. A region of several faces
   // is represented by the face that errs worst.
   std::uint32_t worst = faces.front();
@@ -396,7 +449,7 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
     overlay.for_each_halfedge(worst, [&](std::uint32_t h) {
       if (overlay.halfedges()[Overlay::twin(h)].face != worst) own.push_back(h);
     });
-    inner = measure_region(overlay, metric, own, resolution).interior;
+    inner = measure_region(overlay, metric, own, std::numeric_limits<double>::infinity()).interior;
   }
   const Cell& cell = cells[worst];
   witness.kind = kind_of(cell);
@@ -415,7 +468,6 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
                             .clearance;
     region.ill_conditioned = witness.clearance && *witness.clearance < options_.clearance;
   }
-  if (!chosen.empty()) region.area = overlay_.share(chosen, options_.exact_limit);
   return region;
 }
 

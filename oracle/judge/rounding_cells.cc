@@ -2,6 +2,8 @@
 #include "oracle/judge/rounding_cells.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "oracle/geometry/region_width.h"
 
@@ -14,11 +16,46 @@ const PlanarPoint& RoundingCells::at_vertex(std::uint32_t vertex) {
   return *place;
 }
 
-const std::vector<Border>& RoundingCells::claimed_borders() {
-  if (claimed_borders_.empty()) {
-    for (const auto& [a, b] : claimed_) claimed_borders_.push_back({at(a), at(b)});
+const RoundingCells::ClaimedBorders& RoundingCells::claimed_borders() {
+  if (!claimed_borders_) {
+    ClaimedBorders& all = claimed_borders_.emplace();
+    std::vector<PlanarBox> boxes;
+    for (const auto& [a, b] : claimed_) {
+      const Border& border = all.borders.emplace_back(Border{at(a), at(b)});
+      boxes.push_back(box_of(border.a, border.b));
+      all.area += rounding_area(border, radius_);
+    }
+    all.tree = BoxTree(std::move(boxes));
   }
-  return claimed_borders_;
+  return *claimed_borders_;
+}
+
+/// What is larger than all that is near borders does not lie near borders.
+bool RoundingCells::is_too_large(const std::vector<Border>& boundary) {
+  // Coordinates are off by a thirtieth of the radius, and products by far less than the rest.
+  constexpr long double kClearly = 1.1L;
+  const PlanarPoint& base = boundary.front().a;
+  long double area = 0, sum = 0, near = claimed_borders().area;
+  for (const Border& border : boundary) {
+    const PlanarPoint a{border.a.x - base.x, border.a.y - base.y};
+    const PlanarPoint b{border.b.x - base.x, border.b.y - base.y};
+    area += (a.x * b.y - a.y * b.x) / 2;
+    sum += std::fabs(a.x * b.y) + std::fabs(a.y * b.x);
+    near += rounding_area(border, radius_);
+  }
+  return std::fabs(area) > kClearly * near + 0x1p-40L * sum;
+}
+
+/// `borders`: of the cell. Its own edges do not tell all: those of loops that round to a line
+/// cancel.
+bool RoundingCells::is_near_claims(const PlanarLoop& piece, std::vector<Border> borders) {
+  const ClaimedBorders& claimed = claimed_borders();
+  std::vector<std::uint32_t> near;
+  claimed.tree.meeting(box_of(piece, rounding_reach(radius_)),
+                       [&](std::uint32_t border) { near.push_back(border); });
+  std::ranges::sort(near);
+  for (const std::uint32_t border : near) borders.push_back(claimed.borders[border]);
+  return is_rounding(piece, borders, radius_);
 }
 
 bool RoundingCells::contains(std::uint32_t face) {
@@ -31,29 +68,21 @@ bool RoundingCells::contains(std::uint32_t face) {
     points.push_back(borders.back().a);
     if (overlay_.halfedges()[Overlay::twin(h)].face != face) boundary.push_back(h);
   });
-  if (boundary.empty()) return false;
+  if (boundary.empty() || !is_finite(points)) return false;
   // Slivers along one border are most of what rounding makes.
   if (are_near_one(points, borders, radius_)) return true;
+  if (is_too_large(borders)) return false;
   std::vector<PlanarLoop> pieces;
   for (const std::vector<ChartPoint>& corners : trapezoids_of(overlay_, boundary)) {
     PlanarLoop piece;
     for (const ChartPoint& corner : corners) piece.push_back(at(corner));
     if (area_of(piece) < 0) std::ranges::reverse(piece);
+    if (!is_finite(piece)) return false;
     pieces.push_back(std::move(piece));
   }
-  if (pieces.empty()) return false;
-  bool all_claimed = false;
-  for (const PlanarLoop& piece : pieces) {
-    if (is_rounding(piece, borders, radius_)) continue;
-    // Its own edges do not tell all: those of loops that round to a line cancel.
-    if (!all_claimed) {
-      const std::vector<Border>& claimed = claimed_borders();
-      borders.insert(borders.end(), claimed.begin(), claimed.end());
-    }
-    all_claimed = true;
-    if (!is_rounding(piece, borders, radius_)) return false;
-  }
-  return true;
+  return !pieces.empty() && std::ranges::all_of(pieces, [&](const PlanarLoop& piece) {
+    return is_rounding(piece, borders, radius_) || is_near_claims(piece, borders);
+  });
 }
 
 }  // namespace gnomon::oracle

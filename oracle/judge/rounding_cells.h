@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "oracle/geometry/box_tree.h"
 #include "oracle/geometry/chart.h"
 #include "oracle/geometry/overlay.h"
 #include "oracle/geometry/plane_frame.h"
@@ -28,11 +29,20 @@ class RoundingCells {
       : frame_(frame), chart_(chart), overlay_(overlay), claimed_(claimed), radius_(radius) {}
 
   bool contains(std::uint32_t face);
+  /// A vertex of the overlay in the frame.
+  const PlanarPoint& at_vertex(std::uint32_t vertex);
 
  private:
+  struct ClaimedBorders {
+    std::vector<Border> borders;
+    BoxTree tree;
+    long double area = 0;  // of what is near any of them, at most
+  };
+
   PlanarPoint at(const ChartPoint& point) const { return frame_.at(chart_.lift(point)); }
-  const PlanarPoint& at_vertex(std::uint32_t vertex);
-  const std::vector<Border>& claimed_borders();
+  const ClaimedBorders& claimed_borders();
+  bool is_too_large(const std::vector<Border>& boundary);
+  bool is_near_claims(const PlanarLoop& piece, std::vector<Border> borders);
 
   const PlaneFrame& frame_;
   const Chart& chart_;
@@ -40,7 +50,7 @@ class RoundingCells {
   const Edges& claimed_;
   long double radius_;
   // Made when first asked for.
-  std::vector<Border> claimed_borders_;
+  std::optional<ClaimedBorders> claimed_borders_;
   std::vector<std::optional<PlanarPoint>> places_;  // by vertex
 };
 

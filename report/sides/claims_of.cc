@@ -101,6 +101,7 @@ ClaimedLight claims_of_light(const Scene& scene, const PreparedScene& prepared,
   claimed.background = light.background;
   claimed.shares_alone =
       light.method != MethodId::kAutomatic && !method_info(light.method).makes_fragments;
+  claimed.polygons.reserve(sides.size());  // a rational is copied where a vector grows
   for (const ClassifiedSide& side : sides) {
     ClaimedPolygon& polygon = claimed.polygons.emplace_back();
     polygon.id = scene.polygons[side.polygon].id;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene_builder.h"
@@ -23,13 +24,14 @@ class Compare : public testing::Test {
         answer_(built_.scene, built_.prepared) {}
 
   PolygonComparison compare(std::vector<ClaimedFragment> fragments,
-                            std::optional<LightState> background = {}) const {
+                            std::optional<LightState> background = {},
+                            const ComparisonOptions& options = {}) const {
     ClaimedPolygon polygon;
     polygon.id = "floor";
     polygon.fragments = std::move(fragments);
     ClaimedTerms terms;
     terms.background = background;
-    return compare_entry(answer_, 0, answer_.entries(0)[0], &polygon, terms, {});
+    return compare_entry(answer_, 0, answer_.entries(0)[0], &polygon, terms, options);
   }
 
   BuiltScene built_;
@@ -186,6 +188,41 @@ TEST_F(Compare, AWitnessIsInsideItsRegion) {
       // Area of the disc is at most that of the region.
       EXPECT_LE(M_PI / 4 * region.witness.width.lower * region.witness.width.lower,
                 region.area.area.upper);
+    }
+  }
+}
+
+/// With few regions kept, those that are seen to be narrower are not measured.
+TEST_F(Compare, WidthsDoNotDependOnHowManyRegionsAreKept) {
+  for (int i = 0; i < 60; ++i) {
+    SCOPED_TRACE(i);
+    Random random(static_cast<std::uint64_t>(i) + 100);
+    std::vector<ClaimedFragment> fragments;
+    for (int k = 0; k < 8; ++k) {
+      ClaimedFragment fragment;
+      fragment.state = random.integer(0, 1) == 0 ? kIsLit : kIsShadow;
+      for (int v = 0; v < 3; ++v) {
+        fragment.loop.push_back(at(random.integer(0, 40) / 10.0, random.integer(0, 40) / 10.0, 0));
+      }
+      fragments.push_back(fragment);
+    }
+    ComparisonOptions options;
+    options.most_regions = 1000;
+    const PolygonComparison all = compare(fragments, {}, options);
+    for (const std::size_t most : {0u, 1u, 3u}) {
+      options.most_regions = most;
+      const PolygonComparison few = compare(fragments, {}, options);
+      EXPECT_EQ(few.regions, all.regions);
+      EXPECT_EQ(few.misclassified.area.upper, all.misclassified.area.upper);
+      EXPECT_LE(few.width.lower, all.width.upper);
+      EXPECT_LE(all.width.lower, few.width.upper);
+      EXPECT_LE(few.width.upper, 1.06 * all.width.upper);
+      EXPECT_EQ(few.judged_width.upper, few.width.upper);
+      ASSERT_EQ(few.worst.size(), std::min<std::size_t>(most, all.worst.size()));
+      for (std::size_t r = 0; r < few.worst.size(); ++r) {
+        EXPECT_LE(few.worst[r].witness.width.lower, all.worst[r].witness.width.upper);
+        EXPECT_GE(few.worst[r].witness.width.upper, all.worst[r].witness.width.lower);
+      }
     }
   }
 }

@@ -57,7 +57,7 @@ struct CertifyOptions {
   std::uint64_t most_point_pairs = 50'000'000;
   std::uint64_t seed = 1;                // of the random points
   std::size_t exact_limit = 200;         // boundary edges up to which areas are also exact
-  std::size_t most_regions = 16;         // kept a polygon side
+  std::size_t most_regions = 1;          // kept a polygon side
   bool measure_rounding = true;          // false: regions of rounding alone have no width or place
   unsigned threads = 0;                  // 0: as many as there are
   std::function<void(double)> progress;  // 0..1; called from one thread at a time
