@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "oracle/geometry/group_overlay.h"
+
 namespace gnomon::oracle {
 
 using space::area_along;
@@ -27,6 +29,12 @@ LightVolumes::LightVolumes(const PreparedScene& scene, const PreparedLight& ligh
   }
   index_.emplace(scene, light, casters);
   shadow_planes_.resize(count);
+  scene_planes_.resize(count);
+  scene_loops_.resize(count);
+  const Integers3& source = light.point.grid;
+  source_ = light.point.directional
+                ? Integers4(std::array<mpz_class, 4>{source[0], source[1], source[2], 0})
+                : scene_point(in_scene(scene.geometry, HomogeneousPoint{source, 1}));
   shadows_.resize(count);
 }
 
@@ -80,6 +88,27 @@ const std::vector<ExactPlane>& LightVolumes::shadow_planes(std::uint32_t part) c
   std::vector<ExactPlane>& planes = shadow_planes_[part];
   if (planes.empty()) planes = shadow_planes_of(scene_, own_, part, standings_[part].facing);
   return planes;
+}
+
+const std::vector<Integers4>& LightVolumes::scene_planes(std::uint32_t part) const {
+  std::vector<Integers4>& planes = scene_planes_[part];
+  if (planes.empty()) {
+    for (const ExactPlane& plane : shadow_planes(part)) {
+      planes.push_back(scene_plane(scene_.geometry, plane));
+    }
+  }
+  return planes;
+}
+
+const std::vector<Integers4>& LightVolumes::scene_loop(std::uint32_t part) const {
+  std::vector<Integers4>& loop = scene_loops_[part];
+  if (loop.empty()) {
+    for (Integers3& vertex : grid_loop(scene_, part)) {
+      loop.push_back(
+          scene_point(in_scene(scene_.geometry, HomogeneousPoint{std::move(vertex), 1})));
+    }
+  }
+  return loop;
 }
 
 const std::vector<ExactPlane>& LightVolumes::planes_of(const AreaSolids::Volume& volume) {

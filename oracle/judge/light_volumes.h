@@ -17,6 +17,7 @@
 #include "gnomon/kernel/sign.h"
 #include "gnomon/result/classes.h"
 #include "oracle/geometry/chart.h"
+#include "oracle/geometry/scene_point.h"
 #include "oracle/judge/witness_pieces.h"
 #include "oracle/visibility/area_solids.h"
 #include "oracle/visibility/light_index.h"
@@ -70,6 +71,12 @@ class LightVolumes {
   /// asked for.
   const std::vector<ExactPlane>& shadow_planes(std::uint32_t part) const;
   const std::vector<ExactPlane>& planes_of(const AreaSolids::Volume& volume);
+  /// shadow_planes() for points in scene units.
+  const std::vector<Integers4>& scene_planes(std::uint32_t part) const;
+  /// The part's own vertices, and where the light is: at infinity if it is directional. Requires: a
+  /// point or directional light.
+  const std::vector<Integers4>& scene_loop(std::uint32_t part) const;
+  const Integers4& scene_source() const { return *source_; }
   /// shadow_planes() in scene units, and rational.
   const std::vector<space::HalfSpace>& shadow(std::uint32_t part) const;
 
@@ -86,6 +93,9 @@ class LightVolumes {
   std::optional<AreaSolids> area_;
   std::optional<LightIndex> index_;                             // without an area
   mutable std::vector<std::vector<ExactPlane>> shadow_planes_;  // by part
+  mutable std::vector<std::vector<Integers4>> scene_planes_;    // by part
+  mutable std::vector<std::vector<Integers4>> scene_loops_;     // by part
+  std::optional<Integers4> source_;                             // without an area
   mutable std::vector<std::vector<space::HalfSpace>> shadows_;  // by part
   std::unordered_map<const AreaSolids::Volume*, std::vector<ExactPlane>> volume_planes_;
 };

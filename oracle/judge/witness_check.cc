@@ -112,16 +112,16 @@ bool WitnessChecker::tiles(const Family& family) {
          tiled_.emplace(part, family.polygon.side).second;
 }
 
-bool WitnessChecker::is_facing(const Family& family) const {
-  const LightStanding& own = light_->standing(family.parts.front());
-  return own.receives && (own.facing > 0) == (family.polygon.side == Side::kFront);
+bool WitnessChecker::is_facing(std::uint32_t part, Side side) const {
+  const LightStanding& own = light_->standing(part);
+  return own.receives && (own.facing > 0) == (side == Side::kFront);
 }
 
-bool WitnessChecker::shadow_reason_holds(const Family& family,
+bool WitnessChecker::shadow_reason_holds(std::uint32_t part, Side side,
                                          const ClaimedFragment& fragment) const {
-  const int facing = light_->standing(family.parts.front()).facing;
+  const int facing = light_->standing(part).facing;
   const auto reason = shadow_reason_by_name(fragment.reason);
-  return (reason == ShadowReason::kFacesAway && !is_facing(family) && facing != 0) ||
+  return (reason == ShadowReason::kFacesAway && !is_facing(part, side) && facing != 0) ||
          (reason == ShadowReason::kLightInPlane && facing == 0);
 }
 
@@ -148,7 +148,7 @@ std::optional<std::uint32_t> WitnessChecker::caster_to_check(const Family& famil
   ++report_.witnesses;
   const std::string& id = family.polygon.id;
   if (!fragment.reason.empty()) {
-    if (!shadow_reason_holds(family, fragment)) {
+    if (!shadow_reason_holds(family.parts.front(), family.polygon.side, fragment)) {
       violation(id, fmt::format("the reason '{}' does not hold", fragment.reason), index);
     }
     return std::nullopt;
@@ -248,6 +248,7 @@ void WitnessChecker::check_polygon(const ClaimedPolygon& polygon) {
       exact_ || (!polygon.fragments.empty() &&
                  std::ranges::all_of(polygon.fragments,
                                      [](const ClaimedFragment& own) { return own.exact; }));
+  if (exact && is_proved(polygon, families)) return;
   exact ? check_exact_side(polygon, families, optional)
         : check_rounded_side(polygon, families, optional);
 }

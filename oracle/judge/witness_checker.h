@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The checker behind witness_check.h. What it needs of a polygon side is found in witness_check.cc;
-// a side whose loops are all exact is then checked in rational numbers (witness_exact.cc), one with
-// rounded loops in the frame of its plane, within the tolerance (witness_rounded.cc).
+// a side whose loops are all exact is then proved in integers (witness_proved.cc), or checked in
+// rational numbers (witness_exact.cc), one with // rounded loops in the frame of its plane, within
+// the tolerance (witness_rounded.cc).
 #ifndef GNOMON_ORACLE_JUDGE_WITNESS_CHECKER_H
 #define GNOMON_ORACLE_JUDGE_WITNESS_CHECKER_H
 
@@ -21,6 +22,7 @@
 #include "oracle/geometry/rounding.h"
 #include "oracle/judge/family_shades.h"
 #include "oracle/judge/light_volumes.h"
+#include "oracle/judge/side_proof.h"
 #include "oracle/judge/witness_pieces.h"
 
 namespace gnomon::oracle {
@@ -95,7 +97,7 @@ class WitnessChecker {
   bool is_told(LightState state) const;
   /// Whether this family's tiling is judged by these fragments, and not by others.
   bool tiles(const Family& family);
-  bool shadow_reason_holds(const Family& family, const ClaimedFragment& fragment) const;
+  bool shadow_reason_holds(std::uint32_t part, Side side, const ClaimedFragment& fragment) const;
   /// `behind`: all of the fragment is behind the light.
   bool area_reason_holds(const Family& family, const ClaimedFragment& fragment, bool behind);
   /// The caster that a fragment names; none, with the violation told, if the scene has none such.
@@ -105,7 +107,10 @@ class WitnessChecker {
   /// not.
   std::optional<std::uint32_t> caster_to_check(const Family& family,
                                                const ClaimedFragment& fragment, std::size_t index);
-  bool is_facing(const Family& family) const;
+  bool is_facing(std::uint32_t part, Side side) const;
+  bool is_facing(const Family& family) const {
+    return is_facing(family.parts.front(), family.polygon.side);
+  }
   bool has_all_parts(const Family& family) const;
   bool stopped();
   const std::string& id_of(std::uint32_t part) const {
@@ -113,6 +118,10 @@ class WitnessChecker {
   }
 
   // All loops exact: nothing may be off by anything.
+  /// By signs of integers: what usually holds is proved there, and only what is not is looked at in
+  /// rational numbers.
+  bool is_proved(const ClaimedPolygon& polygon, const Families& families);
+  bool is_proved(const ClaimedFragment& fragment, std::size_t index, bool faces, SideProof& proof);
   void check_exact_side(const ClaimedPolygon& polygon, const Families& families,
                         const std::set<PlaneId>& optional);
   Nearest nearest_family(const ClaimedFragment& fragment, const Families& families) const;
