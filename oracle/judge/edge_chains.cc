@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <tuple>
 
 namespace gnomon::oracle {
@@ -13,46 +12,43 @@ namespace {
 /// The vertices that lie inside of an edge, in order from its start.
 class VerticesOnEdges {
  public:
-  VerticesOnEdges(std::vector<std::uint32_t> vertices, const EdgeChains::Place& place,
-                  const EdgeChains::Turn& turn, long double error)
-      : place_(place), turn_(turn), error_(error), vertices_(std::move(vertices)) {
-    std::ranges::sort(vertices_, {}, [&](std::uint32_t v) { return place_(v).x; });
+  VerticesOnEdges(std::vector<std::uint32_t> vertices, const VertexFrame& frame)
+      : frame_(frame), vertices_(std::move(vertices)) {
+    std::ranges::sort(vertices_, {}, [&](std::uint32_t v) { return frame_.place(v).x; });
   }
 
-  /// None: the frame cannot tell whether, or in which order.
-  std::optional<std::vector<std::uint32_t>> on(std::uint32_t from, std::uint32_t to) const {
-    const PlanarPoint a = place_(from), b = place_(to);
+  std::vector<std::uint32_t> on(std::uint32_t from, std::uint32_t to) const {
+    const PlanarPoint a = frame_.place(from), b = frame_.place(to);
     const long double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
-    // Along the edge, a point and its ends are off by 2 error each, and the direction by as much.
-    const long double doubt = 16 * error_;
-    if (!(length > 4 * doubt)) return std::nullopt;
-    std::vector<std::pair<long double, std::uint32_t>> found;
+    // A point and the ends of the edge are off by one error each in either coordinate: across and
+    // along the edge by less than 6 errors together, where its direction means something at all.
+    const long double doubt = 16 * frame_.error;
+    const bool has_direction = length > 16 * doubt;
+    std::vector<std::uint32_t> found;
     const long double low = std::min(a.x, b.x) - doubt, high = std::max(a.x, b.x) + doubt;
-    auto next =
-        std::ranges::lower_bound(vertices_, low, {}, [&](std::uint32_t v) { return place_(v).x; });
-    for (; next != vertices_.end() && place_(*next).x <= high; ++next) {
-      if (*next == from || *next == to) continue;
-      const long double ux = place_(*next).x - a.x, uy = place_(*next).y - a.y;
-      const long double along = (ux * dx + uy * dy) / length;
-      const long double off = (uy * dx - ux * dy) / length;
-      if (std::fabs(off) > doubt || along < -doubt || along > length + doubt) continue;
-      if (turn_(from, to, *next) != 0) continue;
-      if (!(along > doubt && along < length - doubt)) return std::nullopt;
-      found.emplace_back(along, *next);
+    auto next = std::ranges::lower_bound(vertices_, low, {},
+                                         [&](std::uint32_t v) { return frame_.place(v).x; });
+    for (; next != vertices_.end() && !(frame_.place(*next).x > high); ++next) {
+      const long double ux = frame_.place(*next).x - a.x, uy = frame_.place(*next).y - a.y;
+      if (has_direction && std::fabs(uy * dx - ux * dy) > doubt * length) continue;
+      if (is_inside(from, to, *next)) found.push_back(*next);
     }
-    std::ranges::sort(found);
-    std::vector<std::uint32_t> result;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      if (i > 0 && !(found[i].first - found[i - 1].first > doubt)) return std::nullopt;
-      result.push_back(found[i].second);
-    }
-    return result;
+    const bool forward = frame_.before(from, to);
+    std::ranges::sort(found, [&](std::uint32_t v, std::uint32_t w) {
+      return forward ? frame_.before(v, w) : frame_.before(w, v);
+    });
+    return found;
   }
 
  private:
-  const EdgeChains::Place& place_;
-  const EdgeChains::Turn& turn_;
-  long double error_;
+  /// Exact: on the line, and between its ends in the order of all points of the line.
+  bool is_inside(std::uint32_t from, std::uint32_t to, std::uint32_t vertex) const {
+    if (vertex == from || vertex == to) return false;
+    const bool after = frame_.before(from, vertex);
+    return after == frame_.before(vertex, to) && frame_.turn(from, to, vertex) == 0;
+  }
+
+  const VertexFrame& frame_;
   std::vector<std::uint32_t> vertices_;  // from left to right
 };
 
@@ -87,7 +83,7 @@ bool EdgeChains::cancel() {
   return edges_.empty();
 }
 
-bool EdgeChains::cancel_led_through(const Place& place, const Turn& turn, long double error) {
+bool EdgeChains::cancel_led_through(const VertexFrame& frame) {
   std::vector<std::uint32_t> vertices;
   for (const Edge& own : edges_) {
     vertices.push_back(own.from);
@@ -95,13 +91,11 @@ bool EdgeChains::cancel_led_through(const Place& place, const Turn& turn, long d
   }
   std::ranges::sort(vertices);
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  const VerticesOnEdges on_edges(std::move(vertices), place, turn, error);
+  const VerticesOnEdges on_edges(std::move(vertices), frame);
   const std::vector<Edge> whole = std::exchange(edges_, {});
   for (const Edge& own : whole) {
-    const auto through = on_edges.on(own.from, own.to);
-    if (!through) return false;
     std::uint32_t from = own.from;
-    for (const std::uint32_t vertex : *through) {
+    for (const std::uint32_t vertex : on_edges.on(own.from, own.to)) {
       push(from, vertex, own.count);
       from = vertex;
     }

@@ -18,6 +18,16 @@
 
 namespace gnomon::oracle {
 
+/// Where vertices are in a frame of their plane, and exact predicates on them.
+struct VertexFrame {
+  std::function<const PlanarPoint&(std::uint32_t)> place;
+  long double error = 0;  // of a coordinate of a place
+  /// Which way three vertices turn: 0 if they are on one line.
+  std::function<int(std::uint32_t, std::uint32_t, std::uint32_t)> turn;
+  /// Of two points of one line, whether the first comes first in some order along it.
+  std::function<bool(std::uint32_t, std::uint32_t)> before;
+};
+
 class EdgeChains {
  public:
   /// The loop's edges count once, or if `sign` is -1 against those that do.
@@ -25,12 +35,8 @@ class EdgeChains {
 
   /// All edges cancel as they are, without a look at where vertices are.
   bool cancel();
-  /// The same where vertices may lie on edges. False also where the frame cannot tell the order of
-  /// vertices on an edge. Requires: cancel() was called. `place`: of a vertex, off by `error` at
-  /// most in each coordinate. `turn`: which way three vertices turn, exactly.
-  using Place = std::function<const PlanarPoint&(std::uint32_t)>;
-  using Turn = std::function<int(std::uint32_t, std::uint32_t, std::uint32_t)>;
-  bool cancel_led_through(const Place& place, const Turn& turn, long double error);
+  /// The same where vertices may lie on edges. Requires: cancel() was called.
+  bool cancel_led_through(const VertexFrame& frame);
 
  private:
   struct Edge {

@@ -100,26 +100,34 @@ bool SideProof::lies_in_plane(const Numbers& loop) {
   return true;
 }
 
+namespace {
+
+/// How often edges change from going up to going down or back, around a loop.
+int changes_of(const std::vector<bool>& up) {
+  int changes = 0;
+  for (std::size_t i = 0; i < up.size(); ++i) changes += up[i] != up[i > 0 ? i - 1 : up.size() - 1];
+  return changes;
+}
+
+}  // namespace
+
 bool SideProof::goes_around_once(const Numbers& loop) {
   // How far a vertex is along a direction that few edges are at right angles to.
   constexpr long double kX = 0.92387953L, kY = 0.38268343L;
-  int changes = 0;
-  bool first_up = false, up = false;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const PlanarPoint &a = flat(loop[i]), &b = flat(loop[(i + 1) % loop.size()]);
+  std::vector<bool> up(loop.size());
+  bool is_known = true;
+  for (std::size_t i = 0; i < loop.size() && is_known; ++i) {
+    const PlanarPoint &a = flat(loop[i]), &b = flat(loop[i + 1 < loop.size() ? i + 1 : 0]);
     const long double rise = kX * (b.x - a.x) + kY * (b.y - a.y);
     // Differences are off by two errors each, times kX + kY < 1.4; and less for what is rounded.
-    if (!(std::fabs(rise) > 4 * error())) return false;
-    const bool next_up = rise > 0;
-    if (i == 0) {
-      first_up = next_up;
-    } else if (next_up != up) {
-      ++changes;
-    }
-    up = next_up;
+    is_known = std::fabs(rise) > 4 * error();
+    up[i] = rise > 0;
   }
-  changes += up != first_up ? 1 : 0;
-  return changes == 2;
+  // Else by their order in space, which is that along a direction too.
+  for (std::size_t i = 0; i < loop.size() && !is_known; ++i) {
+    up[i] = numbers_[loop[i]] < numbers_[loop[i + 1 < loop.size() ? i + 1 : 0]];
+  }
+  return changes_of(up) == 2;
 }
 
 bool SideProof::is_convex(Numbers& loop) {
@@ -163,11 +171,15 @@ bool SideProof::tiles() {
   EdgeChains chains;
   for (const Numbers& loop : loops_) chains.add(loop, 1);
   for (const Numbers& part : part_loops_) chains.add(part, -1);
-  return chains.cancel() ||
-         chains.cancel_led_through(
-             [&](std::uint32_t v) -> const PlanarPoint& { return flat(v); },
-             [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { return exact_turn(a, b, c); },
-             error());
+  if (chains.cancel()) return true;
+  VertexFrame frame;
+  frame.place = [&](std::uint32_t v) -> const PlanarPoint& { return flat(v); };
+  frame.error = error();
+  frame.turn = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    return exact_turn(a, b, c);
+  };
+  frame.before = [&](std::uint32_t a, std::uint32_t b) { return numbers_[a] < numbers_[b]; };
+  return chains.cancel_led_through(frame);
 }
 
 bool SideProof::is_on_side(std::size_t fragment, const Shade& shade, std::size_t line, int side) {
