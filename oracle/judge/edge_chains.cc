@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 namespace gnomon::oracle {
@@ -12,9 +13,12 @@ namespace {
 /// The vertices that lie inside of an edge, in order from its start.
 class VerticesOnEdges {
  public:
-  VerticesOnEdges(std::vector<std::uint32_t> vertices, const VertexFrame& frame)
-      : frame_(frame), vertices_(std::move(vertices)) {
-    std::ranges::sort(vertices_, {}, [&](std::uint32_t v) { return frame_.place(v).x; });
+  VerticesOnEdges(const std::vector<std::uint32_t>& vertices, const VertexFrame& frame)
+      : frame_(frame) {
+    for (const std::uint32_t v : vertices) by_x_.push_back({frame.place(v), v});
+    by_y_ = by_x_;
+    std::ranges::sort(by_x_, {}, &across);
+    std::ranges::sort(by_y_, {}, &up);
   }
 
   std::vector<std::uint32_t> on(std::uint32_t from, std::uint32_t to) const {
@@ -25,13 +29,10 @@ class VerticesOnEdges {
     const long double doubt = 16 * frame_.error;
     const bool has_direction = length > 16 * doubt;
     std::vector<std::uint32_t> found;
-    const long double low = std::min(a.x, b.x) - doubt, high = std::max(a.x, b.x) + doubt;
-    auto next = std::ranges::lower_bound(vertices_, low, {},
-                                         [&](std::uint32_t v) { return frame_.place(v).x; });
-    for (; next != vertices_.end() && !(frame_.place(*next).x > high); ++next) {
-      const long double ux = frame_.place(*next).x - a.x, uy = frame_.place(*next).y - a.y;
+    for (const Placed& own : fewest_near(a, b, doubt)) {
+      const long double ux = own.place.x - a.x, uy = own.place.y - a.y;
       if (has_direction && std::fabs(uy * dx - ux * dy) > doubt * length) continue;
-      if (is_inside(from, to, *next)) found.push_back(*next);
+      if (is_inside(from, to, own.vertex)) found.push_back(own.vertex);
     }
     const bool forward = frame_.before(from, to);
     std::ranges::sort(found, [&](std::uint32_t v, std::uint32_t w) {
@@ -41,6 +42,26 @@ class VerticesOnEdges {
   }
 
  private:
+  struct Placed {
+    PlanarPoint place;
+    std::uint32_t vertex = 0;
+  };
+  static long double across(const Placed& own) { return own.place.x; }
+  static long double up(const Placed& own) { return own.place.y; }
+
+  /// Those between two ends along x, or along y if there are fewer.
+  std::span<const Placed> fewest_near(const PlanarPoint& a, const PlanarPoint& b,
+                                      long double doubt) const {
+    const auto between = [&](const std::vector<Placed>& placed, auto key, long double p,
+                             long double q) {
+      const auto first = std::ranges::lower_bound(placed, std::min(p, q) - doubt, {}, key);
+      const auto last = std::ranges::upper_bound(placed, std::max(p, q) + doubt, {}, key);
+      return std::span<const Placed>(first, std::max(first, last));
+    };
+    const std::span<const Placed> in_x = between(by_x_, &across, a.x, b.x);
+    const std::span<const Placed> in_y = between(by_y_, &up, a.y, b.y);
+    return in_x.size() < in_y.size() ? in_x : in_y;
+  }
   /// Exact: on the line, and between its ends in the order of all points of the line.
   bool is_inside(std::uint32_t from, std::uint32_t to, std::uint32_t vertex) const {
     if (vertex == from || vertex == to) return false;
@@ -49,7 +70,7 @@ class VerticesOnEdges {
   }
 
   const VertexFrame& frame_;
-  std::vector<std::uint32_t> vertices_;  // from left to right
+  std::vector<Placed> by_x_, by_y_;
 };
 
 }  // namespace
@@ -91,7 +112,7 @@ bool EdgeChains::cancel_led_through(const VertexFrame& frame) {
   }
   std::ranges::sort(vertices);
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  const VerticesOnEdges on_edges(std::move(vertices), frame);
+  const VerticesOnEdges on_edges(vertices, frame);
   const std::vector<Edge> whole = std::exchange(edges_, {});
   for (const Edge& own : whole) {
     std::uint32_t from = own.from;
