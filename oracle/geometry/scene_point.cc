@@ -69,12 +69,10 @@ Integers4::Integers4(const std::array<std::int64_t, 4>& values) : small_(values)
   }
 }
 
-const mpz_class& Integers4::large(int k) const {
-  if (!is_large_made_) {
-    for (int i = 0; i < 4; ++i) large_[i] = static_cast<long>(small_[i]);
-    is_large_made_ = true;
-  }
-  return large_[k];
+void Integers4::make_large() const {
+  if (is_large_made_) return;
+  for (int k = 0; k < 4; ++k) large_[k] = static_cast<long>(small_[k]);
+  is_large_made_ = true;
 }
 
 Integers4 scene_point(const RationalPoint& point) {

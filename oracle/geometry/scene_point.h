@@ -36,7 +36,12 @@ class Integers4 {
   bool is_tiny() const { return bits_ <= kTinyBits; }
   /// Requires: is_small().
   std::int64_t small(int k) const { return small_[k]; }
-  const mpz_class& large(int k) const;
+  const mpz_class& large(int k) const {
+    make_large();
+    return large_[k];
+  }
+  /// What several threads look at must have been made large before.
+  void make_large() const;
 
  private:
   int bits_ = 0;  // of the largest

@@ -7,6 +7,7 @@
 #define GNOMON_ORACLE_JUDGE_WITNESS_CHECKER_H
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -79,6 +80,9 @@ class WitnessChecker {
                  std::optional<std::uint64_t> fragment = {});
   void check_claims(const Claims& claims, Block block);
   void check_light(const ClaimedLight& light);
+  /// Adds their sides, each once.
+  void check_polygons(const std::vector<const ClaimedPolygon*>& polygons,
+                      std::set<std::pair<std::string, Side>>& sides);
   void check_missing(const std::set<std::string>& polygons,
                      const std::set<std::pair<std::string, Side>>& sides);
   void check_polygon(const ClaimedPolygon& polygon);
@@ -112,16 +116,21 @@ class WitnessChecker {
     return is_facing(family.parts.front(), family.polygon.side);
   }
   bool has_all_parts(const Family& family) const;
+  bool is_interrupted() const;
   bool stopped();
+  void tell_progress();
   const std::string& id_of(std::uint32_t part) const {
     return scene_.polygons[prepared_.parts[part].polygon].id;
   }
 
   // All loops exact: nothing may be off by anything.
+  bool is_exact(const ClaimedPolygon& polygon) const;
   /// By signs of integers: what usually holds is proved there, and only what is not is looked at in
-  /// rational numbers.
-  bool is_proved(const ClaimedPolygon& polygon, const Families& families);
-  bool is_proved(const ClaimedFragment& fragment, std::size_t index, bool faces, SideProof& proof);
+  /// rational numbers. May be called from several threads. Requires: is_exact().
+  bool is_proved(const ClaimedPolygon& polygon);
+  bool is_proved(const ClaimedFragment& fragment, std::size_t index, bool faces,
+                 SideProof& proof) const;
+  void count_proved(const ClaimedPolygon& polygon);
   void check_exact_side(const ClaimedPolygon& polygon, const Families& families,
                         const std::set<PlaneId>& optional);
   Nearest nearest_family(const ClaimedFragment& fragment, const Families& families) const;
@@ -194,8 +203,9 @@ class WitnessChecker {
   ClaimedTerms terms_;  // of the light
   // First part and side of the families whose tiling by shared fragments is judged: once each.
   std::set<std::pair<std::uint32_t, Side>> tiled_;
-  std::vector<Excess> excesses_;                  // of the side
-  std::size_t polygons_ = 0, polygons_done_ = 0;  // for the progress
+  std::vector<Excess> excesses_;  // of the side
+  std::size_t polygons_ = 0;      // for the progress
+  std::atomic<std::size_t> polygons_done_ = 0;
   WitnessReport report_;
 };
 

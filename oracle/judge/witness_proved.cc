@@ -22,7 +22,7 @@ bool can_be_proved(const ClaimedPolygon& polygon) {
 }  // namespace
 
 bool WitnessChecker::is_proved(const ClaimedFragment& fragment, std::size_t index, bool faces,
-                               SideProof& proof) {
+                               SideProof& proof) const {
   if (fragment.state == LightState::kLit) return faces && proof.is_lit(index);
   if (!fragment.reason.empty()) return true;  // holds, or is_proved() did not come here
   if (fragment.caster.empty()) return !faces;
@@ -30,32 +30,39 @@ bool WitnessChecker::is_proved(const ClaimedFragment& fragment, std::size_t inde
   return faces && caster != polygon_index_.end() && proof.is_shadowed_by(index, caster->second);
 }
 
-bool WitnessChecker::is_proved(const ClaimedPolygon& polygon, const Families& families) {
-  if (light_->is_area() || terms_.block != Block::kLights || terms_.cover != Cover::kPartition ||
-      left_out() || families.size() != 1 || !can_be_proved(polygon)) {
+bool WitnessChecker::is_proved(const ClaimedPolygon& polygon) {
+  const auto known = polygon_index_.find(polygon.id);
+  if (known == polygon_index_.end() || light_->is_area() || terms_.shares_alone ||
+      terms_.block != Block::kLights || terms_.cover != Cover::kPartition || left_out() ||
+      !can_be_proved(polygon)) {
     return false;
   }
+  std::set<PlaneId> optional;
+  const Families families = families_on(known->second, polygon.side, optional);
+  if (families.size() != 1) return false;
   const std::vector<std::uint32_t>& parts = families.begin()->second;
-  const bool faces = is_facing(parts.front(), polygon.side);
-  std::size_t exact = 0, witnesses = 0;
   for (const ClaimedFragment& fragment : polygon.fragments) {
-    exact += fragment.exact ? 1 : 0;
-    if (fragment.state == LightState::kLit) continue;
-    ++witnesses;
-    if (!fragment.reason.empty() && !shadow_reason_holds(parts.front(), polygon.side, fragment)) {
+    if (fragment.state == LightState::kShadow && !fragment.reason.empty() &&
+        !shadow_reason_holds(parts.front(), polygon.side, fragment)) {
       return false;
     }
   }
+  const bool faces = is_facing(parts.front(), polygon.side);
   SideProof proof(prepared_, *light_, polygon, parts);
   if (!proof.tiles()) return false;
   for (std::size_t i = 0; i < polygon.fragments.size(); ++i) {
     if (!is_proved(polygon.fragments[i], i, faces, proof)) return false;
   }
-  if (!proof.has_claimed_shares()) return false;
+  return proof.has_claimed_shares();
+}
+
+void WitnessChecker::count_proved(const ClaimedPolygon& polygon) {
+  ++report_.polygons;
   report_.fragments += polygon.fragments.size();
-  report_.exact_fragments += exact;
-  report_.witnesses += witnesses;
-  return true;
+  for (const ClaimedFragment& fragment : polygon.fragments) {
+    report_.exact_fragments += fragment.exact ? 1 : 0;
+    report_.witnesses += fragment.state == LightState::kLit ? 0 : 1;
+  }
 }
 
 }  // namespace gnomon::oracle
