@@ -360,7 +360,7 @@ void WitnessChecker::check_polygons(const std::vector<const ClaimedPolygon*>& po
                                     std::set<std::pair<std::string, Side>>& sides) {
   std::vector<char> proved(polygons.size());
   tbb::parallel_for(std::size_t{0}, polygons.size(), [&](std::size_t i) {
-    if (is_interrupted() || !is_exact(*polygons[i])) return;
+    if (is_interrupted() || !options_.by_integers || !is_exact(*polygons[i])) return;
     proved[i] = is_proved(*polygons[i]) ? 1 : 0;
     if (proved[i] != 0) tell_progress();
   });
