@@ -11,13 +11,15 @@
 
 namespace gnomon::oracle {
 
-SideProof::SideProof(const PreparedScene& scene, LightVolumes& light, const ClaimedPolygon& polygon,
+SideProof::SideProof(const PreparedScene& scene, LightVolumes& light, Side side,
+                     std::vector<const ClaimedFragment*> fragments,
                      std::span<const std::uint32_t> parts)
     : scene_(scene),
       light_(light),
-      polygon_(polygon),
+      side_(side),
+      fragments_(std::move(fragments)),
       parts_(parts.begin(), parts.end()),
-      flat_loops_(polygon.fragments.size()) {
+      flat_loops_(fragments_.size()) {
   const auto numbers_of = [&](const RationalLoop& loop) {
     Numbers numbers;
     for (const RationalPoint& point : loop) numbers.push_back(numbers_.number_of(point));
@@ -32,14 +34,12 @@ SideProof::SideProof(const PreparedScene& scene, LightVolumes& light, const Clai
     part_loops_.push_back(numbers_of(points));
   }
   part_vertices_ = numbers_.size();
-  for (const ClaimedFragment& fragment : polygon.fragments) {
-    loops_.push_back(numbers_of(fragment.loop));
-  }
+  for (const ClaimedFragment* fragment : fragments_) loops_.push_back(numbers_of(fragment->loop));
   vertices_.resize(numbers_.size());
 }
 
 FamilyShades& SideProof::shades() {
-  if (!shades_) shades_.emplace(scene_, light_, parts_, polygon_.side);
+  if (!shades_) shades_.emplace(scene_, light_, parts_, side_);
   return *shades_;
 }
 
@@ -242,7 +242,7 @@ bool SideProof::has_edge_between(std::size_t fragment, const Shade& shade) {
 
 Piece SideProof::piece_of(std::size_t fragment) const {
   const std::uint32_t part = parts_.front();
-  return {&polygon_.fragments[fragment], fragment, part, polygon_.fragments[fragment].loop,
+  return {fragments_[fragment], fragment, part, fragments_[fragment]->loop,
           light_.solid(part).normal};
 }
 
@@ -284,16 +284,15 @@ mpq_class SideProof::doubled_area(const std::vector<const Numbers*>& loops) {
   return sum_of(areas);
 }
 
-bool SideProof::has_claimed_shares() {
+bool SideProof::has_shares_of(const ClaimedPolygon& polygon) {
   std::vector<const Numbers*> lit, shadow, whole;
   for (std::size_t f = 0; f < loops_.size(); ++f) {
-    (polygon_.fragments[f].state == LightState::kLit ? lit : shadow).push_back(&loops_[f]);
+    (fragments_[f]->state == LightState::kLit ? lit : shadow).push_back(&loops_[f]);
   }
   // They tile the polygon: one class has what the other has not.
   const bool by_lit = lit.size() < shadow.size();
-  const std::optional<mpq_class>& claimed =
-      by_lit ? polygon_.lit_fraction : polygon_.shadow_fraction;
-  const std::optional<mpq_class>& other = by_lit ? polygon_.shadow_fraction : polygon_.lit_fraction;
+  const std::optional<mpq_class>& claimed = by_lit ? polygon.lit_fraction : polygon.shadow_fraction;
+  const std::optional<mpq_class>& other = by_lit ? polygon.shadow_fraction : polygon.lit_fraction;
   if (!claimed && !other) return true;
   const std::vector<const Numbers*>& fewer = by_lit ? lit : shadow;
   mpq_class share = claimed ? *claimed : mpq_class(1 - *other);

@@ -25,20 +25,23 @@ namespace gnomon::oracle {
 
 class SideProof {
  public:
-  /// `parts`: coplanar, all that the polygon has. Keeps references. Requires: a point or
-  /// directional light, fragments of at least three vertices and without holes.
-  SideProof(const PreparedScene& scene, LightVolumes& light, const ClaimedPolygon& polygon,
-            std::span<const std::uint32_t> parts);
+  /// `parts`: all that the polygon has in one plane. `fragments`: all that are claimed there. Keeps
+  /// references. Requires: a point or directional light, fragments of at least three vertices and
+  /// without holes.
+  SideProof(const PreparedScene& scene, LightVolumes& light, Side side,
+            std::vector<const ClaimedFragment*> fragments, std::span<const std::uint32_t> parts);
 
-  /// The fragments are convex, lie in the polygon's plane, and tile the polygon. What follows
-  /// requires that.
+  const std::vector<const ClaimedFragment*>& fragments() const { return fragments_; }
+
+  /// The fragments are convex, lie in the parts' plane, and tile the parts. What follows requires
+  /// that.
   bool tiles();
   /// No part shadows any of the fragment. Requires: the side faces the light.
   bool is_lit(std::size_t fragment);
   /// The parts of the caster shadow all of the fragment. Requires: as above.
   bool is_shadowed_by(std::size_t fragment, std::uint32_t caster);
-  /// The claimed exact shares of lit and shadow are those of the fragments.
-  bool has_claimed_shares();
+  /// The exact shares of lit and shadow that are claimed of the parts are those of the fragments.
+  bool has_shares_of(const ClaimedPolygon& polygon);
 
  private:
   struct Vertex {
@@ -74,7 +77,8 @@ class SideProof {
 
   const PreparedScene& scene_;
   LightVolumes& light_;
-  const ClaimedPolygon& polygon_;
+  Side side_;
+  std::vector<const ClaimedFragment*> fragments_;
   std::vector<std::uint32_t> parts_;
   std::vector<RationalLoop> part_points_;
   PointNumbers numbers_;

@@ -128,8 +128,13 @@ class WitnessChecker {
   /// By signs of integers: what usually holds is proved there, and only what is not is looked at in
   /// rational numbers. May be called from several threads. Requires: is_exact().
   bool is_proved(const ClaimedPolygon& polygon);
+  /// Of the fragments in the plane of parts.
+  bool is_proved(const ClaimedPolygon& polygon, const std::vector<std::uint32_t>& parts,
+                 SideProof& proof) const;
   bool is_proved(const ClaimedFragment& fragment, std::size_t index, bool faces,
                  SideProof& proof) const;
+  /// The plane that a fragment lies in; none if it lies in none or in several.
+  std::optional<PlaneId> plane_of(const ClaimedFragment& fragment, const Families& families) const;
   void count_proved(const ClaimedPolygon& polygon);
   void check_exact_side(const ClaimedPolygon& polygon, const Families& families,
                         const std::set<PlaneId>& optional);

@@ -3,6 +3,8 @@
 // Nothing is called false here: what is not proved goes to witness_exact.cc.
 #include <algorithm>
 
+#include "oracle/geometry/group_overlay.h"
+#include "oracle/geometry/scene_point.h"
 #include "oracle/judge/side_proof.h"
 #include "oracle/judge/witness_checker.h"
 
@@ -39,21 +41,56 @@ bool WitnessChecker::is_proved(const ClaimedPolygon& polygon) {
   }
   std::set<PlaneId> optional;
   const Families families = families_on(known->second, polygon.side, optional);
-  if (families.size() != 1) return false;
-  const std::vector<std::uint32_t>& parts = families.begin()->second;
+  std::map<PlaneId, std::vector<const ClaimedFragment*>> fragments;
   for (const ClaimedFragment& fragment : polygon.fragments) {
-    if (fragment.state == LightState::kShadow && !fragment.reason.empty() &&
-        !shadow_reason_holds(parts.front(), polygon.side, fragment)) {
+    const std::optional<PlaneId> plane = plane_of(fragment, families);
+    if (!plane) return false;
+    fragments[*plane].push_back(&fragment);
+  }
+  for (const auto& [plane, parts] : families) {
+    if (optional.contains(plane) && !fragments.contains(plane)) continue;
+    SideProof proof(prepared_, *light_, polygon.side, std::move(fragments[plane]), parts);
+    if (!is_proved(polygon, parts, proof)) return false;
+  }
+  return true;
+}
+
+bool WitnessChecker::is_proved(const ClaimedPolygon& polygon,
+                               const std::vector<std::uint32_t>& parts, SideProof& proof) const {
+  const bool faces = is_facing(parts.front(), polygon.side);
+  for (const ClaimedFragment* fragment : proof.fragments()) {
+    if (fragment->state == LightState::kShadow && !fragment->reason.empty() &&
+        !shadow_reason_holds(parts.front(), polygon.side, *fragment)) {
       return false;
     }
   }
-  const bool faces = is_facing(parts.front(), polygon.side);
-  SideProof proof(prepared_, *light_, polygon, parts);
   if (!proof.tiles()) return false;
-  for (std::size_t i = 0; i < polygon.fragments.size(); ++i) {
-    if (!is_proved(polygon.fragments[i], i, faces, proof)) return false;
+  for (std::size_t i = 0; i < proof.fragments().size(); ++i) {
+    if (!is_proved(*proof.fragments()[i], i, faces, proof)) return false;
   }
-  return proof.has_claimed_shares();
+  // Shares are claimed of the whole polygon.
+  const std::uint32_t index = prepared_.parts[parts.front()].polygon;
+  const bool is_all = parts.size() == prepared_.first_part[index + 1] - prepared_.first_part[index];
+  return !is_all || proof.has_shares_of(polygon);
+}
+
+std::optional<PlaneId> WitnessChecker::plane_of(const ClaimedFragment& fragment,
+                                                const Families& families) const {
+  // In the only plane the proof itself sees whether it lies there.
+  if (families.size() == 1) return families.begin()->first;
+  std::optional<PlaneId> found;
+  std::vector<Integers4> points;
+  for (const RationalPoint& point : fragment.loop) points.push_back(scene_point(point));
+  for (const auto& [plane, parts] : families) {
+    const Integers4 support = scene_plane(prepared_.geometry, support_of(prepared_, parts.front()));
+    if (std::ranges::any_of(
+            points, [&](const Integers4& point) { return sign_of_product(support, point) != 0; })) {
+      continue;
+    }
+    if (found) return std::nullopt;
+    found = plane;
+  }
+  return found;
 }
 
 void WitnessChecker::count_proved(const ClaimedPolygon& polygon) {

@@ -222,7 +222,7 @@ void spoil(Claims& claims, Random& random) {
 
 TEST(SideProof, SaysWhatRationalNumbersSay) {
   int wrong = 0, right = 0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const BuiltScene built = lattice_soup(seed, 12, 4);
     const ExactAnswer answer(built.scene, built.prepared);
     const Claims good = exact_candidate(answer);
@@ -250,8 +250,8 @@ TEST(SideProof, SaysWhatRationalNumbersSay) {
       ++(checked.violations > 0 ? wrong : right);
     }
   }
-  EXPECT_GT(wrong, 800);
-  EXPECT_GT(right, 100);
+  EXPECT_GT(wrong, 160);
+  EXPECT_GT(right, 20);
 }
 
 }  // namespace
