@@ -7,6 +7,9 @@
 #include <rapidjson/reader.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
 
 namespace gnomon {
 
@@ -68,22 +71,44 @@ struct Generator {
 
 }  // namespace
 
+namespace {
+
+constexpr std::size_t kShortDigits = 18;  // below 2^60
+
+/// Requires: digits alone, at most kShortDigits.
+std::uint64_t short_number(std::string_view digits) {
+  std::uint64_t value = 0;
+  for (const char digit : digits) value = 10 * value + static_cast<std::uint64_t>(digit - '0');
+  return value;
+}
+
+bool is_digits(std::string_view text) {
+  return !text.empty() && text.size() <= 1'000'000 &&
+         std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
 std::optional<mpq_class> parse_rational(std::string_view text) {
   const std::size_t slash = text.find('/');
   std::string_view over = text.substr(0, slash);
   if (!over.empty() && (over[0] == '-' || over[0] == '+')) over.remove_prefix(1);
   const std::string_view under =
       slash == std::string_view::npos ? std::string_view("1") : text.substr(slash + 1);
-  const auto is_digits = [](std::string_view digits) {
-    return !digits.empty() && digits.size() <= 1'000'000 &&
-           digits.find_first_not_of("0123456789") == std::string_view::npos;
-  };
   if (!is_digits(over) || !is_digits(under)) return std::nullopt;
-  const mpz_class denominator{std::string(under), 10};
-  if (denominator == 0) return std::nullopt;
-  mpq_class value{mpz_class(std::string(over), 10), denominator};
-  value.canonicalize();
-  if (text[0] == '-') value = -value;
+  std::optional<mpq_class> value(std::in_place);
+  if (over.size() <= kShortDigits && under.size() <= kShortDigits) {
+    const std::uint64_t numerator = short_number(over), denominator = short_number(under);
+    if (denominator == 0) return std::nullopt;
+    const std::uint64_t common = denominator == 1 ? 1 : std::gcd(numerator, denominator);
+    mpq_set_ui(value->get_mpq_t(), numerator / common, denominator / common);
+  } else {
+    value->get_num() = mpz_class(std::string(over), 10);
+    value->get_den() = mpz_class(std::string(under), 10);
+    if (value->get_den() == 0) return std::nullopt;
+    value->canonicalize();
+  }
+  if (text[0] == '-') mpq_neg(value->get_mpq_t(), value->get_mpq_t());
   return value;
 }
 
@@ -147,20 +172,19 @@ Expected<LightState> JsonFields::state(const Json& value, const std::string& poi
                "lit, shadow, penumbra or umbra");
 }
 
-Expected<mpq_class> JsonFields::coordinate(const Json& value, bool exact,
-                                           const std::string& pointer) const {
+Expected<mpq_class> JsonFields::coordinate(const Json& value, bool exact) const {
   if (value.IsString()) {
     const std::string_view text(value.GetString() + 1, value.GetStringLength() - 1);
     if (value.GetString()[0] == kNumberMark) {
       Expected<Number> number = Number::parse(text, numbers_);
       if (number) return number->exact();
-      return wrong(number.error().code, pointer, number.error().what, number.error().expected);
+      return wrong(number.error().code, {}, number.error().what, number.error().expected);
     }
     if (exact) {
-      if (std::optional<mpq_class> rational = parse_rational(text)) return *rational;
+      if (std::optional<mpq_class> rational = parse_rational(text)) return std::move(*rational);
     }
   }
-  return wrong(ErrorCode::kNumber, pointer, "not a coordinate",
+  return wrong(ErrorCode::kNumber, {}, "not a coordinate",
                exact ? "a number, or a string \"p/q\"" : "a number");
 }
 
@@ -226,20 +250,22 @@ Expected<RationalLoop> JsonFields::loop(const Json& array, bool exact,
                                         const std::string& pointer) const {
   RationalLoop result;
   if (!array.IsArray()) return wrong(ErrorCode::kFormat, pointer, "not an array", "an array");
+  result.resize(array.Size());
   for (rapidjson::SizeType i = 0; i < array.Size(); ++i) {
     const Json& vertex = array[i];
-    const std::string place = fmt::format("{}/{}", pointer, i);
     if (!vertex.IsArray() || vertex.Size() != 3) {
-      return wrong(ErrorCode::kFormat, place, "not a point", "three coordinates");
+      return wrong(ErrorCode::kFormat, fmt::format("{}/{}", pointer, i), "not a point",
+                   "three coordinates");
     }
-    RationalPoint point;
     for (rapidjson::SizeType k = 0; k < 3; ++k) {
-      const Expected<mpq_class> found =
-          coordinate(vertex[k], exact, fmt::format("{}/{}", place, k));
-      if (!found) return tl::unexpected(found.error());
-      point[k] = *found;
+      Expected<mpq_class> found = coordinate(vertex[k], exact);
+      if (!found) {
+        // The place is put together only where it is told.
+        found.error().where.pointer = fmt::format("{}/{}/{}", pointer, i, k);
+        return tl::unexpected(found.error());
+      }
+      result[i][k] = std::move(*found);
     }
-    result.push_back(std::move(point));
   }
   return result;
 }

@@ -69,7 +69,8 @@ class JsonFields {
  private:
   tl::unexpected<Error> wrong_place(std::string_view text, std::size_t offset,
                                     std::string what) const;
-  Expected<mpq_class> coordinate(const Json& value, bool exact, const std::string& pointer) const;
+  /// Its errors name the file alone, and no place in it.
+  Expected<mpq_class> coordinate(const Json& value, bool exact) const;
 
   std::string file_;
   NumberMeaning numbers_;

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "result/json_fields.h"
 #include "result/told_shares.h"
@@ -336,8 +335,14 @@ Expected<Claims> read_claims(const std::string& path, const Scene& scene, Shares
     return fail(ErrorCode::kFile, fmt::format("cannot be opened: {}", std::strerror(errno)), {},
                 ErrorPlace{path, 0, 0, {}});
   }
-  const std::string text((std::istreambuf_iterator<char>(stream)),
-                         std::istreambuf_iterator<char>());
+  std::string text;
+  constexpr std::size_t kBlock = std::size_t{1} << 20;
+  do {
+    const std::size_t size = text.size();
+    text.resize(size + kBlock);
+    stream.read(text.data() + size, static_cast<std::streamsize>(kBlock));
+    text.resize(size + static_cast<std::size_t>(stream.gcount()));
+  } while (stream);
   if (stream.bad()) {
     return fail(ErrorCode::kFile, "cannot be read", {}, ErrorPlace{path, 0, 0, {}});
   }

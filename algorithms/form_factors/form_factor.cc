@@ -12,6 +12,13 @@ namespace gnomon {
 
 namespace {
 
+/// Of casters, for the order in which they are looked at alone: those that are nearer are not told
+/// apart, in a scene of extent 1.
+constexpr double kNearest = 1e-9;
+/// How wide the bounds of a factor may be if nothing hides anything: what roundings of thousands of
+/// cells (factor_cells.cc) add to it, so that a tolerance of 0 can be met.
+constexpr double kBoundsAlone = 1e-9;
+
 /// The scene in doubles, moved and scaled into the unit cube: every coordinate is off by half a
 /// unit.
 class UnitScene {
@@ -81,7 +88,7 @@ std::vector<BlockingSide> blocking_sides(const PreparedScene& scene, const UnitS
       BlockingSide own = in_unit.side(part, side);
       const HalfSpace behind{-1 * own.plane.normal, -own.plane.offset};
       if (!some_in_front(own.loop, looking.plane) || !some_in_front(looking.loop, behind)) continue;
-      double nearest = 1e-9;
+      double nearest = kNearest;
       for (const Vector& point : own.loop) nearest = std::max(nearest, length(point - middle));
       found.emplace_back(-area_of(own.loop) / (nearest * nearest), std::move(own));
     }
@@ -156,7 +163,7 @@ class FactorSum {
     factor.upper = std::min(1.0, sums_.upper / area_);
     factor.value = std::clamp(factor.value, factor.lower, factor.upper);
     factor.unobstructed = std::clamp(sums_.unobstructed / area_, 0.0, 1.0);
-    factor.within_tolerance = factor.upper - factor.lower <= options_.tolerance + 1e-9;
+    factor.within_tolerance = factor.upper - factor.lower <= options_.tolerance + kBoundsAlone;
     return factor;
   }
 

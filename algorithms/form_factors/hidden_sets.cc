@@ -15,13 +15,19 @@ Edge edge_of(const BlockingSide& caster, std::size_t i) {
   return {caster.loop[i], caster.loop[i + 1 == caster.loop.size() ? 0 : i + 1]};
 }
 
+/// What a cross product of differences of points is off by in a scene of extent 1: some nine units
+/// are more than its roundings are.
+constexpr double kCrossError = 2e-15;
+/// Stands for a length of 0 where it is divided by; the margin is then beyond all points.
+constexpr double kShortestCross = 1e-300;
+
 /// The half-space through a point behind the caster and an edge, the caster in front.
 HalfSpace through(const Edge& edge, const Vector& point) {
   const Vector across = cross(edge.a - point, edge.b - point);
   // Close to the edge's line the direction is less certain.
-  const double size = std::max(length(across), 1e-300);
+  const double size = std::max(length(across), kShortestCross);
   const Vector normal = 1 / size * across;
-  return {normal, dot(normal, edge.a), kMargin + 2e-15 / size};
+  return {normal, dot(normal, edge.a), kMargin + kCrossError / size};
 }
 
 /// How far inside of an edge's line a point of the caster's plane is.

@@ -19,6 +19,14 @@ constexpr double kShortest = 0x1p-44;
 constexpr int kMostIntervals = 4000;
 /// Directions that differ by less are parallel.
 constexpr double kParallel = 1e-14;
+/// Share of its terms that a short sum of logarithms and arcs is off by: some nine units in the
+/// last place.
+constexpr double kRoundings = 1e-15;
+/// Stands for a distance or a length of 0 where its logarithm or inverse is taken: any number far
+/// below all others of a scene of extent 1, and above what underflows.
+constexpr double kAlmostNothing = 1e-300;
+/// Newton's steps end where they no longer change a node in (-1, 1).
+constexpr double kLastStep = 1e-17;
 
 struct Rule {
   std::array<double, kNodes> node{}, weight{};
@@ -39,7 +47,7 @@ Rule gauss_legendre() {
       slope = kNodes * (x * p - before) / (x * x - 1);
       const double change = p / slope;
       x -= change;
-      if (std::fabs(change) < 1e-17) break;
+      if (std::fabs(change) < kLastStep) break;
     }
     rule.node[static_cast<std::size_t>(i)] = x;
     rule.weight[static_cast<std::size_t>(i)] = 2 / ((1 - x * x) * slope * slope);
@@ -98,7 +106,7 @@ Bounded parallel_edges(const Segment& e, const Segment& f, double log_unit) {
   const double low = std::min(begin, end), high = std::max(begin, end);
   const double sum =
       primitive(high) - primitive(high - e.size) - primitive(low) + primitive(low - e.size);
-  return {sum - e.size * f.size * log_unit, 1e-15 * terms + kParallel * (e.size + f.size)};
+  return {sum - e.size * f.size * log_unit, kRoundings * terms + kParallel * (e.size + f.size)};
 }
 
 /// The integral of ln(r / unit) along both.
@@ -129,12 +137,12 @@ Bounded along_both(const Segment& e, const Segment& f, double log_unit) {
       own += rule.weight[i] * along(e.at(middle + half * rule.node[i]), f, log_unit);
     }
     sum.value += half * own;
-    const double least = std::max(apart, 1e-300);
+    const double least = std::max(apart, kAlmostNothing);
     const double most = f.size * (std::fabs(std::log(least)) + std::fabs(log_unit) + 3);
     const double decay = std::pow(kEllipse, -2 * (kNodes - 1)) / (1 - 1 / (kEllipse * kEllipse));
     const double unknown = f.size * (std::fabs(std::log(f.size)) + std::fabs(log_unit) + 8);
     sum.error += half * (far ? 64.0 / 15 * decay * most : 2 * unknown);
-    sum.error += 1e-15 * half * std::fabs(own);
+    sum.error += kRoundings * half * std::fabs(own);
   }
   return sum;
 }
@@ -159,7 +167,7 @@ Bounded exchange_area(std::span<const Vector> from, std::span<const Vector> to) 
       if (cosine == 0 || e.size == 0 || f.size == 0) continue;
       const Bounded own = along_both(e, f, log_unit);
       sum.value += cosine * own.value;
-      sum.error += std::fabs(cosine) * own.error + 1e-15 * std::fabs(own.value);
+      sum.error += std::fabs(cosine) * own.error + kRoundings * std::fabs(own.value);
     }
   }
   return {std::fabs(sum.value) / (2 * std::numbers::pi), sum.error / (2 * std::numbers::pi)};

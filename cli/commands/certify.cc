@@ -286,7 +286,7 @@ class CertifyRun {
       for (const Light& light : loaded_.scene.lights) names.push_back(light.id);
       run.explanation = to_sentence(*found->first, loaded_.prepared, run.kernel, names);
     } else {
-      run.explanation = "none: every decision was right, only vertices were rounded";
+      run.explanation = "every decision was right: only vertices were rounded";
     }
     run.decisions = std::move(*found);
   }

@@ -42,6 +42,26 @@ long double ratio(const mpz_class& numerator, const mpz_class& denominator) {
   return scaled(n.mantissa / d.mantissa, n.exponent - d.exponent);
 }
 
+__extension__ typedef __int128 Int128;
+
+/// Three products of such numbers and one more number fit in 128 bits.
+constexpr std::size_t kSmallBits = 62;
+
+bool is_small(const mpz_class& value) { return mpz_sizeinbase(value.get_mpz_t(), 2) <= kSmallBits; }
+
+std::optional<std::array<std::int64_t, 3>> small_of(const Integers3& vector) {
+  if (!is_small(vector[0]) || !is_small(vector[1]) || !is_small(vector[2])) return std::nullopt;
+  return std::array<std::int64_t, 3>{vector[0].get_si(), vector[1].get_si(), vector[2].get_si()};
+}
+
+/// An integer of 128 bits, off by less than 2^-63 of it.
+Leading leading(Int128 value) { return {static_cast<long double>(value), 0}; }
+
+Int128 product_of(const std::array<std::int64_t, 3>& a, const std::array<std::int64_t, 3>& b) {
+  return static_cast<Int128>(a[0]) * b[0] + static_cast<Int128>(a[1]) * b[1] +
+         static_cast<Int128>(a[2]) * b[2];
+}
+
 /// A vector of integers without its length, and the length times 2^-exponent.
 struct Direction {
   std::array<long double, 3> unit{};
@@ -81,6 +101,11 @@ PlaneFrame::PlaneFrame(const Geometry& geometry, std::span<const Integers3> loop
   x_axis_ = along.unit;
   y_axis_ = across.unit;
   normal_ = direction_of(plane.normal).unit;
+  const auto small_origin = small_of(origin_), small_along = small_of(along_),
+             small_across = small_of(across_);
+  if (small_origin && small_along && small_across) {
+    small_ = {*small_origin, *small_along, *small_across};
+  }
   for (int k = 0; k < 3; ++k) {
     base_[k] = nearest(mpq_class(geometry.origin[k] + geometry.step * origin_[k]));
   }
@@ -125,11 +150,18 @@ long double PlaneFrame::height(const RationalPoint& point) const {
 }
 
 std::optional<PlanarLine> PlaneFrame::trace(const ExactPlane& plane) const {
-  const mpz_class along = oracle::dot(plane.normal, along_);
-  const mpz_class across = oracle::dot(plane.normal, across_);
-  if (along == 0 && across == 0) return std::nullopt;
   // Slopes along the two axes, and the value at the origin, all times 2^exponent.
-  const Leading a = leading(along), b = leading(across), c = leading(value_at(plane, origin_));
+  Leading a, b, c;
+  if (const auto normal = small_of(plane.normal); normal && small_ && is_small(plane.offset)) {
+    a = leading(product_of(*normal, small_->along));
+    b = leading(product_of(*normal, small_->across));
+    c = leading(product_of(*normal, small_->origin) - plane.offset.get_si());
+  } else {
+    a = leading(oracle::dot(plane.normal, along_));
+    b = leading(oracle::dot(plane.normal, across_));
+    c = leading(value_at(plane, origin_));
+  }
+  if (a.mantissa == 0 && b.mantissa == 0) return std::nullopt;
   const long exponent = std::max(a.exponent, b.exponent);
   const long double slope_x = scaled(a.mantissa, a.exponent - exponent) / along_length_;
   const long double slope_y = scaled(b.mantissa, b.exponent - exponent) / across_length_;

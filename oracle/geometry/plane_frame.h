@@ -13,6 +13,7 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -49,7 +50,12 @@ class PlaneFrame {
   using Vector = std::array<long double, 3>;
   Vector from_origin(const RationalPoint& point) const;
 
+  struct Small {
+    std::array<std::int64_t, 3> origin, along, across;
+  };
+
   Integers3 origin_, along_, across_;  // on the grid; axes not of length one
+  std::optional<Small> small_;         // the same, if they are small
   long double along_length_ = 1, across_length_ = 1, step_ = 1;
   Vector base_{}, x_axis_{}, y_axis_{}, normal_{};
 };

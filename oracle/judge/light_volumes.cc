@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "oracle/geometry/group_overlay.h"
+
 namespace gnomon::oracle {
 
 using space::area_along;
@@ -12,7 +14,14 @@ using space::Loop;
 using space::without;
 
 LightVolumes::LightVolumes(const PreparedScene& scene, const PreparedLight& light, double diagonal)
-    : scene_(scene), own_(light), diagonal_(diagonal), solids_(scene.parts.size()) {
+    : scene_(scene),
+      own_(light),
+      diagonal_(diagonal),
+      solids_(scene.parts.size()),
+      shadow_planes_(scene.parts.size()),
+      scene_planes_(scene.parts.size()),
+      scene_loops_(scene.parts.size()),
+      shadows_(scene.parts.size()) {
   const auto count = static_cast<std::uint32_t>(scene.parts.size());
   if (light.has_area()) {
     std::vector<const Loop*> loops;
@@ -26,26 +35,28 @@ LightVolumes::LightVolumes(const PreparedScene& scene, const PreparedLight& ligh
     if (standings_.back().casts) casters.push_back(part);
   }
   index_.emplace(scene, light, casters);
-  shadow_planes_.resize(count);
-  shadows_.resize(count);
+  const Integers3& source = light.point.grid;
+  source_ = light.point.directional
+                ? Integers4(std::array<mpz_class, 4>{source[0], source[1], source[2], 0})
+                : scene_point(in_scene(scene.geometry, HomogeneousPoint{source, 1}));
+  source_->make_large();
 }
 
 const Solid& LightVolumes::solid(std::uint32_t part) const {
-  std::optional<Solid>& own = solids_[part];
-  if (!own) own = solid_of(scene_, part);
-  return *own;
+  return solids_[part].get([&] { return solid_of(scene_, part); });
 }
 
 const std::vector<HalfSpace>& LightVolumes::shadow(std::uint32_t part) const {
-  std::vector<HalfSpace>& bounds = shadows_[part];
-  if (!bounds.empty()) return bounds;
-  const std::vector<ExactPlane>& planes = shadow_planes(part);
-  const Loop& loop = solid(part).loop;
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    const Integers3& normal = planes[i].normal;
-    bounds.emplace_back(RationalPoint{normal[0], normal[1], normal[2]}, loop[i == 0 ? 0 : i - 1]);
-  }
-  return bounds;
+  return shadows_[part].get([&] {
+    std::vector<HalfSpace> bounds;
+    const std::vector<ExactPlane>& planes = shadow_planes(part);
+    const Loop& loop = solid(part).loop;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const Integers3& normal = planes[i].normal;
+      bounds.emplace_back(RationalPoint{normal[0], normal[1], normal[2]}, loop[i == 0 ? 0 : i - 1]);
+    }
+    return bounds;
+  });
 }
 
 ExactPlane grid_plane(const Geometry& geometry, const HalfSpace& half) {
@@ -77,9 +88,31 @@ std::vector<ExactPlane> grid_planes(const Geometry& geometry,
 }  // namespace
 
 const std::vector<ExactPlane>& LightVolumes::shadow_planes(std::uint32_t part) const {
-  std::vector<ExactPlane>& planes = shadow_planes_[part];
-  if (planes.empty()) planes = shadow_planes_of(scene_, own_, part, standings_[part].facing);
-  return planes;
+  return shadow_planes_[part].get(
+      [&] { return shadow_planes_of(scene_, own_, part, standings_[part].facing); });
+}
+
+const std::vector<Integers4>& LightVolumes::scene_planes(std::uint32_t part) const {
+  return scene_planes_[part].get([&] {
+    std::vector<Integers4> planes;
+    for (const ExactPlane& plane : shadow_planes(part)) {
+      planes.push_back(scene_plane(scene_.geometry, plane));
+      planes.back().make_large();
+    }
+    return planes;
+  });
+}
+
+const std::vector<Integers4>& LightVolumes::scene_loop(std::uint32_t part) const {
+  return scene_loops_[part].get([&] {
+    std::vector<Integers4> loop;
+    for (Integers3& vertex : grid_loop(scene_, part)) {
+      loop.push_back(
+          scene_point(in_scene(scene_.geometry, HomogeneousPoint{std::move(vertex), 1})));
+      loop.back().make_large();
+    }
+    return loop;
+  });
 }
 
 const std::vector<ExactPlane>& LightVolumes::planes_of(const AreaSolids::Volume& volume) {

@@ -5,6 +5,8 @@
 //
 // Exactness: exact, in rational numbers of scene units. Doubles only put aside what is clearly
 // apart.
+//
+// Threads: under a point or directional light, const members may be called from several at once.
 #ifndef GNOMON_ORACLE_JUDGE_LIGHT_VOLUMES_H
 #define GNOMON_ORACLE_JUDGE_LIGHT_VOLUMES_H
 
@@ -17,6 +19,8 @@
 #include "gnomon/kernel/sign.h"
 #include "gnomon/result/classes.h"
 #include "oracle/geometry/chart.h"
+#include "oracle/geometry/scene_point.h"
+#include "oracle/judge/made_once.h"
 #include "oracle/judge/witness_pieces.h"
 #include "oracle/visibility/area_solids.h"
 #include "oracle/visibility/light_index.h"
@@ -70,6 +74,12 @@ class LightVolumes {
   /// asked for.
   const std::vector<ExactPlane>& shadow_planes(std::uint32_t part) const;
   const std::vector<ExactPlane>& planes_of(const AreaSolids::Volume& volume);
+  /// shadow_planes() for points in scene units.
+  const std::vector<Integers4>& scene_planes(std::uint32_t part) const;
+  /// The part's own vertices, and where the light is: at infinity if it is directional. Requires: a
+  /// point or directional light.
+  const std::vector<Integers4>& scene_loop(std::uint32_t part) const;
+  const Integers4& scene_source() const { return *source_; }
   /// shadow_planes() in scene units, and rational.
   const std::vector<space::HalfSpace>& shadow(std::uint32_t part) const;
 
@@ -81,12 +91,14 @@ class LightVolumes {
   const PreparedScene& scene_;
   const PreparedLight& own_;
   double diagonal_;
-  mutable std::vector<std::optional<Solid>> solids_;  // by part
-  std::vector<LightStanding> standings_;              // by part, without an area
+  mutable std::vector<MadeOnce<Solid>> solids_;  // by part
+  std::vector<LightStanding> standings_;         // by part, without an area
   std::optional<AreaSolids> area_;
-  std::optional<LightIndex> index_;                             // without an area
-  mutable std::vector<std::vector<ExactPlane>> shadow_planes_;  // by part
-  mutable std::vector<std::vector<space::HalfSpace>> shadows_;  // by part
+  std::optional<LightIndex> index_;                                       // without an area
+  mutable std::vector<MadeOnce<std::vector<ExactPlane>>> shadow_planes_;  // by part
+  mutable std::vector<MadeOnce<std::vector<Integers4>>> scene_planes_, scene_loops_;  // by part
+  std::optional<Integers4> source_;                                       // without an area
+  mutable std::vector<MadeOnce<std::vector<space::HalfSpace>>> shadows_;  // by part
   std::unordered_map<const AreaSolids::Volume*, std::vector<ExactPlane>> volume_planes_;
 };
 

@@ -2,8 +2,10 @@
 #include "gnomon/oracle/witness_check.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <deque>
 #include <ranges>
 
 #include "gnomon/oracle/verdict.h"
@@ -61,10 +63,12 @@ void WitnessChecker::violation(const std::string& polygon, std::string text,
   }
 }
 
+bool WitnessChecker::is_interrupted() const {
+  return options_.interrupted && options_.interrupted->load(std::memory_order_relaxed);
+}
+
 bool WitnessChecker::stopped() {
-  report_.interrupted =
-      report_.interrupted ||
-      (options_.interrupted && options_.interrupted->load(std::memory_order_relaxed));
+  report_.interrupted = report_.interrupted || is_interrupted();
   return report_.interrupted;
 }
 
@@ -112,16 +116,16 @@ bool WitnessChecker::tiles(const Family& family) {
          tiled_.emplace(part, family.polygon.side).second;
 }
 
-bool WitnessChecker::is_facing(const Family& family) const {
-  const LightStanding& own = light_->standing(family.parts.front());
-  return own.receives && (own.facing > 0) == (family.polygon.side == Side::kFront);
+bool WitnessChecker::is_facing(std::uint32_t part, Side side) const {
+  const LightStanding& own = light_->standing(part);
+  return own.receives && (own.facing > 0) == (side == Side::kFront);
 }
 
-bool WitnessChecker::shadow_reason_holds(const Family& family,
+bool WitnessChecker::shadow_reason_holds(std::uint32_t part, Side side,
                                          const ClaimedFragment& fragment) const {
-  const int facing = light_->standing(family.parts.front()).facing;
+  const int facing = light_->standing(part).facing;
   const auto reason = shadow_reason_by_name(fragment.reason);
-  return (reason == ShadowReason::kFacesAway && !is_facing(family) && facing != 0) ||
+  return (reason == ShadowReason::kFacesAway && !is_facing(part, side) && facing != 0) ||
          (reason == ShadowReason::kLightInPlane && facing == 0);
 }
 
@@ -148,7 +152,7 @@ std::optional<std::uint32_t> WitnessChecker::caster_to_check(const Family& famil
   ++report_.witnesses;
   const std::string& id = family.polygon.id;
   if (!fragment.reason.empty()) {
-    if (!shadow_reason_holds(family, fragment)) {
+    if (!shadow_reason_holds(family.parts.front(), family.polygon.side, fragment)) {
       violation(id, fmt::format("the reason '{}' does not hold", fragment.reason), index);
     }
     return std::nullopt;
@@ -235,6 +239,12 @@ bool WitnessChecker::can_be_judged(const ClaimedPolygon& polygon, std::size_t in
   return true;
 }
 
+bool WitnessChecker::is_exact(const ClaimedPolygon& polygon) const {
+  return exact_ || (!polygon.fragments.empty() &&
+                    std::ranges::all_of(polygon.fragments,
+                                        [](const ClaimedFragment& own) { return own.exact; }));
+}
+
 void WitnessChecker::check_polygon(const ClaimedPolygon& polygon) {
   ++report_.polygons;
   const auto known = polygon_index_.find(polygon.id);
@@ -244,12 +254,8 @@ void WitnessChecker::check_polygon(const ClaimedPolygon& polygon) {
   if (terms_.shares_alone) return check_share(polygon, known->second);
   std::set<PlaneId> optional;
   const Families families = families_on(known->second, polygon.side, optional);
-  const bool exact =
-      exact_ || (!polygon.fragments.empty() &&
-                 std::ranges::all_of(polygon.fragments,
-                                     [](const ClaimedFragment& own) { return own.exact; }));
-  exact ? check_exact_side(polygon, families, optional)
-        : check_rounded_side(polygon, families, optional);
+  is_exact(polygon) ? check_exact_side(polygon, families, optional)
+                    : check_rounded_side(polygon, families, optional);
 }
 
 void WitnessChecker::check_share(const ClaimedPolygon& polygon, std::uint32_t index) {
@@ -329,29 +335,53 @@ void WitnessChecker::check_light(const ClaimedLight& light) {
   light_.emplace(prepared_, *own, diagonal_);
   std::set<std::string> polygons;
   std::set<std::pair<std::string, Side>> sides;
+  std::deque<ClaimedPolygon> turned;
+  std::vector<const ClaimedPolygon*> judged;
   for (const ClaimedPolygon& polygon : light.polygons) {
-    if (stopped()) return;
     polygons.insert(polygon.id);
+    judged.push_back(&polygon);
     // A foreign file that names no side means the only one.
-    std::optional<ClaimedPolygon> turned;
     const auto known = polygon_index_.find(polygon.id);
     if (!polygon.side_given && known != polygon_index_.end()) {
       const std::vector<Side> listed_on = listed_sides(known->second);
       if (listed_on.size() == 1 && listed_on[0] != polygon.side) {
-        turned = polygon;
-        turned->side = listed_on[0];
+        judged.back() = &turned.emplace_back(polygon);
+        turned.back().side = listed_on[0];
       }
     }
-    const ClaimedPolygon& judged = turned ? *turned : polygon;
+  }
+  check_polygons(judged, sides);
+  if (stopped()) return;
+  if (!options_.subset || terms_.background) check_missing(polygons, sides);
+}
+
+/// What holds is proved side by side; what is not proved is then looked at in its order.
+void WitnessChecker::check_polygons(const std::vector<const ClaimedPolygon*>& polygons,
+                                    std::set<std::pair<std::string, Side>>& sides) {
+  std::vector<char> proved(polygons.size());
+  tbb::parallel_for(std::size_t{0}, polygons.size(), [&](std::size_t i) {
+    if (is_interrupted() || !options_.by_integers || !is_exact(*polygons[i])) return;
+    proved[i] = is_proved(*polygons[i]) ? 1 : 0;
+    if (proved[i] != 0) tell_progress();
+  });
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (stopped()) return;
+    const ClaimedPolygon& judged = *polygons[i];
     if (!sides.emplace(judged.id, judged.side).second) {
       violation(judged.id, fmt::format("its {} is listed twice", name_of(judged.side)));
     }
-    check_polygon(judged);
-    if (options_.progress) {
-      options_.progress(static_cast<double>(++polygons_done_) / static_cast<double>(polygons_));
+    if (proved[i] != 0) {
+      count_proved(judged);
+    } else {
+      check_polygon(judged);
+      tell_progress();
     }
   }
-  if (!options_.subset || terms_.background) check_missing(polygons, sides);
+}
+
+void WitnessChecker::tell_progress() {
+  if (!options_.progress) return;
+  options_.progress(static_cast<double>(++polygons_done_) / static_cast<double>(polygons_));
 }
 
 void WitnessChecker::check_claims(const Claims& claims, Block block) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The checker behind witness_check.h. What it needs of a polygon side is found in witness_check.cc;
-// a side whose loops are all exact is then checked in rational numbers (witness_exact.cc), one with
-// rounded loops in the frame of its plane, within the tolerance (witness_rounded.cc).
+// a side whose loops are all exact is then proved in integers (witness_proved.cc), or checked in
+// rational numbers (witness_exact.cc), one with // rounded loops in the frame of its plane, within
+// the tolerance (witness_rounded.cc).
 #ifndef GNOMON_ORACLE_JUDGE_WITNESS_CHECKER_H
 #define GNOMON_ORACLE_JUDGE_WITNESS_CHECKER_H
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -21,6 +23,7 @@
 #include "oracle/geometry/rounding.h"
 #include "oracle/judge/family_shades.h"
 #include "oracle/judge/light_volumes.h"
+#include "oracle/judge/side_proof.h"
 #include "oracle/judge/witness_pieces.h"
 
 namespace gnomon::oracle {
@@ -77,6 +80,9 @@ class WitnessChecker {
                  std::optional<std::uint64_t> fragment = {});
   void check_claims(const Claims& claims, Block block);
   void check_light(const ClaimedLight& light);
+  /// Adds their sides, each once.
+  void check_polygons(const std::vector<const ClaimedPolygon*>& polygons,
+                      std::set<std::pair<std::string, Side>>& sides);
   void check_missing(const std::set<std::string>& polygons,
                      const std::set<std::pair<std::string, Side>>& sides);
   void check_polygon(const ClaimedPolygon& polygon);
@@ -95,7 +101,7 @@ class WitnessChecker {
   bool is_told(LightState state) const;
   /// Whether this family's tiling is judged by these fragments, and not by others.
   bool tiles(const Family& family);
-  bool shadow_reason_holds(const Family& family, const ClaimedFragment& fragment) const;
+  bool shadow_reason_holds(std::uint32_t part, Side side, const ClaimedFragment& fragment) const;
   /// `behind`: all of the fragment is behind the light.
   bool area_reason_holds(const Family& family, const ClaimedFragment& fragment, bool behind);
   /// The caster that a fragment names; none, with the violation told, if the scene has none such.
@@ -105,14 +111,31 @@ class WitnessChecker {
   /// not.
   std::optional<std::uint32_t> caster_to_check(const Family& family,
                                                const ClaimedFragment& fragment, std::size_t index);
-  bool is_facing(const Family& family) const;
+  bool is_facing(std::uint32_t part, Side side) const;
+  bool is_facing(const Family& family) const {
+    return is_facing(family.parts.front(), family.polygon.side);
+  }
   bool has_all_parts(const Family& family) const;
+  bool is_interrupted() const;
   bool stopped();
+  void tell_progress();
   const std::string& id_of(std::uint32_t part) const {
     return scene_.polygons[prepared_.parts[part].polygon].id;
   }
 
   // All loops exact: nothing may be off by anything.
+  bool is_exact(const ClaimedPolygon& polygon) const;
+  /// By signs of integers: what usually holds is proved there, and only what is not is looked at in
+  /// rational numbers. May be called from several threads. Requires: is_exact().
+  bool is_proved(const ClaimedPolygon& polygon);
+  /// Of the fragments in the plane of parts.
+  bool is_proved(const ClaimedPolygon& polygon, const std::vector<std::uint32_t>& parts,
+                 SideProof& proof) const;
+  bool is_proved(const ClaimedFragment& fragment, std::size_t index, bool faces,
+                 SideProof& proof) const;
+  /// The plane that a fragment lies in; none if it lies in none or in several.
+  std::optional<PlaneId> plane_of(const ClaimedFragment& fragment, const Families& families) const;
+  void count_proved(const ClaimedPolygon& polygon);
   void check_exact_side(const ClaimedPolygon& polygon, const Families& families,
                         const std::set<PlaneId>& optional);
   Nearest nearest_family(const ClaimedFragment& fragment, const Families& families) const;
@@ -185,8 +208,9 @@ class WitnessChecker {
   ClaimedTerms terms_;  // of the light
   // First part and side of the families whose tiling by shared fragments is judged: once each.
   std::set<std::pair<std::uint32_t, Side>> tiled_;
-  std::vector<Excess> excesses_;                  // of the side
-  std::size_t polygons_ = 0, polygons_done_ = 0;  // for the progress
+  std::vector<Excess> excesses_;  // of the side
+  std::size_t polygons_ = 0;      // for the progress
+  std::atomic<std::size_t> polygons_done_ = 0;
   WitnessReport report_;
 };
 

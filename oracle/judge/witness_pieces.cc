@@ -196,21 +196,27 @@ const std::vector<HalfSpace>& Piece::walls_of(const RationalPoint& normal) {
   return walls_;
 }
 
-int PieceSides::side(const Piece& a, std::size_t edge, const Piece& b, std::size_t v) const {
-  const std::size_t next = edge + 1 < a.loop.size() ? edge + 1 : 0;
-  const PlanarPoint &from = a.flat_at(edge), &to = a.flat_at(next), &at = b.flat_at(v);
+int turn_in_frame(const PlanarPoint& from, const PlanarPoint& to, const PlanarPoint& at,
+                  long double error) {
   const long double ux = to.x - from.x, uy = to.y - from.y, vx = at.x - from.x, vy = at.y - from.y;
   const long double turn = ux * vy - uy * vx;
   // Coordinates are off by e = kPlanarError M at most and their differences by 2 e, so that the two
   // products are by 2 e (|ux| + |uy| + |vx| + |vy|) + 8 e^2 together. What sums and products round
   // off is less than 2^-62 of |u| |v|, where |u| is at most 4 sqrt(2) M: a second such term is
   // more.
-  const long double e = kPlanarError * std::max({reach_, static_cast<long double>(a.reach()),
-                                                 static_cast<long double>(b.reach())});
-  const long double error =
-      4 * e * (std::fabs(ux) + std::fabs(uy) + std::fabs(vx) + std::fabs(vy) + 4 * e);
-  if (turn > error) return 1;
-  if (turn < -error) return -1;
+  const long double error_bound =
+      4 * error * (std::fabs(ux) + std::fabs(uy) + std::fabs(vx) + std::fabs(vy) + 4 * error);
+  if (turn > error_bound) return 1;
+  if (turn < -error_bound) return -1;
+  return 0;
+}
+
+int PieceSides::side(const Piece& a, std::size_t edge, const Piece& b, std::size_t v) const {
+  const std::size_t next = edge + 1 < a.loop.size() ? edge + 1 : 0;
+  const long double error = kPlanarError * std::max({reach_, static_cast<long double>(a.reach()),
+                                                     static_cast<long double>(b.reach())});
+  const int turn = turn_in_frame(a.flat_at(edge), a.flat_at(next), b.flat_at(v), error);
+  if (turn != 0) return turn;
   const RationalPoint& point = b.loop[v];
   if (point == a.loop[edge] || point == a.loop[next]) return 0;
   return view_.turn(a.loop[edge], a.loop[next], point);

@@ -93,6 +93,11 @@ struct Piece {
   bool flat_turned_ = false;
 };
 
+/// Which way three points of a frame turn: 1 left, -1 right, 0 if the frame cannot tell. `error`:
+/// of each coordinate, kPlanarError times the greatest distance of a point's coordinate from 0.
+int turn_in_frame(const PlanarPoint& from, const PlanarPoint& to, const PlanarPoint& at,
+                  long double error);
+
 /// On which sides of their edges convex pieces of one plane lie to each other. Exact: doubts of the
 /// frame are settled in rational numbers.
 class PieceSides {

@@ -160,7 +160,13 @@ void add_notes(const JudgedRun& run, const NamedScene& named, TextTable& table) 
     table.add_note("of " + plural(report.totals.by_borders, "polygon side") +
                    " error is bounded by borders, not measured (--measure)");
   }
-  if (!run.explanation.empty()) table.add_note("first differing decision: " + run.explanation);
+  if (!run.explanation.empty()) {
+    const bool none_differs = run.decisions && !run.decisions->first;
+    table.add_note((none_differs     ? std::string()
+                    : !run.decisions ? "no differing decision was found: "
+                                     : "first differing decision: ") +
+                   run.explanation);
+  }
   if (run.decisions) {
     for (std::string& note : decisions_text(*run.decisions, run.kernel, named)) {
       table.add_note(std::move(note));

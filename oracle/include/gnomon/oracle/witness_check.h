@@ -54,6 +54,9 @@ struct WitnessOptions {
   std::optional<double> width;  // scene units; default 1e-9 of the scene's diagonal
   bool strict = false;          // all loops are judged as if they claimed to be exact
   bool subset = false;          // lights and polygons may be missing
+  // Exact claims are first proved by signs of integers. False: all of it in rational numbers, which
+  // says the same.
+  bool by_integers = true;
   std::size_t most = 100;
   std::function<void(double)> progress;
   const std::atomic<bool>* interrupted = nullptr;
