@@ -63,6 +63,7 @@ void add_convert_command(CLI::App& app, Action& action) {
       "Examples:\n"
       "  gnomon convert house.obj house.json --sun=1,2,3\n"
       "  gnomon convert house.json house.ply --format ply-binary\n"
+      "  gnomon convert house.idf house.city.json\n"
       "  gnomon convert model.json meant.json --snap 1e-6 --parent --orient");
   add_scene_options(command, options->scene);
   command.remove_option(command.get_option("--light"));

@@ -2,7 +2,6 @@
 #include "scene/cityjson/city_reader.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "scene/base/text_file.h"
@@ -13,7 +12,6 @@ namespace gnomon {
 
 namespace {
 
-constexpr VertexId kNone = std::numeric_limits<VertexId>::max();
 /// More levels than this are not told of.
 constexpr std::size_t kMostLevels = 32;
 
@@ -151,9 +149,11 @@ Expected<void> CityReader::read_objects(const JsonTape& tape, std::uint64_t offs
   if (!vertices) return tl::unexpected(std::move(vertices.error()));
   Unit unit{tape, *std::move(vertices), {}, offset};
   unit.of_vertex.assign(unit.vertices.size(), kNone);
+  const std::size_t first_vertex = scene_.vertices.size(), first_polygon = scene_.polygons.size();
   for (JsonNode key = objects->begin(); key != objects->end(); key = key.next().next()) {
     if (auto done = read_object(unit, key, key.next()); !done) return done;
   }
+  sort_vertices(unit, first_vertex, first_polygon);
   return {};
 }
 

@@ -5,6 +5,7 @@
 #define GNOMON_SCENE_CITYJSON_CITY_READER_H
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,6 +36,8 @@ class CityReader {
   Expected<ReadResult> finish(std::string_view text);
 
  private:
+  static constexpr VertexId kNone = std::numeric_limits<VertexId>::max();
+
   /// A geometry of an object, not looked into yet.
   struct Candidate {
     JsonNode node;
@@ -57,6 +60,7 @@ class CityReader {
   Expected<void> read_version(const JsonNode& root);
   Expected<void> read_templates(const JsonNode& root);
   Expected<void> read_objects(const JsonTape& tape, std::uint64_t offset);
+  void sort_vertices(const Unit& unit, std::size_t first_vertex, std::size_t first_polygon);
   Expected<void> read_object(Unit& unit, const JsonNode& key, const JsonNode& object);
   Expected<std::optional<Candidate>> candidate(const JsonNode& geometry);
   Expected<std::vector<Candidate>> chosen(const std::vector<Candidate>& candidates);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What a reader of CityJSON says at the end: groups and semantics in the scene's "extra", warnings,
-// what was left out.
+// What is done to city objects when all of them are known: vertices in the order of the file,
+// solids outwards, groups and semantics in the scene's "extra", warnings, what was left out.
 #include <rapidjson/stringbuffer.h>
 #include <rapidjson/writer.h>
 
@@ -101,6 +101,33 @@ void CityReader::warn(ReadResult& result) const {
   if (underflows_ != 0) {
     result.warnings.push_back(counted(underflows_, "coordinate is", "coordinates are") +
                               " too small for full double precision");
+  }
+}
+
+/// Vertices were added as surfaces needed them, and shall stand in the order of the file, those of
+/// instances behind all others.
+void CityReader::sort_vertices(const Unit& unit, std::size_t first_vertex,
+                               std::size_t first_polygon) {
+  std::vector<VertexId> moved(scene_.vertices.size() - first_vertex, kNone);
+  std::vector<Position> sorted;
+  sorted.reserve(moved.size());
+  const auto take = [&](VertexId vertex) {
+    moved[vertex - first_vertex] = static_cast<VertexId>(first_vertex + sorted.size());
+    sorted.push_back(std::move(scene_.vertices[vertex]));
+  };
+  for (const VertexId vertex : unit.of_vertex) {
+    if (vertex != kNone) take(vertex);
+  }
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    if (moved[i] == kNone) take(static_cast<VertexId>(first_vertex + i));
+  }
+  std::ranges::move(sorted, scene_.vertices.begin() + static_cast<std::ptrdiff_t>(first_vertex));
+  for (std::size_t i = first_polygon; i < scene_.polygons.size(); ++i) {
+    Polygon& polygon = scene_.polygons[i];
+    for (VertexId& vertex : polygon.loop) vertex = moved[vertex - first_vertex];
+    for (auto& hole : polygon.holes) {
+      for (VertexId& vertex : hole) vertex = moved[vertex - first_vertex];
+    }
   }
 }
 

@@ -152,11 +152,10 @@ TEST_F(Intent, AFarScene) {
 
 TEST_F(Intent, AForeignFile) {
   const std::string file = directory_.file("model.json");
-  write_text(file,
-             R"({ "type" : "CityJSON", "version": "2.0", "CityObjects": {}, "vertices": [] })");
+  write_text(file, R"({ "asset" : {"version": "2.0"}, "meshes": [] })");
   const RunResult result = shadows(file);
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("this is CityJSON"));
+  EXPECT_THAT(result.err, HasSubstr("this is glTF"));
 }
 
 }  // namespace

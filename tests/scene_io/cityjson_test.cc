@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "gnomon/scene/digest.h"
 #include "gnomon/scene/groups.h"
 #include "gnomon/scene/write.h"
 #include "scene_testing.h"
@@ -303,6 +304,17 @@ TEST(WrittenCityJson, ReadsBackAsTheSame) {
   EXPECT_EQ(scene_to_text(back, SceneFormat::kCityJson)->text, written->text);
   EXPECT_THAT(back.extra, HasSubstr("EPSG/7415"));
   EXPECT_EQ(polygon_groups(back)->size(), polygon_groups(scene)->size());
+}
+
+TEST(WrittenCityJson, TurnedSolidsToo) {
+  const std::string inwards = R"({"boundaries": [[ [[6,7,2]], [[7,6,5]], [[2,7,5]], [[2,5,6]] ]],
+    "type": "Solid", "lod": "1"})";
+  const auto read = parse_scene(file_of(object("a", inwards)), "a.json", {});
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->warnings.size(), 1u);
+  const auto written = scene_to_text(read->scene, SceneFormat::kCityJson);
+  ASSERT_TRUE(written);
+  EXPECT_EQ(geometry_digest(scene_of(written->text, "a.json")), geometry_digest(read->scene));
 }
 
 TEST(WrittenCityJson, SaysWhatIsLost) {
