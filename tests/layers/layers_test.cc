@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The layers: kernel <- scene <- result <- algorithms <- (report, fuzz, comparison, cli, bench),
-// scene <- suns <- report, and oracle <- result; and in each component the order of its rooms. Reads the includes of every
-// source of every component. The oracle shares no predicate, no splitting and no tree with what it
-// judges: of the kernel it may use the four headers that hold no arithmetic.
+// scene <- suns <- report, and oracle <- result; and in each component the order of its rooms.
+// Reads the includes of every source of every component. The oracle shares no predicate, no
+// splitting and no tree with what it judges: of the kernel it may use the four headers that hold no
+// arithmetic.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
