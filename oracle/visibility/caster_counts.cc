@@ -7,17 +7,39 @@
 
 namespace gnomon::oracle {
 
+namespace {
+
+/// In the chart of its plane, which all shadows on it are in.
+std::vector<ChartPoint> loop_of(const PreparedScene& scene, std::uint32_t part) {
+  std::vector<Integers3> points;
+  for (const VertexId vertex : scene.loop(scene.parts[part])) {
+    const auto& grid = scene.geometry.grid;
+    points.push_back({grid.at(vertex, 0), grid.at(vertex, 1), grid.at(vertex, 2)});
+  }
+  const Chart chart(plane_of(points));
+  std::vector<ChartPoint> loop;
+  for (const Integers3& point : points) loop.push_back(chart.at(point));
+  return loop;
+}
+
+/// Twice the area in the chart.
+mpq_class doubled_area(const std::vector<ChartPoint>& loop) {
+  mpq_class sum;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const ChartPoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    mpq_class term(a.x * b.y - b.x * a.y, a.w * b.w);
+    term.canonicalize();
+    sum += term;
+  }
+  return abs(sum);
+}
+
+}  // namespace
+
 std::map<std::uint32_t, mpq_class> caster_counts(const PreparedScene& scene,
                                                  const PointRegions& regions, std::uint32_t part) {
   if (regions.lit_side(part) == Side::kOn) return {};
-  std::vector<Integers3> loop;
-  for (const VertexId vertex : scene.loop(scene.parts[part])) {
-    const auto& grid = scene.geometry.grid;
-    loop.push_back({grid.at(vertex, 0), grid.at(vertex, 1), grid.at(vertex, 2)});
-  }
-  const Chart chart(plane_of(loop));
-  std::vector<ChartPoint> receiver;
-  for (const Integers3& point : loop) receiver.push_back(chart.at(point));
+  const std::vector<ChartPoint> receiver = loop_of(scene, part);
   Overlay overlay;
   const auto add = [&](const std::vector<ChartPoint>& points, Layer layer) {
     const int turn = orientation(points[0], points[1], points[2]);
@@ -39,6 +61,17 @@ std::map<std::uint32_t, mpq_class> caster_counts(const PreparedScene& scene,
   const mpq_class whole = overlay.exact_area(all);
   std::map<std::uint32_t, mpq_class> shares;
   for (const auto& [count, own] : faces) shares[count] = overlay.exact_area(own) / whole;
+  return shares;
+}
+
+std::map<std::uint32_t, mpq_class> caster_shares(const PreparedScene& scene,
+                                                 const PointRegions& regions, std::uint32_t part) {
+  if (regions.lit_side(part) == Side::kOn) return {};
+  const mpq_class whole = doubled_area(loop_of(scene, part));
+  std::map<std::uint32_t, mpq_class> shares;
+  for (const ShadowPiece& shadow : regions.shadows_on(part)) {
+    shares[shadow.caster] += doubled_area(shadow.loop) / whole;
+  }
   return shares;
 }
 
