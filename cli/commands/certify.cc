@@ -8,6 +8,8 @@
 
 #include "cli/commands/certify_corpus.h"
 #include "cli/commands/certify_report.h"
+#include "cli/commands/certify_table.h"
+#include "cli/commands/table_options.h"
 #include "cli/common/algorithm_choice.h"
 #include "cli/common/commands.h"
 #include "cli/common/interrupt.h"
@@ -16,6 +18,7 @@
 #include "cli/common/output.h"
 #include "cli/common/progress.h"
 #include "cli/common/scene_options.h"
+#include "comparison/engine_tables/engine_table.h"
 #include "gnomon/algorithms/explain.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/kernel_choice.h"
@@ -56,6 +59,8 @@ struct CertifyCommandOptions {
   std::string report_directory;
   std::string json;
   CorpusCommandOptions corpus;  // what certify_corpus.h needs besides
+  YearOptions suns;             // of candidates that are tables
+  TableOptionRules table_rules;
 };
 
 Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& options,
@@ -309,11 +314,27 @@ int run_corpus(const CertifyCommandOptions& options) {
   return run_certify_corpus(corpus);
 }
 
+int run_tables(const CertifyCommandOptions& options) {
+  return run_certify_tables({.scene = options.scene,
+                             .suns = options.suns,
+                             .tables = options.candidates,
+                             .tolerance = options.tolerance,
+                             .json = options.json},
+                            options.table_rules);
+}
+
 int run_certify(const CertifyCommandOptions& options) {
   if (!options.corpus.corpus.empty()) return run_corpus(options);
   if (options.scene.scene.empty()) {
     return report_usage("neither a scene nor a corpus", "SCENE, or --corpus DIR");
   }
+  const auto tables = static_cast<std::size_t>(std::ranges::count_if(
+      options.candidates,
+      [](const std::string& file) { return comparison::is_engine_table(file); }));
+  if (auto checked = options.table_rules.check(tables, options.candidates.size()); !checked) {
+    return report_error(checked.error());
+  }
+  if (tables > 0) return run_tables(options);
   auto algorithms = chosen_algorithms(options);
   if (!algorithms) return report_error(algorithms.error());
   const ThreadLimit threads(options.scene.jobs);
@@ -437,6 +458,8 @@ void add_certify_command(CLI::App& app, Action& action) {
       "  gnomon certify room.json --kernel double --kernel double+identity --explain\n"
       "  gnomon certify room.json --kernel plane --algorithm both\n"
       "  gnomon certify room.json --candidate other.result.json --tolerance 1e-6 --report out\n"
+      "  gnomon certify house.idf --candidate eplusshading.csv --epw phoenix.epw \\\n"
+      "    --sun-model energyplus --average-days 20\n"
       "  gnomon certify --corpus tests/regressions --candidate-command ./my-shadows");
   CLI::Option* scene = add_scene_options(command, options->scene);
   repeatable(command.add_option(
@@ -448,7 +471,8 @@ void add_certify_command(CLI::App& app, Action& action) {
                        "both: sectors and receiver, then svbsp and merged; all: every method;\n"
                        "auto: sectors and receiver");
   repeatable(command.add_option("--candidate", options->candidates,
-                                "A result file to judge instead (repeatable)"))
+                                "A result file to judge instead, or a table of shares by surface\n"
+                                "and time, .csv (repeatable)"))
       ->type_name("RESULT");
   command
       .add_option(
@@ -506,6 +530,7 @@ void add_certify_command(CLI::App& app, Action& action) {
   command.add_option("--json", options->json, "Write the verdicts as JSON; - is standard output")
       ->type_name("FILE");
   command.add_flag("--times", options->times, "CPU times in the JSON, which then is not stable");
+  options->table_rules.add(command, options->suns);
   const CorpusOptionRules rules = add_corpus_options(command, *options, scene);
   command.callback([options, rules, &action] {
     action = [options, rules]() -> int {

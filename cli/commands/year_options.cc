@@ -15,59 +15,12 @@ namespace gnomon::cli {
 namespace {
 
 void add_time_options(CLI::App& command, YearOptions& options) {
-  command
-      .add_option("--year", options.year,
-                  "The year of days without one; what a weather file says of "
-                  "its years does not count")
-      ->check(CLI::Range(1961, 2500))
-      ->type_name("Y")
-      ->capture_default_str();
   command.add_option("--from", options.from, "First day, such as 06-21 or 2026-06-21")
       ->type_name("DAY");
   command.add_option("--to", options.to, "Last day")->type_name("DAY");
   command.add_option("--step", options.step, "Minutes of a step; they divide a day")
       ->type_name("MIN")
       ->capture_default_str();
-  command.add_option("--sun-at", options.sun_at, "Where in its step the sun is looked at")
-      ->check(CLI::IsMember({"start", "middle", "end"}))
-      ->type_name("start|middle|end")
-      ->capture_default_str();
-}
-
-void add_sun_options(CLI::App& command, YearOptions& options) {
-  command.add_option("--at", options.at, "The place: degrees, north and east positive; with --tz")
-      ->type_name("LAT,LON");
-  command
-      .add_option("--tz", options.zone,
-                  "Its standard time: hours from UTC, such as -7, 5.5 or +05:30")
-      ->type_name("H");
-  command.add_option("--epw", options.weather, "The place of this weather file instead")
-      ->type_name("FILE");
-  command.add_option("--elevation", options.elevation, "Metres above the sea")->type_name("M");
-  command
-      .add_option("--north", options.north,
-                  "Degrees from north, clockwise, to where the scene's y axis points; of IDF and\n"
-                  "epJSON their north axis, where the building was left in its own axes")
-      ->type_name("DEG");
-  command
-      .add_option("--sun-model", options.sun_model,
-                  "Whose sun: the IAU's (ERFA), or that of EnergyPlus, by which it must be judged")
-      ->check(CLI::IsMember({"erfa", "energyplus"}))
-      ->type_name("erfa|energyplus")
-      ->capture_default_str();
-  command
-      .add_option("--average-days", options.average_days,
-                  "energyplus: one sun for so many days, as EnergyPlus does by default with 20")
-      ->check(CLI::Range(1, 366))
-      ->type_name("N")
-      ->capture_default_str();
-  command.add_flag("--refraction", options.refraction, "The sun as air lifts it");
-  command.add_option("--pressure", options.pressure, "Hectopascals; that of the height if absent")
-      ->check(not_negative())
-      ->type_name("HPA");
-  command.add_option("--temperature", options.temperature, "Degrees Celsius; 10 if absent")
-      ->check(CLI::Range(-90.0, 60.0))
-      ->type_name("C");
 }
 
 void add_table_options(CLI::App& command, YearOptions& options) {
@@ -127,6 +80,53 @@ Expected<suns::Place> place_asked(const YearOptions& options, const suns::SceneP
 
 }  // namespace
 
+void add_sun_options(CLI::App& command, YearOptions& options) {
+  command.add_option("--at", options.at, "The place: degrees, north and east positive; with --tz")
+      ->type_name("LAT,LON");
+  command
+      .add_option("--tz", options.zone,
+                  "Its standard time: hours from UTC, such as -7, 5.5 or +05:30")
+      ->type_name("H");
+  command.add_option("--epw", options.weather, "The place of this weather file instead")
+      ->type_name("FILE");
+  command.add_option("--elevation", options.elevation, "Metres above the sea")->type_name("M");
+  command
+      .add_option("--north", options.north,
+                  "Degrees from north, clockwise, to where the scene's y axis points; of IDF and\n"
+                  "epJSON their north axis, where the building was left in its own axes")
+      ->type_name("DEG");
+  command
+      .add_option("--sun-model", options.sun_model,
+                  "Whose sun: the IAU's (ERFA), or that of EnergyPlus, by which it must be judged")
+      ->check(CLI::IsMember({"erfa", "energyplus"}))
+      ->type_name("erfa|energyplus")
+      ->capture_default_str();
+  command
+      .add_option("--average-days", options.average_days,
+                  "energyplus: one sun for so many days, as EnergyPlus does by default with 20")
+      ->check(CLI::Range(1, 366))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_flag("--refraction", options.refraction, "The sun as air lifts it");
+  command.add_option("--pressure", options.pressure, "Hectopascals; that of the height if absent")
+      ->check(not_negative())
+      ->type_name("HPA");
+  command.add_option("--temperature", options.temperature, "Degrees Celsius; 10 if absent")
+      ->check(CLI::Range(-90.0, 60.0))
+      ->type_name("C");
+  command
+      .add_option("--year", options.year,
+                  "The year of days without one; what a weather file says of "
+                  "its years does not count")
+      ->check(CLI::Range(1961, 2500))
+      ->type_name("Y")
+      ->capture_default_str();
+  command.add_option("--sun-at", options.sun_at, "Where in its step the sun is looked at")
+      ->check(CLI::IsMember({"start", "middle", "end"}))
+      ->type_name("start|middle|end")
+      ->capture_default_str();
+}
+
 void add_year_options(CLI::App& command, YearOptions& options) {
   add_scene_file_options(command, options.scene);
   add_sun_options(command, options);
@@ -138,10 +138,15 @@ void add_year_options(CLI::App& command, YearOptions& options) {
   add_algorithm_option(command, options.algorithm);
 }
 
-Expected<void> check_year_options(const YearOptions& options) {
-  const auto wrong = [](std::string what, std::string expected) -> Expected<void> {
-    return fail(ErrorCode::kUsage, std::move(what), std::move(expected));
-  };
+namespace {
+
+Expected<void> wrong(std::string what, std::string expected) {
+  return fail(ErrorCode::kUsage, std::move(what), std::move(expected));
+}
+
+}  // namespace
+
+Expected<void> check_sun_options(const YearOptions& options) {
   if (!options.at.empty() && !options.weather.empty()) {
     return wrong("--at and --epw are two places", "one of them");
   }
@@ -155,6 +160,11 @@ Expected<void> check_year_options(const YearOptions& options) {
   if (!options.refraction && (options.pressure || options.temperature)) {
     return wrong("--pressure and --temperature are those of --refraction", "--refraction too");
   }
+  return {};
+}
+
+Expected<void> check_year_options(const YearOptions& options) {
+  if (auto checked = check_sun_options(options); !checked) return checked;
   if (options.database.empty() && (!options.shard.empty() || !options.merge.empty())) {
     return wrong(options.shard.empty() ? "--merge without a database"
                                        : "--shard without a database to keep its rows in",

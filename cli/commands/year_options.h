@@ -38,6 +38,8 @@ struct YearOptions {
 };
 
 void add_year_options(CLI::App& command, YearOptions& options);
+/// Those alone that say which suns: place, model, year, and where in its step the sun is looked at.
+void add_sun_options(CLI::App& command, YearOptions& options);
 
 /// The suns that are asked for: of the place of --at, --epw, or the scene itself, in this order.
 /// Errors: kUsage, and those of reading a weather file.
@@ -52,6 +54,7 @@ struct YearShard {
 Expected<YearShard> parse_year_shard(const std::string& text);
 
 /// What does not go together, whatever the scene is. Errors: kUsage.
+Expected<void> check_sun_options(const YearOptions& options);
 Expected<void> check_year_options(const YearOptions& options);
 
 }  // namespace gnomon::cli
