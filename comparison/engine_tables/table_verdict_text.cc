@@ -161,8 +161,11 @@ std::string sums_text(const TableVerdict& verdict) {
 
 /// Whose sun it may have been, where so much is wrong that one wrong sun would explain it.
 std::string hint_text(const TableVerdict& verdict) {
-  constexpr std::uint64_t kFew = 1000;
-  if (!verdict.suns || verdict.wrong.value * kFew < verdict.values || !verdict.failed()) return {};
+  constexpr std::uint64_t kFew = 10, kRare = 1000;
+  if (!verdict.suns || verdict.wrong.value <= kFew ||
+      verdict.wrong.value * kRare <= verdict.values) {
+    return {};
+  }
   if (verdict.suns->model != suns::SunModelId::kEnergyPlus) {
     return line(
         "hint: EnergyPlus has a sun of its own, --sun-model energyplus, by default with "
