@@ -13,6 +13,9 @@
 
 #include "comparison/engine_tables/table_columns.h"
 #include "comparison/engine_tables/table_judge.h"
+#include "comparison/engine_tables/true_share.h"
+#include "gnomon/scene/prepare.h"
+#include "gnomon/scene/read.h"
 #include "tests/support/test_directory.h"
 
 namespace gnomon::comparison {
@@ -236,6 +239,32 @@ TEST_F(EngineTableTest, IsJudgedByDigitsNightAndRange) {
   lenient.add(1, {{1.0 / 3}}, true);
   EXPECT_EQ(lenient.wrong().value, 0u);
   EXPECT_EQ(lenient.wrong().range, 1u);  // no number
+}
+
+TEST_F(EngineTableTest, TheOracleTellsWhatShades) {
+  const std::string file = directory_.file("scene.json");
+  std::ofstream(file) << R"({ "format": "gnomon-scene", "version": 1,
+    "vertices": [[0,0,0],[4,0,0],[4,4,0],[0,4,0],[1,1,1],[3,1,1],[3,3,1],[1,3,1],
+                 [3,1,2],[4,1,2],[4,3,2],[3,3,2]],
+    "polygons": [{"id": "floor", "loop": [0,1,2,3]}, {"id": "small", "loop": [8,9,10,11]},
+                 {"id": "large", "loop": [4,5,6,7]}],
+    "lights": [{"id": "sun", "type": "directional", "to_light": [0,0,1]}] })";
+  const auto read = read_scene(file);
+  ASSERT_TRUE(read);
+  const auto prepared = prepare(read->scene);
+  ASSERT_TRUE(prepared);
+  const oracle::ExactAnswer answer(read->scene, *prepared);
+  const TrueShare floor = true_share(answer, 0, 0, Side::kFront);
+  EXPECT_TRUE(floor.faces);
+  EXPECT_EQ(floor.exact, mpq_class(5, 8));
+  ASSERT_EQ(floor.casters.size(), 2u);
+  EXPECT_EQ(floor.casters[0].polygon, "large");
+  EXPECT_DOUBLE_EQ(floor.casters[0].share, 0.25);
+  EXPECT_DOUBLE_EQ(floor.casters[1].share, 0.125);
+  EXPECT_THAT(true_share(answer, 0, 1, Side::kFront).casters, IsEmpty());
+  const TrueShare back = true_share(answer, 0, 0, Side::kBack);
+  EXPECT_FALSE(back.faces);
+  EXPECT_EQ(back.exact, mpq_class(0));
 }
 
 }  // namespace
