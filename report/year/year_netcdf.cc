@@ -3,12 +3,12 @@
 // in single precision, the times, and where the sun stood. Written beside its place and moved there
 // when it is whole.
 #include <fmt/format.h>
-#include <netcdf.h>
 
 #include <array>
 #include <system_error>
 #include <utility>
 
+#include "report/year/netcdf_library.h"
 #include "report/year/year_writer.h"
 
 namespace gnomon::report {
@@ -17,12 +17,15 @@ namespace {
 
 class YearNetcdf final : public YearWriter {
  public:
-  YearNetcdf(std::filesystem::path file, const YearHead& head)
-      : file_(std::move(file)), temporary_(file_.string() + ".part"), head_(&head) {}
+  YearNetcdf(const NetcdfLibrary& netcdf, std::filesystem::path file, const YearHead& head)
+      : netcdf_(netcdf),
+        file_(std::move(file)),
+        temporary_(file_.string() + ".part"),
+        head_(&head) {}
   YearNetcdf(const YearNetcdf&) = delete;
   YearNetcdf& operator=(const YearNetcdf&) = delete;
   ~YearNetcdf() override {
-    if (is_open_) nc_abort(id_);
+    if (is_open_) netcdf_.abort(id_);
     std::error_code ignored;
     std::filesystem::remove(temporary_, ignored);
   }
@@ -38,10 +41,11 @@ class YearNetcdf final : public YearWriter {
   }
   Expected<void> done() const {
     if (status_ == NC_NOERR) return {};
-    return fail(ErrorCode::kFile, file_.string() + " cannot be written: " + nc_strerror(status_));
+    return fail(ErrorCode::kFile,
+                file_.string() + " cannot be written: " + netcdf_.strerror(status_));
   }
   void text(int variable, const char* name, std::string_view value) {
-    call(nc_put_att_text(id_, variable, name, value.size(), value.data()));
+    call(netcdf_.put_att_text(id_, variable, name, value.size(), value.data()));
   }
   int number(const char* name, const char* long_name, const char* units);
   void define_lit();
@@ -51,6 +55,7 @@ class YearNetcdf final : public YearWriter {
   static constexpr std::size_t kRowsOfChunk = 64, kSidesOfChunk = 1024;
   static constexpr int kDeflate = 2;
 
+  NetcdfLibrary netcdf_;
   std::filesystem::path file_, temporary_;
   const YearHead* head_;
   bool is_open_ = false;
@@ -66,8 +71,8 @@ class YearNetcdf final : public YearWriter {
 /// A variable by time.
 int YearNetcdf::number(const char* name, const char* long_name, const char* units) {
   int variable = 0;
-  call(nc_def_var(id_, name, NC_DOUBLE, 1, &time_dimension_, &variable));
-  call(nc_def_var_chunking(id_, variable, NC_CHUNKED, &kSidesOfChunk));
+  call(netcdf_.def_var(id_, name, NC_DOUBLE, 1, &time_dimension_, &variable));
+  call(netcdf_.def_var_chunking(id_, variable, NC_CHUNKED, &kSidesOfChunk));
   text(variable, "long_name", long_name);
   text(variable, "units", units);
   return variable;
@@ -75,21 +80,21 @@ int YearNetcdf::number(const char* name, const char* long_name, const char* unit
 
 void YearNetcdf::define_lit() {
   const std::array<int, 2> dimensions{time_dimension_, side_dimension_};
-  call(nc_def_var(id_, "lit", NC_FLOAT, 2, dimensions.data(), &lit_));
+  call(netcdf_.def_var(id_, "lit", NC_FLOAT, 2, dimensions.data(), &lit_));
   const std::array<std::size_t, 2> chunk{
       kRowsOfChunk, std::max<std::size_t>(1, std::min(kSidesOfChunk, head_->sides.size()))};
-  call(nc_def_var_chunking(id_, lit_, NC_CHUNKED, chunk.data()));
-  call(nc_def_var_deflate(id_, lit_, 1, 1, kDeflate));
+  call(netcdf_.def_var_chunking(id_, lit_, NC_CHUNKED, chunk.data()));
+  call(netcdf_.def_var_deflate(id_, lit_, 1, 1, kDeflate));
   text(lit_, "long_name", "lit share of the side's area; 0 at night and where it faces away");
   text(lit_, "units", "1");
 }
 
 Expected<void> YearNetcdf::begin() {
-  call(nc_create(temporary_.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_));
+  call(netcdf_.create(temporary_.c_str(), NC_NETCDF4 | NC_CLOBBER, &id_));
   if (auto created = done(); !created) return created;
   is_open_ = true;
-  call(nc_def_dim(id_, "time", NC_UNLIMITED, &time_dimension_));
-  call(nc_def_dim(id_, "side", head_->sides.size(), &side_dimension_));
+  call(netcdf_.def_dim(id_, "time", NC_UNLIMITED, &time_dimension_));
+  call(netcdf_.def_dim(id_, "side", head_->sides.size(), &side_dimension_));
   const suns::Place& place = head_->suns.place;
   // Times are counted in UTC, which readers take for granted.
   time_ =
@@ -97,7 +102,7 @@ Expected<void> YearNetcdf::begin() {
   text(time_, "standard_name", "time");
   text(time_, "calendar", "proleptic_gregorian");
   int side = 0;
-  call(nc_def_var(id_, "side", NC_STRING, 1, &side_dimension_, &side));
+  call(netcdf_.def_var(id_, "side", NC_STRING, 1, &side_dimension_, &side));
   azimuth_ = number("sun_azimuth", "from north, clockwise", "degree");
   altitude_ = number("sun_altitude", "over the horizon", "degree");
   sun_ = {number("sun_x", "direction to the sun, as the scene has it, exactly", "1"),
@@ -110,14 +115,14 @@ Expected<void> YearNetcdf::begin() {
   text(NC_GLOBAL, "geometry", head_->geometry);
   text(NC_GLOBAL, "kernel", head_->kernel);
   text(NC_GLOBAL, "sun_model", suns::name_of(head_->suns.model));
-  call(nc_put_att_double(id_, NC_GLOBAL, "latitude", NC_DOUBLE, 1, &place.latitude));
-  call(nc_put_att_double(id_, NC_GLOBAL, "longitude", NC_DOUBLE, 1, &place.longitude));
+  call(netcdf_.put_att_double(id_, NC_GLOBAL, "latitude", NC_DOUBLE, 1, &place.latitude));
+  call(netcdf_.put_att_double(id_, NC_GLOBAL, "longitude", NC_DOUBLE, 1, &place.longitude));
   const double zone = static_cast<double>(place.zone.count()) / 60;
-  call(nc_put_att_double(id_, NC_GLOBAL, "time_zone", NC_DOUBLE, 1, &zone));
-  call(nc_enddef(id_));
+  call(netcdf_.put_att_double(id_, NC_GLOBAL, "time_zone", NC_DOUBLE, 1, &zone));
+  call(netcdf_.enddef(id_));
   std::vector<const char*> names;
   for (const std::string& name : head_->sides) names.push_back(name.c_str());
-  call(nc_put_var_string(id_, side, names.data()));
+  call(netcdf_.put_var_string(id_, side, names.data()));
   return done();
 }
 
@@ -136,14 +141,14 @@ void YearNetcdf::flush() {
   const std::size_t count = times_.size();
   if (count == 0) return;
   const auto put = [&](int variable, std::vector<double>& values) {
-    call(nc_put_vara_double(id_, variable, &rows_, &count, values.data()));
+    call(netcdf_.put_vara_double(id_, variable, &rows_, &count, values.data()));
     values.clear();
   };
   put(azimuth_, azimuths_);
   put(altitude_, altitudes_);
   for (std::size_t k = 0; k < 3; ++k) put(sun_[k], suns_[k]);
   const std::array<std::size_t, 2> start{rows_, 0}, counts{count, head_->sides.size()};
-  call(nc_put_vara_double(id_, lit_, start.data(), counts.data(), lits_.data()));
+  call(netcdf_.put_vara_double(id_, lit_, start.data(), counts.data(), lits_.data()));
   lits_.clear();
   put(time_, times_);
   rows_ += count;
@@ -151,10 +156,10 @@ void YearNetcdf::flush() {
 
 Expected<void> YearNetcdf::finish(const std::string& checksum) {
   flush();
-  call(nc_redef(id_));
+  call(netcdf_.redef(id_));
   text(NC_GLOBAL, "checksum", checksum);
   is_open_ = false;
-  call(nc_close(id_));
+  call(netcdf_.close(id_));
   if (auto closed = done(); !closed) return closed;
   std::error_code error;
   std::filesystem::rename(temporary_, file_, error);
@@ -166,7 +171,9 @@ Expected<void> YearNetcdf::finish(const std::string& checksum) {
 
 Expected<std::unique_ptr<YearWriter>> open_year_netcdf(const std::filesystem::path& file,
                                                        const YearHead& head) {
-  auto writer = std::make_unique<YearNetcdf>(file, head);
+  const auto netcdf = NetcdfLibrary::load();
+  if (!netcdf) return tl::unexpected(netcdf.error());
+  auto writer = std::make_unique<YearNetcdf>(*netcdf, file, head);
   if (auto begun = writer->begin(); !begun) return tl::unexpected(std::move(begun.error()));
   return writer;
 }
