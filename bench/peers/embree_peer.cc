@@ -106,8 +106,10 @@ struct Estimate {
 
 double uniform(Random& random) { return static_cast<double>(random.next() >> 11) * 0x1p-53; }
 
-Estimate sample(EmbreeScene& scene, const std::vector<Triangle>& triangles, double stratum_area,
-                Random& random) {
+/// `strata_of`: into so many triangles a side each one is cut.
+template <class StrataOf>
+Estimate sample(EmbreeScene& scene, const std::vector<Triangle>& triangles,
+                const StrataOf& strata_of, Random& random) {
   Estimate estimate;
   std::array<Point<float>, 8> points{};
   std::array<int, 8> lit{};
@@ -125,7 +127,7 @@ Estimate sample(EmbreeScene& scene, const std::vector<Triangle>& triangles, doub
     filled = 0;
   };
   for (const Triangle& triangle : triangles) {
-    const auto k = static_cast<std::int64_t>(std::ceil(std::sqrt(triangle.area / stratum_area)));
+    const std::int64_t k = strata_of(triangle);
     const double side = 1 / static_cast<double>(k), area = triangle.area * side * side;
     for (std::int64_t row = 0; row < k; ++row) {
       // Upright and, between them, inverted triangles.
@@ -153,19 +155,19 @@ Estimate sample(EmbreeScene& scene, const std::vector<Triangle>& triangles, doub
   return estimate;
 }
 
-}  // namespace
-
-PeerResult run_embree(const PreparedScene& scene, std::uint32_t light) {
-  const double start = cpu_seconds();
-  const LightView view(scene, light);
-  const std::array<double, 3>& lamp = scene.lights[light].point.nearest;
+/// Positions as seen from the lamp.
+std::vector<Point<double>> seen_from_lamp(const PreparedScene& scene, std::uint32_t light) {
   std::vector<Point<double>> positions;
   for (const std::array<double, 3>& position : scene.geometry.positions) {
-    positions.push_back(minus(position, lamp));
+    positions.push_back(minus(position, scene.lights[light].point.nearest));
   }
-  EmbreeScene embree(view, positions);
+  return positions;
+}
+
+/// Those of all parts that face the lamp.
+std::vector<Triangle> triangles_of(const LightView& view,
+                                   const std::vector<Point<double>>& positions) {
   std::vector<Triangle> triangles;
-  double total_area = 0;
   for (const std::uint32_t part : view.facing()) {
     const auto loop = view.loop(part);
     for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
@@ -173,16 +175,48 @@ PeerResult run_embree(const PreparedScene& scene, std::uint32_t light) {
                         minus(positions[loop[i + 1]], positions[loop[0]]), 0};
       const Point<double> normal = cross(triangle.u, triangle.v);
       triangle.area = std::sqrt(dot(normal, normal)) / 2;
-      total_area += triangle.area;
       triangles.push_back(triangle);
     }
   }
+  return triangles;
+}
+
+}  // namespace
+
+PeerResult run_embree_rays(const PreparedScene& scene, std::uint32_t light) {
+  const double start = cpu_seconds();
+  const LightView view(scene, light);
+  const std::vector<Point<double>> positions = seen_from_lamp(scene, light);
+  EmbreeScene embree(view, positions);
+  Random random(1);
+  // Two rays in each of 32^2 triangles, and a quadrangle is two of these.
+  const auto strata = [](const Triangle&) { return std::int64_t{32}; };
+  const Estimate estimate = sample(embree, triangles_of(view, positions), strata, random);
+  PeerResult result;
+  result.lit_area = estimate.lit_area;
+  result.seconds = cpu_seconds() - start;
+  result.work = grouped(estimate.rays) + " rays";
+  return result;
+}
+
+PeerResult run_embree(const PreparedScene& scene, std::uint32_t light) {
+  const double start = cpu_seconds();
+  const LightView view(scene, light);
+  const std::vector<Point<double>> positions = seen_from_lamp(scene, light);
+  EmbreeScene embree(view, positions);
+  const std::vector<Triangle> triangles = triangles_of(view, positions);
+  double total_area = 0;
+  for (const Triangle& triangle : triangles) total_area += triangle.area;
   Random random(1);
   double strata = kFirstStrata;
   std::uint64_t rays = 0;
   PeerResult result;
   for (;;) {
-    const Estimate estimate = sample(embree, triangles, total_area / strata, random);
+    const double stratum_area = total_area / strata;
+    const auto strata_of = [&](const Triangle& triangle) {
+      return static_cast<std::int64_t>(std::ceil(std::sqrt(triangle.area / stratum_area)));
+    };
+    const Estimate estimate = sample(embree, triangles, strata_of, random);
     rays += estimate.rays;
     const double error = std::sqrt(estimate.variance) / estimate.lit_area;
     if (estimate.lit_area == 0 || error <= kRelativeError) {

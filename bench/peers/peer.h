@@ -37,6 +37,9 @@ std::span<const Peer> peers();
 PeerResult run_cgal(const PreparedScene& scene, std::uint32_t light);
 PeerResult run_clipper(const PreparedScene& scene, std::uint32_t light);
 PeerResult run_embree(const PreparedScene& scene, std::uint32_t light);
+/// 4,096 rays to every quadrangle that faces the light, 2,048 to a triangle: no polygon's own share
+/// is known better than to one or two digits then.
+PeerResult run_embree_rays(const PreparedScene& scene, std::uint32_t light);
 
 /// Area of each part, scene units squared.
 std::vector<double> part_areas(const PreparedScene& scene);

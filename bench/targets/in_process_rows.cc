@@ -81,6 +81,34 @@ void measure_kernels(TargetRun& run, const SizedScene& sized, MethodId method, b
 
 }  // namespace
 
+void measure_rays(TargetRun& run) {
+  const SizedScene sized = city(run.size(200, 2000));
+  const std::string name = "one light, against 4,096 Embree rays a polygon";
+#if GNOMON_BENCH_PEERS
+  fmt::print(stderr, "gnomon_bench: {}, Embree\n", sized.title);
+  const PreparedScene scene = make_scene(sized.recipe);
+  const ShadowOptions options = options_for(MethodId::kContour, KernelId::kPlane);
+  ShadowResult result;
+  PeerResult rival;
+  const std::vector<Times> times = interleaved({[&] { result = shadows_or_stop(scene, options); },
+                                                [&] { rival = run_embree_rays(scene, 0); }},
+                                               1);
+  const std::vector<double> areas = part_areas(scene);
+  const double exact = lit_area(result.lights[0], areas);
+  constexpr double kTolerance = 1e-3;  // of sampling
+  const bool same = std::abs(rival.lit_area - exact) <= kTolerance * exact;
+  run.good = run.good && same;
+  run.answers.add({fmt::format("lit area within {}", kTolerance), sized.title,
+                   grouped(areas.size()), fmt::format("Embree {:.9g}", rival.lit_area),
+                   fmt::format("{:.9g}", exact), same ? "yes" : "NO"});
+  run.verdicts.add(name, sized.title, at_least(1), {median_ratio(times[1].cpu, times[0].cpu)},
+                   before_and_now(median(times[1].cpu), median(times[0].cpu)) + ", " + rival.work);
+#else
+  run.verdicts.add(name, sized.title, at_least(1), {kNotMeasured},
+                   "not built: ./dev bench --peers targets");
+#endif
+}
+
 void measure_clipper(TargetRun& run) {
   measure_one(run, quads(run.size(1000, 10'000)));
   measure_one(run, triangles(run.size(5, 7)));

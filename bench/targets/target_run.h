@@ -99,6 +99,7 @@ void measure_year(TargetRun& run);
 void measure_lamps(TargetRun& run);
 void measure_whole_process(TargetRun& run);
 void measure_clipper(TargetRun& run);
+void measure_rays(TargetRun& run);
 void measure_plane_and_double(TargetRun& run);
 
 }  // namespace gnomon::bench

@@ -66,7 +66,7 @@ bool run_targets(Extent extent, const std::string& against, bool json) {
                                         : "none: ratios to another build are not measured";
   if (!json) fmt::print("\nTargets of speed\nagainst:  {}\n", before);
   for (const auto measure : {measure_suns, measure_year, measure_lamps, measure_whole_process,
-                             measure_clipper, measure_plane_and_double}) {
+                             measure_rays, measure_clipper, measure_plane_and_double}) {
     measure(run);
   }
   if (json) {
