@@ -18,7 +18,6 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/jobs.h"
 #include "cli/common/messages.h"
-#include "cli/common/output.h"
 #include "cli/common/progress.h"
 #include "cli/common/statistics.h"
 #include "gnomon/kernel/kernel_choice.h"
@@ -28,6 +27,7 @@
 #include "report/year/row_sum.h"
 #include "report/year/sun_hours.h"
 #include "report/year/year_writer.h"
+#include "scene/base/output_file.h"
 
 namespace gnomon::cli {
 
@@ -57,14 +57,16 @@ class Tables {
     for (const auto& writer : writers_) {
       if (auto done = writer->finish(sum_.text()); !done) return done;
     }
-    return hours_ ? write_output(hours_file_, hours_->text()) : Expected<void>();
+    if (!hours_) return {};
+    if (auto written = hours_file_->write(hours_->text()); !written) return written;
+    return hours_file_->commit();
   }
   std::string checksum() const { return sum_.text(); }
 
  private:
   std::vector<std::unique_ptr<report::YearWriter>> writers_;
   std::optional<report::SunHours> hours_;
-  std::string hours_file_;
+  std::optional<OutputFile> hours_file_;
   report::RowSum sum_;
   const report::GrossShares* gross_ = nullptr;
   std::vector<double> row_;
@@ -93,7 +95,9 @@ Expected<Tables> Tables::open(const YearOptions& options, const report::YearHead
   }
   if (!options.hours.empty()) {
     tables.hours_.emplace(head.sides, head.suns.step);
-    tables.hours_file_ = options.hours;
+    auto file = OutputFile::open(options.hours);
+    if (!file) return tl::unexpected(std::move(file.error()));
+    tables.hours_file_ = *std::move(file);
   }
   return tables;
 }

@@ -322,6 +322,9 @@ TEST_F(Year, WrongOptionsAreOneLine) {
           "no share of the rows");
   refused({"--at=1,2", "--tz", "0", "-o", file("t.xlsx")}, "names no format of years");
   refused({"--at=1,2", "--tz", "0", "-o", "/nowhere/t.nc"}, "/nowhere/t.nc");
+  refused({"--at=1,2", "--tz", "0", "-o", file("t.csv"), "--hours", "/nowhere/h.csv"},
+          "/nowhere/h.csv");
+  EXPECT_FALSE(std::filesystem::exists(file("t.csv")));
   refused({"--at=1,2", "--tz", "0", "--db", scene()}, "plate.json: ");
   EXPECT_EQ(read_text(scene()), kPlate);
 }
