@@ -332,6 +332,7 @@ Expected<void> compute_year(const YearOptions& options) {
     head.geometry = geometry_digest(scene);
     head.kernel = kernel->name();
     head.rows = times.size();
+    head.digits = options.digits;
     if (!options.database.empty()) {
       const std::string identity = identity_of(head, scene, options.algorithm);
       auto opened = YearDatabase::open(options.database, identity);

@@ -35,6 +35,12 @@ void add_table_options(CLI::App& command, YearOptions& options) {
       ->type_name("FILE.csv");
   command.add_option("--hours", options.hours, "Hours of sun of every side, by month")
       ->type_name("FILE.csv");
+  command
+      .add_option("--digits", options.digits,
+                  ".nc: significant digits of shares; fewer make smaller files")
+      ->check(CLI::Range(1, 7))
+      ->type_name("N")
+      ->capture_default_str();
   command.add_flag("--gross", options.gross,
                    "Beside each wall with windows or doors in its holes a column WALL#gross, the\n"
                    "share of all of it, openings included");

@@ -33,6 +33,7 @@ struct YearOptions {
   std::string database, shard;
   std::vector<std::string> merge;
   bool gross = false, stats = false;
+  int digits = 7;
 
   bool writes_tables() const { return !output.empty() || !shading.empty() || !hours.empty(); }
 };

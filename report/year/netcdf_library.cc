@@ -28,6 +28,7 @@ Expected<NetcdfLibrary> NetcdfLibrary::load() {
   find(result.def_var, "nc_def_var");
   find(result.def_var_chunking, "nc_def_var_chunking");
   find(result.def_var_deflate, "nc_def_var_deflate");
+  find(result.def_var_quantize, "nc_def_var_quantize");
   find(result.put_att_text, "nc_put_att_text");
   find(result.put_att_double, "nc_put_att_double");
   find(result.put_var_string, "nc_put_var_string");

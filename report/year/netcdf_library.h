@@ -21,6 +21,7 @@ struct NetcdfLibrary {
   decltype(&nc_def_var) def_var;
   decltype(&nc_def_var_chunking) def_var_chunking;
   decltype(&nc_def_var_deflate) def_var_deflate;
+  decltype(&nc_def_var_quantize) def_var_quantize;
   decltype(&nc_put_att_text) put_att_text;
   decltype(&nc_put_att_double) put_att_double;
   decltype(&nc_put_var_string) put_var_string;

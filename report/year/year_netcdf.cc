@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <system_error>
 #include <utility>
 
@@ -54,6 +55,7 @@ class YearNetcdf final : public YearWriter {
   // Rows are handed over so many at a time, which is also how they lie in the file.
   static constexpr std::size_t kRowsOfChunk = 64, kSidesOfChunk = 1024;
   static constexpr int kDeflate = 2;
+  static constexpr int kAllDigits = 7;  // of single precision
 
   NetcdfLibrary netcdf_;
   std::filesystem::path file_, temporary_;
@@ -84,6 +86,10 @@ void YearNetcdf::define_lit() {
   const std::array<std::size_t, 2> chunk{
       kRowsOfChunk, std::max<std::size_t>(1, std::min(kSidesOfChunk, head_->sides.size()))};
   call(netcdf_.def_var_chunking(id_, lit_, NC_CHUNKED, chunk.data()));
+  if (head_->digits < kAllDigits) {
+    const int bits = static_cast<int>(std::ceil(head_->digits * std::log2(10.0)));
+    call(netcdf_.def_var_quantize(id_, lit_, NC_QUANTIZE_BITROUND, bits));
+  }
   call(netcdf_.def_var_deflate(id_, lit_, 1, 1, kDeflate));
   text(lit_, "long_name", "lit share of the side's area; 0 at night and where it faces away");
   text(lit_, "units", "1");

@@ -26,6 +26,7 @@ struct YearHead {
   suns::YearOptions suns;
   std::vector<std::string> sides;  // columns
   std::size_t rows = 0;            // that are to come
+  int digits = 7;                  // of shares in netCDF files; 7: all of single precision
 };
 
 class YearWriter {

@@ -170,6 +170,12 @@ TEST_F(Year, FormatsSayTheSame) {
   nc_free_string(3, names.data());
   ASSERT_EQ(nc_close(id), NC_NOERR);
   EXPECT_EQ(times[0], 1759303800);  // 2025-10-01 07:30 UTC
+  with({"-o", file("short.nc"), "--digits", "4"});
+  ASSERT_EQ(nc_open(file("short.nc").c_str(), NC_NOWRITE, &id), NC_NOERR);
+  ASSERT_EQ(nc_inq_varid(id, "lit", &lit), NC_NOERR);
+  std::vector<double> rough(120 * 3);
+  ASSERT_EQ(nc_get_var_double(id, lit, rough.data()), NC_NOERR);
+  ASSERT_EQ(nc_close(id), NC_NOERR);
   double hours = 0;
   for (std::size_t i = 0; i < 120; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -178,6 +184,7 @@ TEST_F(Year, FormatsSayTheSame) {
       std::memcpy(&from_npy, npy.data() + 192 + (3 * i + k) * sizeof(double), sizeof(double));
       EXPECT_EQ(share, from_npy);
       EXPECT_EQ(static_cast<float>(share), values[3 * i + k]);
+      EXPECT_NEAR(share, rough[3 * i + k], 0.5e-4 * share);
     }
     hours += csv.values[i][3];
   }
