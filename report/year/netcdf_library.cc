@@ -33,6 +33,7 @@ Expected<NetcdfLibrary> NetcdfLibrary::load() {
   find(result.put_att_double, "nc_put_att_double");
   find(result.put_var_string, "nc_put_var_string");
   find(result.put_vara_double, "nc_put_vara_double");
+  find(result.put_vara_float, "nc_put_vara_float");
   find(result.strerror, "nc_strerror");
   if (missing.empty()) return result;
   return fail(ErrorCode::kFile, "no netCDF file can be written: " + missing,

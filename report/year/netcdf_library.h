@@ -26,6 +26,7 @@ struct NetcdfLibrary {
   decltype(&nc_put_att_double) put_att_double;
   decltype(&nc_put_var_string) put_var_string;
   decltype(&nc_put_vara_double) put_vara_double;
+  decltype(&nc_put_vara_float) put_vara_float;
   decltype(&nc_strerror) strerror;
 
   /// Errors: kFile, where the library is not installed.

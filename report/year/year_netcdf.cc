@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Years as netCDF-4, by the CF conventions, compressed: dimensions time and side; lit(time, side),
+// Years as netCDF-4, by the CF conventions, compressed: dimensions side and time; lit(side, time),
 // in single precision, the times, and where the sun stood. Written beside its place and moved there
 // when it is whole.
 #include <fmt/format.h>
@@ -53,8 +53,9 @@ class YearNetcdf final : public YearWriter {
   void flush();
 
   // Rows are handed over so many at a time, which is also how they lie in the file.
-  static constexpr std::size_t kRowsOfChunk = 64, kSidesOfChunk = 1024;
-  static constexpr int kDeflate = 2;
+  static constexpr std::size_t kRowsOfChunk = 128, kSidesOfChunk = 256;
+  static constexpr std::size_t kTimesOfChunk = 1024;  // of variables by time alone
+  static constexpr int kDeflate = 5;
   static constexpr int kAllDigits = 7;  // of single precision
 
   NetcdfLibrary netcdf_;
@@ -66,7 +67,8 @@ class YearNetcdf final : public YearWriter {
   int time_ = 0, lit_ = 0, azimuth_ = 0, altitude_ = 0;
   std::array<int, 3> sun_{};
   std::size_t rows_ = 0;  // in the file
-  std::vector<double> times_, azimuths_, altitudes_, lits_;
+  std::vector<double> times_, azimuths_, altitudes_;
+  std::vector<float> lits_;  // by side, then by row of the chunk
   std::array<std::vector<double>, 3> suns_;
 };
 
@@ -74,23 +76,24 @@ class YearNetcdf final : public YearWriter {
 int YearNetcdf::number(const char* name, const char* long_name, const char* units) {
   int variable = 0;
   call(netcdf_.def_var(id_, name, NC_DOUBLE, 1, &time_dimension_, &variable));
-  call(netcdf_.def_var_chunking(id_, variable, NC_CHUNKED, &kSidesOfChunk));
+  call(netcdf_.def_var_chunking(id_, variable, NC_CHUNKED, &kTimesOfChunk));
   text(variable, "long_name", long_name);
   text(variable, "units", units);
   return variable;
 }
 
 void YearNetcdf::define_lit() {
-  const std::array<int, 2> dimensions{time_dimension_, side_dimension_};
+  // The hours of one side follow each other, since they are alike: half the size of the other way.
+  const std::array<int, 2> dimensions{side_dimension_, time_dimension_};
   call(netcdf_.def_var(id_, "lit", NC_FLOAT, 2, dimensions.data(), &lit_));
   const std::array<std::size_t, 2> chunk{
-      kRowsOfChunk, std::max<std::size_t>(1, std::min(kSidesOfChunk, head_->sides.size()))};
+      std::max<std::size_t>(1, std::min(kSidesOfChunk, head_->sides.size())), kRowsOfChunk};
   call(netcdf_.def_var_chunking(id_, lit_, NC_CHUNKED, chunk.data()));
   if (head_->digits < kAllDigits) {
     const int bits = static_cast<int>(std::ceil(head_->digits * std::log2(10.0)));
     call(netcdf_.def_var_quantize(id_, lit_, NC_QUANTIZE_BITROUND, bits));
   }
-  call(netcdf_.def_var_deflate(id_, lit_, 1, 1, kDeflate));
+  call(netcdf_.def_var_deflate(id_, lit_, 0, 1, kDeflate));
   text(lit_, "long_name", "lit share of the side's area; 0 at night and where it faces away");
   text(lit_, "units", "1");
 }
@@ -138,7 +141,10 @@ Expected<void> YearNetcdf::add(const suns::SunTime& sun, std::span<const double>
   azimuths_.push_back(sun.angles.azimuth);
   altitudes_.push_back(sun.angles.altitude);
   for (std::size_t k = 0; k < 3; ++k) suns_[k].push_back(1e-6 * sun.direction[k]);
-  lits_.insert(lits_.end(), lit.begin(), lit.end());
+  if (lits_.empty()) lits_.resize(kRowsOfChunk * lit.size());
+  for (std::size_t side = 0; side < lit.size(); ++side) {
+    lits_[side * kRowsOfChunk + times_.size() - 1] = static_cast<float>(lit[side]);
+  }
   if (times_.size() == kRowsOfChunk) flush();
   return done();
 }
@@ -153,9 +159,14 @@ void YearNetcdf::flush() {
   put(azimuth_, azimuths_);
   put(altitude_, altitudes_);
   for (std::size_t k = 0; k < 3; ++k) put(sun_[k], suns_[k]);
-  const std::array<std::size_t, 2> start{rows_, 0}, counts{count, head_->sides.size()};
-  call(netcdf_.put_vara_double(id_, lit_, start.data(), counts.data(), lits_.data()));
-  lits_.clear();
+  const std::array<std::size_t, 2> start{0, rows_}, counts{head_->sides.size(), count};
+  if (count < kRowsOfChunk) {  // the last rows: without the gaps of those that did not come
+    for (std::size_t side = 1; side < head_->sides.size(); ++side) {
+      std::copy_n(lits_.begin() + static_cast<std::ptrdiff_t>(side * kRowsOfChunk), count,
+                  lits_.begin() + static_cast<std::ptrdiff_t>(side * count));
+    }
+  }
+  call(netcdf_.put_vara_float(id_, lit_, start.data(), counts.data(), lits_.data()));
   put(time_, times_);
   rows_ += count;
 }

@@ -183,8 +183,8 @@ TEST_F(Year, FormatsSayTheSame) {
       double from_npy = 0;
       std::memcpy(&from_npy, npy.data() + 192 + (3 * i + k) * sizeof(double), sizeof(double));
       EXPECT_EQ(share, from_npy);
-      EXPECT_EQ(static_cast<float>(share), values[3 * i + k]);
-      EXPECT_NEAR(share, rough[3 * i + k], 0.5e-4 * share);
+      EXPECT_EQ(static_cast<float>(share), values[120 * k + i]);
+      EXPECT_NEAR(share, rough[120 * k + i], 0.5e-4 * share);
     }
     hours += csv.values[i][3];
   }

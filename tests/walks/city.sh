@@ -34,7 +34,7 @@ table = pandas.read_csv("two.csv", index_col=0, parse_dates=True)
 assert year.sizes["time"] == 8760 and len(table) == 8760
 sides = [str(name) for name in year.side.values]
 assert sides == list(table.columns[3:])
-assert numpy.abs(year.lit.values - table[sides].values).max() < 1e-7
+assert numpy.abs(year.lit.transpose("time", "side").values - table[sides].values).max() < 1e-7
 hours = pandas.read_csv("hours.csv", index_col=0)
 assert numpy.allclose(table[sides].sum().values, hours.loc[sides, "all"].values, rtol=1e-8)
 june = year.lit.sel(time=slice("2026-06-01", "2026-06-30"), side="low/0")
