@@ -53,7 +53,7 @@ class YearNetcdf final : public YearWriter {
   void flush();
 
   // Rows are handed over so many at a time, which is also how they lie in the file.
-  static constexpr std::size_t kRowsOfChunk = 128, kSidesOfChunk = 256;
+  static constexpr std::size_t kRowsOfChunk = 256, kSidesOfChunk = 256;
   static constexpr std::size_t kTimesOfChunk = 1024;  // of variables by time alone
   static constexpr int kDeflate = 5;
   static constexpr int kAllDigits = 7;  // of single precision
