@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "cli/commands/year_rows.h"
-#include "cli/common/algorithm_choice.h"
 #include "cli/common/exit_status.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/jobs.h"
@@ -53,8 +52,8 @@ class TableRun {
  private:
   Expected<void> read(Scene& scene);
   Expected<std::vector<std::uint32_t>> choose(const EngineTable& head, const Scene& scene);
-  Expected<void> find_suns(const Scene& scene);
-  Expected<void> suns_of_place(const Scene& scene);
+  Expected<void> find_suns();
+  Expected<void> suns_of_place();
   void suns_of_table();
   void find_shares(const TrueColumns& truth, const Scene& scene);
   Expected<void> judge(const PreparedScene& prepared, const TrueColumns& truth,
@@ -99,9 +98,11 @@ Expected<void> TableRun::read(Scene& scene) {
       if (auto checked = rules_.check_own_suns(file_); !checked) {
         return tl::unexpected(std::move(checked.error()));
       }
-    } else if (auto asked = suns_asked(options_.suns, scene); !asked) {
-      // Told before a long table is read.
-      return tl::unexpected(std::move(asked.error()));
+    } else {
+      // What is wrong with it is told before a long table is read.
+      auto asked = suns_asked(options_.suns, scene);
+      if (!asked) return tl::unexpected(std::move(asked.error()));
+      asked_ = *std::move(asked);
     }
     return choose(head, scene);
   };
@@ -113,7 +114,7 @@ Expected<void> TableRun::read(Scene& scene) {
   if (!read) return tl::unexpected(std::move(read.error()));
   table_ = *std::move(read);
   geometry_digest_ = geometry_digest(scene);
-  if (auto found = find_suns(scene); !found) return found;
+  if (auto found = find_suns(); !found) return found;
   std::vector<std::size_t> rows(table_.rows.size());
   for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = row;
   suns_ = std::make_unique<SunsOfRows>(times_, std::move(rows), zone_);
@@ -121,8 +122,8 @@ Expected<void> TableRun::read(Scene& scene) {
   return {};
 }
 
-Expected<void> TableRun::find_suns(const Scene& scene) {
-  if (table_.form == TableForm::kEnergyPlus) return suns_of_place(scene);
+Expected<void> TableRun::find_suns() {
+  if (asked_) return suns_of_place();
   suns_of_table();
   return {};
 }
@@ -146,34 +147,32 @@ void TableRun::suns_of_table() {
   }
 }
 
-Expected<void> TableRun::suns_of_place(const Scene& scene) {
-  auto asked = suns_asked(options_.suns, scene);
-  if (!asked) return tl::unexpected(std::move(asked.error()));
+Expected<void> TableRun::suns_of_place() {
   constexpr std::chrono::seconds kInStep{1};
-  asked->first = suns::day_of(table_.rows.front().time - kInStep);
-  asked->last = suns::day_of(table_.rows.back().time - kInStep);
-  asked->step = std::chrono::duration_cast<suns::Minutes>(table_.step);
+  asked_->first = suns::day_of(table_.rows.front().time - kInStep);
+  asked_->last = suns::day_of(table_.rows.back().time - kInStep);
+  asked_->step = std::chrono::duration_cast<suns::Minutes>(table_.step);
   if (!rules_.sun_at_given()) {
     // As EnergyPlus has it: half an hour before the end of an hour, else at the end of a step.
-    asked->sun_at = asked->step == std::chrono::hours(1) ? suns::SunAt::kMiddle : suns::SunAt::kEnd;
+    asked_->sun_at =
+        asked_->step == std::chrono::hours(1) ? suns::SunAt::kMiddle : suns::SunAt::kEnd;
   }
-  auto all = suns::year_of_suns(*asked);
+  auto all = suns::year_of_suns(*asked_);
   if (!all) {
     all.error().what = table_.file + ": " + all.error().what;
     return tl::unexpected(std::move(all.error()));
   }
   for (const comparison::TableRow& row : table_.rows) {
-    const auto since = row.time - suns::CivilTime(asked->first);
-    if (since % asked->step != std::chrono::seconds(0)) {
+    const auto since = row.time - suns::CivilTime(asked_->first);
+    if (since % asked_->step != std::chrono::seconds(0)) {
       return fail(ErrorCode::kFormat,
                   table_.file + ": '" + suns::end_of_step_text(row.time) + "' ends no step of " +
-                      std::to_string(asked->step.count()) + " minutes, the least between two rows",
+                      std::to_string(asked_->step.count()) + " minutes, the least between two rows",
                   "times in equal steps from midnight");
     }
-    times_.push_back((*all)[static_cast<std::size_t>(since / asked->step) - 1]);
+    times_.push_back((*all)[static_cast<std::size_t>(since / asked_->step) - 1]);
   }
-  zone_ = asked->place.zone;
-  asked_ = *std::move(asked);
+  zone_ = asked_->place.zone;
   return {};
 }
 
@@ -205,10 +204,6 @@ Expected<void> TableRun::judge(const PreparedScene& prepared, const TrueColumns&
   if (!rows.advance()) return fail(ErrorCode::kInterrupted, "interrupted");
   if (suns_->lights.empty()) return {};
   ShadowOptions shadows;
-  auto algorithm = parse_algorithm_choice(kAutomaticName);
-  if (!algorithm) return tl::unexpected(std::move(algorithm.error()));
-  algorithm->point = MethodId::kContour;
-  algorithm->apply(shadows.method);
   shadows.tuning.jobs = options_.scene.jobs;
   shadows.control.interrupted = &interrupted();
   shadows.control.light_done = [&](LightResult&& light) {
@@ -292,6 +287,7 @@ void TableRun::explain(const LoadedScene& loaded, TableVerdict& verdict) {
     if (!witness.is_day || column.gross) continue;
     witness.truth = comparison::true_share(answer, suns_->light[witness.value.row], column.polygon,
                                            column.side);
+    // The kernel's shares are within 1e-14; far more than that is a fault of one of the two.
     constexpr double kRounding = 1e-12;
     verdict.oracle_fault = verdict.oracle_fault ||
                            witness.value.truth < witness.truth->lit.lower - kRounding ||

@@ -40,7 +40,7 @@ class Tables {
   static Expected<Tables> open(const YearOptions& options, const report::YearHead& head,
                                const report::GrossShares& gross);
 
-  /// `lit`: of the sides; those of whole walls are added here.
+  /// Shares of the sides; those of whole walls are added here.
   Expected<void> add(const suns::SunTime& sun, std::span<const double> sides) {
     row_.assign(sides.begin(), sides.end());
     row_.resize(sides.size() + gross_->size());
@@ -314,7 +314,6 @@ Expected<void> compute_year(const YearOptions& options) {
   if (!kernel) return tl::unexpected(std::move(kernel.error()));
   auto algorithm = parse_algorithm_choice(options.algorithm);
   if (!algorithm) return tl::unexpected(std::move(algorithm.error()));
-  if (options.algorithm == kAutomaticName && kernel->exact()) algorithm->point = MethodId::kContour;
 
   // The scene tells the place, the place the suns, and the database which of them are missing.
   report::YearHead head;
@@ -354,7 +353,8 @@ Expected<void> compute_year(const YearOptions& options) {
   shadows.kernel.id = kernel->kernel;
   shadows.kernel.identity = kernel->identity;
   if (kernel->thin) shadows.kernel.thickness = 0;
-  algorithm->apply(shadows.method);
+  // Left alone, compute_shadows() takes the method that is best for shares alone.
+  if (options.algorithm != kAutomaticName) algorithm->apply(shadows.method);
   shadows.tuning.jobs = options.scene.jobs;
   YearRun run(options, std::move(shadows), *std::move(loaded), std::move(times), *std::move(suns),
               std::move(head), std::move(database));

@@ -56,7 +56,6 @@ class YearNetcdf final : public YearWriter {
   static constexpr std::size_t kRowsOfChunk = 256, kSidesOfChunk = 256;
   static constexpr std::size_t kTimesOfChunk = 1024;  // of variables by time alone
   static constexpr int kDeflate = 5;
-  static constexpr int kAllDigits = 7;  // of single precision
 
   NetcdfLibrary netcdf_;
   std::filesystem::path file_, temporary_;
@@ -89,7 +88,7 @@ void YearNetcdf::define_lit() {
   const std::array<std::size_t, 2> chunk{
       std::max<std::size_t>(1, std::min(kSidesOfChunk, head_->sides.size())), kRowsOfChunk};
   call(netcdf_.def_var_chunking(id_, lit_, NC_CHUNKED, chunk.data()));
-  if (head_->digits < kAllDigits) {
+  if (head_->digits < YearHead::kAllDigits) {
     const int bits = static_cast<int>(std::ceil(head_->digits * std::log2(10.0)));
     call(netcdf_.def_var_quantize(id_, lit_, NC_QUANTIZE_BITROUND, bits));
   }

@@ -24,9 +24,10 @@ struct YearHead {
   std::string scene, geometry;  // name, digest
   std::string kernel;
   suns::YearOptions suns;
-  std::vector<std::string> sides;  // columns
-  std::size_t rows = 0;            // that are to come
-  int digits = 7;                  // of shares in netCDF files; 7: all of single precision
+  std::vector<std::string> sides;       // columns
+  std::size_t rows = 0;                 // that are to come
+  static constexpr int kAllDigits = 7;  // of single precision
+  int digits = kAllDigits;              // of shares in netCDF files
 };
 
 class YearWriter {
