@@ -296,7 +296,9 @@ void TableRun::explain(const LoadedScene& loaded, TableVerdict& verdict) {
 }
 
 Expected<TableVerdict> TableRun::run() {
-  auto loaded = load_scene_under(options_.scene, [&](Scene& scene) { return read(scene); });
+  SceneOptions as_year_has_it = options_.scene;
+  as_year_has_it.keep_axes = true;
+  auto loaded = load_scene_under(as_year_has_it, [&](Scene& scene) { return read(scene); });
   if (!loaded) return tl::unexpected(std::move(loaded.error()));
   warn_of_intent(*loaded);
   const TrueColumns truth(loaded->scene, loaded->prepared);

@@ -134,6 +134,7 @@ void add_sun_options(CLI::App& command, YearOptions& options) {
 }
 
 void add_year_options(CLI::App& command, YearOptions& options) {
+  options.scene.keep_axes = true;  // the sun is turned instead, so that geometry stays exact
   add_scene_file_options(command, options.scene);
   add_sun_options(command, options);
   add_time_options(command, options);

@@ -134,6 +134,7 @@ ReadOptions read_options(const SceneOptions& options) {
   ReadOptions result;
   result.numbers = numbers_asked(options.numbers);
   result.skip_bad = options.skip_bad;
+  result.keep_axes = options.keep_axes;
   result.lod = options.lod;
   return result;
 }

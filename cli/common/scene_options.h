@@ -26,6 +26,7 @@ struct SceneOptions {
   unsigned jobs = 0;                // threads; 0: one a processor
   bool two_sided = false;           // all polygons, whatever the file says
   bool skip_bad = false;            // polygons that cannot be used are left out
+  bool keep_axes = false;           // of energy models, where the command turns its suns
   std::string lod;                  // of CityJSON; empty: the highest
 };
 

@@ -290,6 +290,35 @@ TEST_F(Year, PlacesOfFiles) {
   EXPECT_EQ(run(year(scene(), with_epw)), run(phoenix(scene(), with_at)));
 }
 
+/// A building with a north axis: the sun is turned, by `year` and by `certify` of its table. Turned
+/// geometry under the world's sun gives the same, but for six digits of the sun.
+TEST_F(Year, TheSunIsTurnedForTheBuilding) {
+  write_text(file("house.idf"), R"(Version, 23.1;
+Building, House, 30;
+GlobalGeometryRules, UpperLeftCorner, Counterclockwise, Relative;
+Zone, Hall, 0, 0, 0, 0;
+BuildingSurface:Detailed, South, Wall, C, Hall, , Outdoors, , , , , 4, 0,0,3, 0,0,0, 8,0,0, 8,0,3;
+Shading:Building:Detailed, Ledge, , 4, 0,0,3, 8,0,3, 8,-1,3, 0,-1,3;
+)");
+  const std::vector<std::string> day{"--from", "02-20", "--to", "02-20"};
+  run({"convert", file("house.idf"), file("turned.json")});
+  const std::string csv = run(phoenix(file("house.idf"), day));
+  const Table own = table_of(csv), world = table_of(run(phoenix(file("turned.json"), day)));
+  ASSERT_EQ(own.values.size(), world.values.size());
+  unsigned partly = 0;
+  for (std::size_t i = 0; i < own.values.size(); ++i) {
+    const auto &a = own.values[i], &b = world.values[i];
+    const double cosine = std::sqrt(0.75);
+    EXPECT_NEAR(a[0], cosine * b[0] - 0.5 * b[1], 2e-6);
+    EXPECT_NEAR(a[1], 0.5 * b[0] + cosine * b[1], 2e-6);
+    for (std::size_t k = 3; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-4) << i << ' ' << k;
+    partly += a[3] > 0 && a[3] < 1;
+  }
+  EXPECT_GT(partly, 3u);
+  write_text(file("own.csv"), csv);
+  run({"certify", file("house.idf"), "--candidate", file("own.csv")});
+}
+
 TEST_F(Year, NightsAndLeapDays) {
   const Table polar =
       table_of(run(year(scene(), {"--at=80,10", "--tz", "1", "--from", "12-20", "--to", "12-21"})));
