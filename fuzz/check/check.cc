@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fuzz/check/border_check.h"
 #include "fuzz/check/cause.h"
 #include "fuzz/check/judged_scene.h"
 #include "fuzz/mistakes/compute.h"
@@ -142,7 +143,7 @@ class SceneCheck {
   }
   bool is_left_out(Property property) const {
     return property == Property::kClaims || property == Property::kRoundTrip ||
-           property == Property::kWritten ||
+           property == Property::kWritten || property == Property::kBorders ||
            (property == Property::kMetamorphic && (options_.seed >> 48) % 2 != 0);
   }
   bool wanted(Property property) const {
@@ -224,6 +225,9 @@ class SceneCheck {
     if (is_first && fragments && wanted(Property::kRoundTrip)) check_result_text(classified, name);
     if (subject.exact() && fragments && wanted(Property::kWritten)) {
       check_written_doubles(classified, name);
+    }
+    if (!subject.exact() && fragments && wanted(Property::kBorders)) {
+      check_borders(classified, name);
     }
     if (is_first) first_ = std::move(classified.result);
   }
@@ -504,6 +508,16 @@ class SceneCheck {
     for (const oracle::WitnessFinding& finding : checked.findings) {
       add({Property::kWritten, name, "verify", finding.light, finding.polygon, finding.text});
     }
+  }
+
+  void check_borders(const Classified& classified, const std::string& name) {
+    tell("borders of " + name);
+    auto found = border_contradiction(*judged_, classified.claims, options_.seed);
+    if (!found) return add_error(found.error(), name);
+    if (!*found) return;
+    BorderContradiction& differs = **found;
+    add({Property::kBorders, name, std::move(differs.kind), std::move(differs.light),
+         std::move(differs.polygon), std::move(differs.text)});
   }
 
   void check_a_relation(const std::string& name) {

@@ -26,6 +26,8 @@ constexpr std::array kProperties = {
     PropertyInfo{Property::kSelf, "oracle-itself", "the oracle does not contradict itself"},
     PropertyInfo{Property::kWritten, "written-doubles",
                  "an exact result, written as doubles and read back, passes verify and certify"},
+    PropertyInfo{Property::kBorders, "borders",
+                 "the verdict on a rounded result by borders is the one by measuring"},
 };
 
 }  // namespace

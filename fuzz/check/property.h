@@ -26,6 +26,7 @@ enum class Property : std::uint8_t {
   kPreparation,  // the prepared scene is what the definitions say
   kSelf,         // the oracle does not contradict itself
   kWritten,      // exact results written as doubles and read back pass every judge
+  kBorders,      // success proven by borders is success measured
 };
 
 struct PropertyInfo {

@@ -64,6 +64,23 @@ Scene table() {
   return std::move(*scene);
 }
 
+TEST(Check, BordersGiveTheVerdictsOfMeasuring) {
+  CheckOptions options;
+  options.properties = {Property::kBorders};
+  for (const char* name : {"float", "double+thin", "double/svbsp", "epick/sectors"}) {
+    options.subjects.push_back(*parse_subject(name));
+  }
+  for (const Family& family : families()) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      const Scene scene = family.make(400 + seed);
+      // The seed chooses what is tolerated.
+      options.seed = 37 * seed + 5;
+      const CaseReport report = check_scene(scene, options);
+      ASSERT_EQ(failures_text(report), "") << family.name << " " << seed;
+    }
+  }
+}
+
 TEST(Check, RoundedKernelsFailOnHardScenes) {
   CheckOptions options;
   options.subjects = {*parse_subject("float+thin"), *parse_subject("double+thin")};
