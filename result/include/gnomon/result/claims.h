@@ -28,6 +28,7 @@ struct ClaimedShape {
   bool exact = false;  // the loops claim to be exact, not rounded to doubles
   RationalLoop loop;   // any orientation, not closed (first point not repeated)
   std::vector<RationalLoop> holes;
+  bool operator==(const ClaimedShape&) const = default;
 };
 
 struct ClaimedFragment : ClaimedShape {
@@ -37,12 +38,14 @@ struct ClaimedFragment : ClaimedShape {
   /// Cover::kOverlay: of the fragments that hold a point, those of the highest level tell its
   /// class.
   std::uint64_t level = 0;
+  bool operator==(const ClaimedFragment&) const = default;
 };
 
 /// How much of a side is lit, where it is not told where.
 struct ClaimedShare {
   double lower = 0, upper = 1;      // bounds of the lit share; equal ones are a rounded share
   std::optional<LightState> whole;  // the class of all of the side, if it has one
+  bool operator==(const ClaimedShare&) const = default;
 };
 
 /// The share of one class as a file tells it that says how much of a side has it, and not where.
@@ -55,6 +58,7 @@ struct ToldShare {
   /// nobody claims the last digits of any of them.
   bool is_double = false;
   std::string text;  // as written
+  bool operator==(const ToldShare&) const = default;
 };
 
 /// One side of a polygon.
@@ -68,6 +72,7 @@ struct ClaimedPolygon {
   ClaimedShare share;  // ClaimedTerms::shares_alone, of a method without fragments
   /// Of a file: there are no fragments, and these shares are all that is claimed.
   std::vector<ToldShare> told;
+  bool operator==(const ClaimedPolygon&) const = default;
 };
 
 /// How the fragments of a light are meant.
@@ -89,6 +94,7 @@ struct ClaimedTerms {
   /// nothing, and sides that no light reaches may be missing; of kOverlay, what lies on a side that
   /// this light does not reach tells of other lights alone.
   Block block = Block::kLights;
+  bool operator==(const ClaimedTerms&) const = default;
 };
 
 struct ClaimedLight : ClaimedTerms {
@@ -96,6 +102,7 @@ struct ClaimedLight : ClaimedTerms {
   std::vector<ClaimedPolygon> polygons;
   std::string piece_of;     // id of the area light that this light is a piece of, or empty
   RationalLoop piece_loop;  // of such a piece, counter-clockwise seen from its front
+  bool operator==(const ClaimedLight&) const = default;
 };
 
 /// A region of a polygon's side and what several lights do to it.
@@ -105,6 +112,7 @@ struct SharedFragment : ClaimedShape {
   std::uint64_t level = 0;
   std::vector<std::string> dark_for;  // ids of lights
   std::optional<std::size_t> on;      // the fragment of the same side that it was cut from
+  bool operator==(const SharedFragment&) const = default;
 };
 
 struct SharedPolygon {
@@ -112,6 +120,7 @@ struct SharedPolygon {
   Side side = Side::kFront;
   bool side_given = true;
   std::vector<SharedFragment> fragments;
+  bool operator==(const SharedPolygon&) const = default;
 };
 
 struct Claims {
@@ -122,6 +131,12 @@ struct Claims {
   std::optional<std::vector<SharedPolygon>> combined, overlay;
   /// What is wrong whatever the scene looks like, in sentences: each fails the claims.
   std::vector<std::string> problems;
+
+  /// Whoever claims it.
+  bool same_as(const Claims& other) const {
+    return lights == other.lights && combined == other.combined && overlay == other.overlay &&
+           problems == other.problems;
+  }
 };
 
 }  // namespace gnomon
