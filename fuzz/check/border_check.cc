@@ -87,14 +87,15 @@ std::optional<BorderContradiction> contradiction(const oracle::Report& proven,
 Expected<std::optional<BorderContradiction>> border_contradiction(const JudgedScene& scene,
                                                                   const Claims& claims,
                                                                   std::uint64_t seed) {
-  constexpr std::uint64_t kPowers = 15;
+  constexpr std::uint64_t kTolerances = 15, kWidths = 12;
   const auto power = [](std::uint64_t from) {
-    return std::pow(10.0, -2 - static_cast<double>(from % kPowers));
+    return std::pow(10.0, -2 - static_cast<double>(from));
   };
   oracle::CertifyOptions options;
-  options.tolerance = power(seed);
-  // Without a width of its own a region may be wider than the tolerance lets it be large.
-  if (seed / kPowers % 2 == 0) options.width = power(seed / kPowers / 2) * scene.diagonal();
+  options.tolerance = power(seed % kTolerances);
+  const std::uint64_t rest = seed / kTolerances;
+  // Every other time the width that people have who ask for none.
+  if (rest % 2 == 0) options.width = power(rest / 2 % kWidths) * scene.diagonal();
   Expected<oracle::Report> measured = scene.judge(claims, options);
   if (!measured) return tl::unexpected(std::move(measured.error()));
   options.borders = true;
