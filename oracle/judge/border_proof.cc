@@ -413,7 +413,7 @@ void SideProof::tell(PolygonComparison& result) const {
 
 /// Fragments by their planes.
 void assign(const ExactAnswer& answer, const AnswerEntry& entry, const ClaimedPolygon& candidate,
-            std::vector<Plane>& planes) {
+            double radius, std::vector<Plane>& planes) {
   if (planes.size() == 1) {
     for (const ClaimedFragment& fragment : candidate.fragments) {
       planes[0].claimed.push_back(&fragment);
@@ -421,13 +421,13 @@ void assign(const ExactAnswer& answer, const AnswerEntry& entry, const ClaimedPo
     return;
   }
   const PreparedScene& prepared = answer.prepared();
-  // The comparison's own rule, which rounds less: where the distances leave no doubt they agree.
-  const long double near =
-      static_cast<long double>(nearly_as_near(prepared)) * nearest(prepared.geometry.step);
   std::vector<Chart> charts;
   for (const ClaimedFragment& fragment : candidate.fragments) {
     if (fragment.loop.empty()) continue;
     const long double error = kLineError * greatest_of(fragment.loop);
+    // The comparison's own rule, which rounds less: where the distances leave no doubt they agree.
+    const long double near = static_cast<long double>(nearly_as_near(prepared, fragment, radius)) *
+                             nearest(prepared.geometry.step);
     std::vector<long double> distances;
     for (const Plane& plane : planes) {
       long double most = 0;
@@ -444,7 +444,7 @@ void assign(const ExactAnswer& answer, const AnswerEntry& entry, const ClaimedPo
           charts.emplace_back(support_of(prepared, group.parts.front()));
         }
       }
-      best = group_for(answer, entry, charts, fragment);
+      best = group_for(answer, entry, charts, fragment, radius);
     }
     planes[best].claimed.push_back(&fragment);
   }
@@ -485,7 +485,7 @@ std::optional<PolygonComparison> prove_by_borders(const ExactAnswer& answer, std
       planes.back().part_loops.push_back(loop_of_part(prepared, part));
     }
   }
-  assign(answer, entry, *candidate, planes);
+  assign(answer, entry, *candidate, result.rounding_radius, planes);
   SideProof side(result.rounding_radius);
   for (const Plane& plane : planes) {
     if (plane.group->optional || !plane.group->tiling) {

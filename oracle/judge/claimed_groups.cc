@@ -10,8 +10,10 @@
 
 namespace gnomon::oracle {
 
-double nearly_as_near(const PreparedScene& prepared) {
-  return std::ldexp(1.0, static_cast<int>(prepared.position_bits) - 30);
+double nearly_as_near(const PreparedScene& prepared, const ClaimedFragment& fragment,
+                      double radius) {
+  const double seen = std::ldexp(1.0, static_cast<int>(prepared.position_bits) - 30);
+  return fragment.exact ? seen : seen + 2 * radius / prepared.geometry.step.get_d();
 }
 
 bool contains(const std::vector<ChartPoint>& convex, const ChartPoint& point) {
@@ -22,7 +24,8 @@ bool contains(const std::vector<ChartPoint>& convex, const ChartPoint& point) {
 }
 
 std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
-                      const std::vector<Chart>& charts, const ClaimedFragment& fragment) {
+                      const std::vector<Chart>& charts, const ClaimedFragment& fragment,
+                      double radius) {
   if (entry.groups.size() == 1) return 0;
   const PreparedScene& prepared = answer.prepared();
   std::vector<HomogeneousPoint> points;
@@ -46,7 +49,7 @@ std::size_t group_for(const ExactAnswer& answer, const AnswerEntry& entry,
     distances.push_back(most);
   }
   const double nearest = *std::min_element(distances.begin(), distances.end());
-  const double near = nearest + nearly_as_near(prepared);
+  const double near = nearest + nearly_as_near(prepared, fragment, radius);
   std::size_t best = entry.groups.size();
   for (std::size_t g = 0; g < entry.groups.size(); ++g) {
     if (distances[g] > near) continue;

@@ -600,7 +600,8 @@ PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
   if (candidate) {
     result.fragments = candidate->fragments.size();
     for (const ClaimedFragment& fragment : candidate->fragments) {
-      fragments[group_for(answer, entry, charts, fragment)].push_back(&fragment);
+      const std::size_t group = group_for(answer, entry, charts, fragment, result.rounding_radius);
+      fragments[group].push_back(&fragment);
     }
   }
   using Shares = GroupComparison::Shares;

@@ -16,6 +16,7 @@
 
 #include "area_check.h"
 #include "exact_check.h"
+#include "fuzz/check/check.h"
 #include "fuzz/corpus/corpus_judge.h"
 #include "fuzz/kinds/kind_predicates.h"
 #include "fuzz/scene/kinds.h"
@@ -69,6 +70,18 @@ class CorpusKind : public testing::TestWithParam<std::string> {
 bool has_area_light(const Fixture& fixture) {
   return std::ranges::any_of(fixture.scene.lights,
                              [](const Light& light) { return light.has_area(); });
+}
+
+TEST_P(CorpusKind, ExactResultsWrittenAsDoublesPassBothJudges) {
+  CheckOptions options;
+  options.subjects = {*parse_subject("plane")};
+  options.properties = {Property::kWritten};
+  for_each_scene([&](const Fixture& fixture, const Case&) {
+    const CaseReport report = check_scene(fixture.scene, options);
+    for (const Failure& failure : report.failures) {
+      ADD_FAILURE() << failure.signature() << ": " << failure.text;
+    }
+  });
 }
 
 TEST_P(CorpusKind, ExactKernelsAndOracleAgree) {
