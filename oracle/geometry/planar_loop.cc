@@ -10,9 +10,11 @@ namespace gnomon::oracle {
 
 namespace {
 
-/// Twice the area of a triangle; positive if counter-clockwise.
+/// Twice the area of a triangle; positive if counter-clockwise. From the edges that meet in `b`:
+/// what rounding leaves open is then less than the last place of one edge away from the line of the
+/// other, however short that is, so that this line points where the loop does and not anywhere.
 long double turn(const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  return (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
 }
 
 bool all_outside(const PlanarLoop& loop, const PlanarLine& line) {
@@ -96,12 +98,15 @@ long double perimeter_of(const PlanarLoop& loop) {
 }
 
 long double width_of(const PlanarLoop& loop) {
-  const std::vector<PlanarLine> lines = lines_of(loop);
-  long double low = 0, high = std::sqrt(std::max(0.0L, area_of(loop)));
+  // Corners that cuts have made may be in the order that rounding gave them.
+  const PlanarLoop hull = hull_of(loop);
+  if (hull.size() < 3) return 0;
+  const std::vector<PlanarLine> lines = lines_of(hull);
+  long double low = 0, high = std::sqrt(std::max(0.0L, area_of(hull)));
   constexpr int kSteps = 60;
   for (int step = 0; step < kSteps && low < high; ++step) {
     const long double radius = low + (high - low) / 2;
-    PlanarLoop rest = loop;
+    PlanarLoop rest = hull;
     for (const PlanarLine& line : lines) {
       if (!rest.empty()) rest = cut(rest, line.grown(-radius));
     }
