@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "algorithms/partition/import_export.h"
+#include "algorithms/run/canonical_order.h"
 #include "algorithms/run/compute.h"
 #include "algorithms/run/methods.h"
 #include "kernel/signs/fp_environment.h"
@@ -235,7 +236,20 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
                 "kernel " + std::string(kernel_info(options.kernel.id).name) + " was not built",
                 "another kernel, or a build with GNOMON_CGAL_KERNELS");
   }
-  return Computation(scene, options, rules, lights, lookup).run();
+  if (kernel_info(options.kernel.id).exact) {
+    return Computation(scene, options, rules, lights, lookup).run();
+  }
+  const CanonicalOrder order(scene, options.method.options.order == InsertionOrder::kFile);
+  ShadowOptions own = options;
+  if (options.control.light_done) {
+    own.control.light_done = [&](LightResult&& light) {
+      order.restore(light);
+      return options.control.light_done(std::move(light));
+    };
+  }
+  Expected<ShadowResult> result = Computation(order.scene(), own, rules, lights, lookup).run();
+  if (result) order.restore(*result);
+  return result;
 }
 
 }  // namespace

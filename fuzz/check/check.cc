@@ -221,6 +221,10 @@ class SceneCheck {
     }
     Classified classified = judged_->claim(std::move(*result), options, name);
     judge(subject, classified.claims, name);
+    if (!subject.kernel.exact() && subject.mistake == Mistake::kNone &&
+        wanted(Property::kMetamorphic)) {
+      check_written_otherwise(options, name);
+    }
     // A file without fragments is no result that could be read back.
     if (is_first && fragments && wanted(Property::kRoundTrip)) check_result_text(classified, name);
     if (subject.exact() && fragments && wanted(Property::kWritten)) {
@@ -518,6 +522,16 @@ class SceneCheck {
     BorderContradiction& differs = **found;
     add({Property::kBorders, name, std::move(differs.kind), std::move(differs.light),
          std::move(differs.polygon), std::move(differs.text)});
+  }
+
+  /// Of a rounded kernel, which owes nothing but to depend on the scene alone.
+  void check_written_otherwise(const ShadowOptions& options, const std::string& name) {
+    // Then the order of the file is asked for.
+    if (options.method.options.order == InsertionOrder::kFile) return;
+    const auto broken = fuzz::check_written_otherwise(scene_, *prepared_, options, options_.seed);
+    if (!broken) return add_error(broken.error(), name);
+    if (!*broken) return;
+    add({Property::kMetamorphic, name, "written otherwise", (*broken)->light, {}, (*broken)->text});
   }
 
   void check_a_relation(const std::string& name) {

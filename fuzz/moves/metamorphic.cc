@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
@@ -178,19 +179,20 @@ Outcome order(Subjected& on) {
 // How a polygon that is not planar is cut into triangles depends on its first vertex and on the
 // axes, and says so in the definitions; such scenes have no part in the relations that change them.
 
-Outcome rotation(Subjected& on) {
-  if (on.has(Repair::kNotPlanar)) return Failed{};
+void turn_loops(Scene& scene, Random& random) {
   const auto turn = [&](auto& loop) {
-    std::rotate(loop.begin(),
-                loop.begin() + static_cast<std::ptrdiff_t>(on.random.below(loop.size())),
+    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(random.below(loop.size())),
                 loop.end());
   };
-  return same_after(on, [&](Scene& scene) {
-    for (Polygon& polygon : scene.polygons) turn(polygon.loop);
-    for (Light& light : scene.lights) {
-      if (!light.loop.empty()) turn(light.loop);
-    }
-  });
+  for (Polygon& polygon : scene.polygons) turn(polygon.loop);
+  for (Light& light : scene.lights) {
+    if (!light.loop.empty()) turn(light.loop);
+  }
+}
+
+Outcome rotation(Subjected& on) {
+  if (on.has(Repair::kNotPlanar)) return Failed{};
+  return same_after(on, [&](Scene& scene) { turn_loops(scene, on.random); });
 }
 
 Outcome scale(Subjected& on) {
@@ -443,7 +445,63 @@ constexpr auto kRelationInfos = [] {
   return infos;
 }();
 
+/// The shares of all sides under one light, sorted. What is no number, as the share of a sliver
+/// whose area has rounded to nothing, is -1.
+using Shares = std::vector<std::array<double, 4>>;
+
+std::map<std::string, Shares> shares_of(const Scene& scene, const PreparedScene& prepared,
+                                        const ShadowResult& result) {
+  std::map<std::string, Shares> all;
+  for (const LightResult& light : result.lights) {
+    Shares& shares = all[scene.lights[prepared.lights[light.light].light].id];
+    for (std::size_t i = 0; i < light.parts.size(); ++i) {
+      const PartResult& part = light.parts[i];
+      const bool area = !light.area_fractions.empty();
+      shares.push_back({part.lit.lower, part.shadow.lower,
+                        area ? light.area_fractions[i].penumbra.lower : 0,
+                        area ? light.area_fractions[i].umbra.lower : 0});
+    }
+    for (auto& side : shares) {
+      for (double& share : side) share = std::isnan(share) ? -1 : share;
+    }
+    std::ranges::sort(shares);
+  }
+  return all;
+}
+
 }  // namespace
+
+Expected<std::optional<BrokenRelation>> check_written_otherwise(const Scene& scene,
+                                                                const PreparedScene& prepared,
+                                                                const ShadowOptions& options,
+                                                                std::uint64_t seed) {
+  if (scene.polygons.empty()) return std::nullopt;
+  ShadowOptions shares_alone = options;
+  shares_alone.output.points = shares_alone.output.exact_points = false;
+  Random random(seed);
+  Scene changed = scene;
+  random.shuffle(std::span(changed.polygons));
+  random.shuffle(std::span(changed.lights));
+  turn_loops(changed, random);
+  const Expected<PreparedScene> otherwise = prepare(changed);
+  if (!otherwise) return tl::unexpected(otherwise.error());
+  const Expected<ShadowResult> before = compute_shadows(prepared, shares_alone);
+  if (!before) return tl::unexpected(before.error());
+  const Expected<ShadowResult> after = compute_shadows(*otherwise, shares_alone);
+  if (!after) return tl::unexpected(after.error());
+  const auto old_shares = shares_of(scene, prepared, *before);
+  const auto new_shares = shares_of(changed, *otherwise, *after);
+  for (const auto& [light, shares] : old_shares) {
+    const auto same = new_shares.find(light);
+    if (same != new_shares.end() && same->second == shares) continue;
+    return BrokenRelation{light,
+                          {},
+                          "light " + light +
+                              ": other shares where polygons come in another order and loops start "
+                              "elsewhere"};
+  }
+  return std::nullopt;
+}
 
 std::span<const RelationInfo> relations() { return kRelationInfos; }
 

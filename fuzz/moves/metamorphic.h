@@ -4,7 +4,8 @@
 // them), and what may change it in one direction only. They need no oracle, and so find what
 // kernels and oracle might have wrong together.
 //
-// Exactness: relations are between exact fractions, and hold bit for bit.
+// Exactness: relations are between exact fractions, and hold bit for bit. The one of rounded
+// kernels is between their doubles.
 #ifndef GNOMON_FUZZ_MOVES_METAMORPHIC_H
 #define GNOMON_FUZZ_MOVES_METAMORPHIC_H
 
@@ -40,6 +41,15 @@ Expected<std::optional<BrokenRelation>> check_relation(std::size_t relation, con
                                                        const PreparedScene& prepared,
                                                        const ShadowOptions& options,
                                                        std::uint64_t seed);
+
+/// What a rounded kernel promises: its answer, right or wrong, depends neither on the order of
+/// polygons nor on where their loops start. Compared are the doubles of all shares of each light,
+/// bit for bit, whichever of two polygons in one place has which. `seed` chooses how the scene is
+/// written down anew. Errors: those of compute_shadows(), for either scene.
+Expected<std::optional<BrokenRelation>> check_written_otherwise(const Scene& scene,
+                                                                const PreparedScene& prepared,
+                                                                const ShadowOptions& options,
+                                                                std::uint64_t seed);
 
 }  // namespace gnomon::fuzz
 

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 #include <unordered_map>
 
 #include "scene/base/large_pages.h"
@@ -14,6 +16,7 @@
 #include "scene/geometry/numbering.h"
 #include "scene/geometry/plane_key.h"
 #include "scene/prepare/polygon_cut.h"
+#include "scene/prepare/support_triple.h"
 
 namespace gnomon::scene_detail {
 namespace {
@@ -361,7 +364,40 @@ void join(std::vector<Run<Int>>& runs, std::size_t polygons, PreparedScene& out)
   out.first_part.resize(polygons + 1, static_cast<std::uint32_t>(parts));
 }
 
-/// Numbers planes in the order of the parts that lie in them. The first part's loop is the support.
+/// The parts of each plane, in order: those of plane p are parts[first[p]] .. parts[first[p + 1] -
+/// 1].
+struct Families {
+  std::vector<std::uint32_t> first, parts;
+};
+
+Families families_of(const Numbering& planes, std::size_t parts) {
+  Families families;
+  resize_in_large_pages(families.first, std::size_t{planes.count()} + 1);
+  resize_in_large_pages(families.parts, parts);
+  for (std::size_t i = 0; i < parts; ++i) ++families.first[planes[i] + 1];
+  for (std::size_t p = 0; p < planes.count(); ++p) families.first[p + 1] += families.first[p];
+  std::vector<std::uint32_t> next(families.first.begin(), families.first.end() - 1);
+  for (std::size_t i = 0; i < parts; ++i) {
+    families.parts[next[planes[i]]++] = static_cast<std::uint32_t>(i);
+  }
+  return families;
+}
+
+/// The loop comes before the other one, both read from their smallest vertex.
+bool loop_is_before(std::span<const VertexId> loop, std::span<const VertexId> other) {
+  const auto start = [](std::span<const VertexId> ring) {
+    return static_cast<std::size_t>(std::min_element(ring.begin(), ring.end()) - ring.begin());
+  };
+  const std::size_t i = start(loop), j = start(other);
+  for (std::size_t k = 0; k < std::min(loop.size(), other.size()); ++k) {
+    const VertexId v = loop[(i + k) % loop.size()], w = other[(j + k) % other.size()];
+    if (v != w) return v < w;
+  }
+  return loop.size() < other.size();
+}
+
+/// Numbers planes in the order of the parts that lie in them. A plane has the orientation of the
+/// part whose loop comes first by its vertices, and not of the part that comes first.
 template <class Int>
 void number_planes(const std::vector<Run<Int>>& runs, PreparedScene& out) {
   const auto key = [&](std::size_t i) -> const PlaneKey<Int>& {
@@ -371,16 +407,29 @@ void number_planes(const std::vector<Run<Int>>& runs, PreparedScene& out) {
   const Numbering planes(
       out.parts.size(), [&](std::size_t i) { return key(i).hash(); },
       [&](std::size_t i, std::size_t j) { return key(i).same_plane(key(j)); });
+  const Families families = families_of(planes, out.parts.size());
   resize_in_large_pages(out.geometry.planes, planes.count());
-  std::vector<std::uint8_t> flipped(planes.count());  // the key's normal against the support's
-  planes.for_each_first([&](std::size_t i, std::size_t plane) {
-    const auto loop = out.loop(out.parts[i]);
-    out.geometry.planes[plane] = {loop[0], loop[1], loop[2]};
-    flipped[plane] = key(i).flipped ? 1 : 0;
-  });
-  for_each_index(out.parts.size(), [&](std::size_t i) {
-    out.parts[i].plane = planes[i];
-    out.parts[i].flipped = (flipped[planes[i]] != 0) != key(i).flipped;
+  for_each_piece(planes.count(), kPieceOfPolygons, [&](std::size_t begin, std::size_t end) {
+    std::vector<VertexId> vertices;
+    for (std::size_t plane = begin; plane < end; ++plane) {
+      const auto parts =
+          std::span(families.parts)
+              .subspan(families.first[plane], families.first[plane + 1] - families.first[plane]);
+      vertices.clear();
+      std::uint32_t front = parts[0];
+      for (const std::uint32_t part : parts) {
+        const auto loop = out.loop(out.parts[part]);
+        vertices.insert(vertices.end(), loop.begin(), loop.end());
+        if (part != front && loop_is_before(loop, out.loop(out.parts[front]))) front = part;
+      }
+      const PlaneKey<Int>& name = key(front);
+      out.geometry.planes[plane] =
+          support_triple(out.geometry.grid, vertices, name.normal, name.flipped);
+      for (const std::uint32_t part : parts) {
+        out.parts[part].plane = static_cast<PlaneId>(plane);
+        out.parts[part].flipped = key(part).flipped != name.flipped;
+      }
+    }
   });
 }
 

@@ -135,6 +135,26 @@ TEST(Check, OnlyWantedPropertiesAreChecked) {
   }
 }
 
+class RoundedKernels : public testing::TestWithParam<Family> {};
+
+TEST_P(RoundedKernels, DoNotSeeHowTheSceneIsWrittenDown) {
+  CheckOptions options;
+  for (const char* name : {"float", "double/svbsp", "double+thin/sectors/merged", "epick/svbsp",
+                           "longdouble/svbsp-full", "double+identity/tiling"}) {
+    options.subjects.push_back(*parse_subject(name));
+  }
+  options.properties = {Property::kMetamorphic, Property::kRefusal};
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const Scene scene = GetParam().make(7000 + seed);
+    options.seed = seed;
+    ASSERT_EQ(failures_text(check_scene(scene, options)), "") << "seed " << seed << "\n"
+                                                              << test::text_of(scene);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Point, RoundedKernels, testing::ValuesIn(families()), family_name);
+INSTANTIATE_TEST_SUITE_P(Area, RoundedKernels, testing::ValuesIn(area_families()), family_name);
+
 TEST(Check, StagesAreTold) {
   CheckOptions options;
   options.subjects = {*parse_subject("plane")};
