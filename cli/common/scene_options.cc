@@ -11,7 +11,9 @@
 #include "cli/common/interrupt.h"
 #include "cli/common/jobs.h"
 #include "cli/common/messages.h"
+#include "cli/common/progress.h"
 #include "gnomon/scene/light_arguments.h"
+#include "gnomon/scene/prepare_control.h"
 #include "gnomon/scene/read.h"
 #include "report/facts/intent_text.h"
 #include "report/facts/scene_facts.h"
@@ -180,8 +182,11 @@ Expected<LoadedScene> load_scene_under(const SceneOptions& options,
   loaded.left_out = std::move(scene->left_out);
   if (auto set = set_lights(loaded.scene); !set) return tl::unexpected(std::move(set.error()));
   loaded.reading = stopwatch.lap();
-  auto prepared = prepare(loaded.scene);
+  ProgressBar progress("preparing");
+  auto prepared = prepare(loaded.scene, {&interrupted(), progress.callback()});
+  progress.clear();
   if (!prepared) {
+    if (interrupted()) return tl::unexpected(std::move(prepared.error()));
     return tl::unexpected(
         with_line_of_polygon(std::move(prepared.error()), options.scene, read_options(options)));
   }

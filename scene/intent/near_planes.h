@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gnomon/scene/intent.h"
-#include "scene/intent/box_tree.h"
+#include "scene/geometry/box_tree.h"
 #include "scene/intent/local_points.h"
 
 namespace gnomon::scene_detail {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -25,27 +24,13 @@ inline std::size_t before(const Ring& ring, std::size_t i) {
 
 using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// The edges of a ring, without those that it runs along there and back: a hair or a bridge bounds
-/// nothing. An edge that it runs along oftener one way than the other stays as often as that.
-inline std::multiset<DirectedEdge> edges_without_hairs(const Ring& ring) {
-  std::multiset<DirectedEdge> edges;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const DirectedEdge edge{ring[i], ring[after(ring, i)]};
-    const auto back = edges.find({edge.second, edge.first});
-    if (back != edges.end()) {
-      edges.erase(back);
-    } else {
-      edges.insert(edge);
-    }
-  }
-  return edges;
-}
-
 template <class Int>
 class Chart {
  public:
   explicit Chart(const CutInput<Int>& input) : input_(input) {}
 
+  std::size_t size() const { return input_.x.size(); }
+  bool stopped() const { return input_.stopped(); }
   const Int& x(std::uint32_t v) const { return input_.x[v]; }
   const Int& y(std::uint32_t v) const { return input_.y[v]; }
   std::uint32_t key(std::uint32_t v) const { return input_.key[v]; }
@@ -110,25 +95,6 @@ class Chart {
     return sum;
   }
 
-  /// The middle of (a, b), which is not on the ring, is inside it.
-  bool middle_is_inside(const Ring& ring, std::uint32_t a, std::uint32_t b) const {
-    bool inside = false;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      if (passes_middle(ring[i], ring[after(ring, i)], a, b)) inside = !inside;
-    }
-    return inside;
-  }
-  /// The same of a ring that is given by its edges without hairs, on which the middle may lie.
-  bool middle_is_inside(const std::multiset<DirectedEdge>& ring, std::uint32_t a,
-                        std::uint32_t b) const {
-    bool inside = false;
-    for (const auto& [p, q] : ring) {
-      if (passes_middle(p, q, a, b)) inside = !inside;
-    }
-    return inside;
-  }
-
- private:
   /// A ray along x from the middle of (a, b), which is not on the edge (p, q), meets that edge.
   bool passes_middle(std::uint32_t p, std::uint32_t q, std::uint32_t a, std::uint32_t b) const {
     const Int mx = x(a) + x(b), my = y(a) + y(b);  // doubled
@@ -138,6 +104,7 @@ class Chart {
     return (side > 0) == (qy > py);
   }
 
+ private:
   const CutInput<Int>& input_;
 };
 

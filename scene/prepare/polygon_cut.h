@@ -19,6 +19,9 @@
 //     convex corner whose *closed* triangle holds no other vertex of the ring, except vertices at
 //     its own three corners. So a vertex that only touches an edge or the diagonal of an ear
 //     forbids the ear, and no triangle ever has a vertex of the polygon inside one of its edges.
+//     (2 and 3: up to kMostForEars corners of all rings. A larger polygon is swept in the order of
+//     x and then y in its projection, cut into monotone faces and these into triangles, by no rule
+//     but its coordinates: sweep_cut.h.)
 //  4. Parts of a planar polygon are merged across diagonals, bridges among them, while the union
 //     is convex (convex_merge.h). Diagonals are taken in order of their sorted pairs of keys. Then
 //     collinear vertices are dropped.
@@ -30,7 +33,13 @@
 #include <tl/expected.hpp>
 #include <vector>
 
+#include "scene/prepare/cut_watch.h"
+
 namespace gnomon::scene_detail {
+
+/// Bridges and ears take the cube of the number of corners at worst. Every polygon of the papers is
+/// below; coastlines and perforated screens are above.
+inline constexpr std::size_t kMostForEars = 256;
 
 /// Vertices of one polygon in the projection, and its rings over them: the loop first, then the
 /// holes. The loop is counter-clockwise; holes are of either orientation.
@@ -40,15 +49,25 @@ struct CutInput {
   std::vector<std::uint32_t> key;
   std::vector<std::vector<std::uint32_t>> rings;
   bool planar = true;  // in space: then parts are merged, and holes may touch inside of edges
+  CutWatch* watch = nullptr;  // none: nobody waits
+  /// Up to so many corners of all rings bridges are built and ears clipped; larger polygons are cut
+  /// by a sweep.
+  std::size_t most_for_ears = kMostForEars;
+
+  bool stopped() const { return watch != nullptr && watch->stopped(); }
+  void tell(double done) const {
+    if (watch != nullptr) watch->tell(done);
+  }
 };
 
 struct CutProblem {
   std::size_t ring = 0;  // 0 is the loop, j + 1 is hole j
   std::string what;      // "crosses itself between vertices 3-4 and 7-8"
+  bool stopped = false;  // by the watch
 };
 
 /// Convex counter-clockwise loops of indices into the input's vertices, each starting at its
-/// smallest key, sorted by their keys. Cost: O(n^2).
+/// smallest key, sorted by their keys. Cost: O(n log n) for n corners, more by what touches.
 template <class Int>
 tl::expected<std::vector<std::vector<std::uint32_t>>, CutProblem> cut_into_convex_parts(
     CutInput<Int> input);

@@ -36,19 +36,24 @@ struct Run {
 template <class Int>
 class RunMaker {
  public:
-  RunMaker(const Scene& scene, const PreparedScene& prepared)
-      : scene_(scene), prepared_(prepared), grid_(prepared.geometry.grid) {}
+  RunMaker(const Scene& scene, SceneWatch& watch, const PreparedScene& prepared)
+      : scene_(scene), watch_(watch), prepared_(prepared), grid_(prepared.geometry.grid) {}
 
   /// Stops at the first polygon that has an error unless all errors are wanted.
   Run<Int> make(std::size_t first, std::size_t last, bool all_errors) {
     run_.parts.reserve(last - first);
     run_.keys.reserve(last - first);
     run_.loop_vertices.reserve(4 * (last - first));
+    std::uint64_t corners = 0;
     for (std::size_t p = first; p < last && (all_errors || run_.problems.empty()); ++p) {
+      if (watch_.stopped()) break;
       look_ahead(p, last);
       const auto polygon = static_cast<std::uint32_t>(p);
+      told_ = 0;
       if (auto error = add_polygon(polygon)) run_.problems.push_back({polygon, *std::move(error)});
+      corners += corners_of(scene_.polygons[p]) - told_;
     }
+    if (!watch_.stopped()) watch_.add(corners);
     return std::move(run_);
   }
 
@@ -128,21 +133,45 @@ class RunMaker {
     load(polygon.loop, loop_);
     if (points_.size() < 3 || !is_clean(points_)) {
       clean_and_note(p);
-      if (loop_.size() < 3) {
-        note(p, Repair::kZeroArea, "all vertices on one line");
-        return std::nullopt;
-      }
+      if (loop_.size() < 3) return drop_without_area(p);
       load_points(loop_, points_);
       workspace_.clear();
       for (const Corner& corner : loop_) workspace_.push_back(corner.vertex);
       if (polygon.holes.empty() && add_if_convex(p)) return std::nullopt;
     }
     const Point area = area_vector(points_);
-    if (area.is_zero()) {
-      return error_at(p, 0, "crosses itself: it runs as much clockwise as counter-clockwise",
-                      "a simple closed curve");
-    }
+    if (area.is_zero()) return crosses_itself(p);
     return cut(p, area, lies_in_plane(points_, points_[0], area));
+  }
+
+  /// A loop on one line is dropped, with holes that are on it as well.
+  std::optional<Error> drop_without_area(std::uint32_t p) {
+    const auto& holes = scene_.polygons[p].holes;
+    for (std::size_t h = 0; h < holes.size(); ++h) {
+      std::vector<Corner> hole;
+      load(holes[h], hole);
+      clean_loop<Int>(grid_, hole);
+      if (hole.size() < 3) continue;
+      return error_at(p, h + 1, "leaves the loop, which has no area",
+                      "holes inside the loop that do not overlap");
+    }
+    note(p, Repair::kZeroArea, "all vertices on one line");
+    return std::nullopt;
+  }
+
+  /// Of a loop that runs as much clockwise as counter-clockwise: where it crosses itself, seen
+  /// along the normal of three of its vertices.
+  Error crosses_itself(std::uint32_t p) const {
+    Point normal{0, 0, 0};
+    for (std::size_t i = 2; i < points_.size() && normal.is_zero(); ++i) {
+      normal = cross(points_[i - 1] - points_[0], points_[i] - points_[0]);
+    }
+    const bool planar = lies_in_plane(points_, points_[0], normal);
+    const Outline outline{{loop_}, {0}, 0, planar};
+    const auto parts = cut_into_convex_parts(projected(outline, normal).input);
+    if (!parts) return problem_of(p, outline, parts.error(), projection_axis(normal));
+    return error_at(p, 0, "crosses itself: it runs as much clockwise as counter-clockwise",
+                    "a simple closed curve");
   }
 
   /// Adds the loop at hand, its vertices in `workspace_`, as it is, if it is planar and strictly
@@ -243,7 +272,10 @@ class RunMaker {
       add_part(p, flat.vertices, area);  // all holes were empty
       return std::nullopt;
     }
+    CutWatch watch(watch_, corners_of(scene_.polygons[p]));
+    flat.input.watch = &watch;
     const auto parts = cut_into_convex_parts(std::move(flat.input));
+    told_ = watch.told();
     const int axis = projection_axis(area);
     if (!parts) return problem_of(p, outline, parts.error(), axis);
     if (parts->empty() && magnitude_along(area, axis) == outline.hole_area) {
@@ -261,8 +293,9 @@ class RunMaker {
     return std::nullopt;
   }
 
-  std::optional<Error> problem_of(std::uint32_t p, const Outline& outline,
-                                  const CutProblem& problem, int axis) const {
+  Error problem_of(std::uint32_t p, const Outline& outline, const CutProblem& problem,
+                   int axis) const {
+    if (problem.stopped) return {ErrorCode::kInterrupted, {}, "interrupted", {}};
     std::string what = problem.what;
     if (!outline.planar) {
       what += fmt::format(" (the polygon is not planar, so this is in its projection along {})",
@@ -328,9 +361,11 @@ class RunMaker {
   }
 
   const Scene& scene_;
+  SceneWatch& watch_;
   const PreparedScene& prepared_;
   const GridPositions& grid_;
   Run<Int> run_;
+  std::uint64_t told_ = 0;    // corners of the polygon at hand that the watch has been told of
   std::vector<Corner> loop_;  // of the polygon at hand
   std::vector<Point> points_;
   std::vector<VertexId> workspace_;
@@ -461,13 +496,14 @@ void number_edges(PreparedScene& out) {
 }  // namespace
 
 template <class Int>
-std::optional<Error> make_parts(const Scene& scene, PreparedScene& out) {
+std::optional<Error> make_parts(const Scene& scene, SceneWatch& watch, PreparedScene& out) {
   const std::size_t polygons = scene.polygons.size();
   {
     std::vector<Run<Int>> runs =
         map_pieces(polygons, kPieceOfPolygons, [&](std::size_t first, std::size_t last) {
-          return RunMaker<Int>(scene, out).make(first, last, false);
+          return RunMaker<Int>(scene, watch, out).make(first, last, false);
         });
+    if (watch.stopped()) return Error{ErrorCode::kInterrupted, {}, "interrupted", {}};
     for (Run<Int>& run : runs) {
       if (!run.problems.empty()) return std::move(run.problems.front().error);
     }
@@ -479,25 +515,29 @@ std::optional<Error> make_parts(const Scene& scene, PreparedScene& out) {
 }
 
 template <class Int>
-std::vector<PolygonProblem> find_problems(const Scene& scene, const PreparedScene& out) {
+std::vector<PolygonProblem> find_problems(const Scene& scene, SceneWatch& watch,
+                                          const PreparedScene& out) {
   std::vector<PolygonProblem> all;
   for (Run<Int>&run : map_pieces(scene.polygons.size(), kPieceOfPolygons,
                                  [&](std::size_t first, std::size_t last) {
-                                   return RunMaker<Int>(scene, out).make(first, last, true);
+                                   return RunMaker<Int>(scene, watch, out).make(first, last, true);
                                  })) {
     std::move(run.problems.begin(), run.problems.end(), std::back_inserter(all));
   }
   return all;
 }
 
-template std::optional<Error> make_parts<std::int64_t>(const Scene&, PreparedScene&);
-template std::vector<PolygonProblem> find_problems<std::int64_t>(const Scene&,
+template std::optional<Error> make_parts<std::int64_t>(const Scene&, SceneWatch&, PreparedScene&);
+template std::vector<PolygonProblem> find_problems<std::int64_t>(const Scene&, SceneWatch&,
                                                                  const PreparedScene&);
-template std::optional<Error> make_parts<Int128>(const Scene&, PreparedScene&);
-template std::vector<PolygonProblem> find_problems<Int128>(const Scene&, const PreparedScene&);
-template std::optional<Error> make_parts<Int256>(const Scene&, PreparedScene&);
-template std::vector<PolygonProblem> find_problems<Int256>(const Scene&, const PreparedScene&);
-template std::optional<Error> make_parts<mpz_class>(const Scene&, PreparedScene&);
-template std::vector<PolygonProblem> find_problems<mpz_class>(const Scene&, const PreparedScene&);
+template std::optional<Error> make_parts<Int128>(const Scene&, SceneWatch&, PreparedScene&);
+template std::vector<PolygonProblem> find_problems<Int128>(const Scene&, SceneWatch&,
+                                                           const PreparedScene&);
+template std::optional<Error> make_parts<Int256>(const Scene&, SceneWatch&, PreparedScene&);
+template std::vector<PolygonProblem> find_problems<Int256>(const Scene&, SceneWatch&,
+                                                           const PreparedScene&);
+template std::optional<Error> make_parts<mpz_class>(const Scene&, SceneWatch&, PreparedScene&);
+template std::vector<PolygonProblem> find_problems<mpz_class>(const Scene&, SceneWatch&,
+                                                              const PreparedScene&);
 
 }  // namespace gnomon::scene_detail

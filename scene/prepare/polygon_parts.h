@@ -8,17 +8,20 @@
 
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/unusable.h"
+#include "scene/prepare/cut_watch.h"
 
 namespace gnomon::scene_detail {
 
 /// Fills parts, loops, edges, planes, first_part and notes of `out`, whose grid, positions and
 /// vertex_of_input are there already. Int must hold bits_needed(b, corners of the largest polygon).
+/// Errors: as prepare().
 template <class Int>
-std::optional<Error> make_parts(const Scene& scene, PreparedScene& out);
+std::optional<Error> make_parts(const Scene& scene, SceneWatch& watch, PreparedScene& out);
 
 /// The errors of all polygons that have one, in order, with the same input; `out` stays as it is.
 template <class Int>
-std::vector<PolygonProblem> find_problems(const Scene& scene, const PreparedScene& out);
+std::vector<PolygonProblem> find_problems(const Scene& scene, SceneWatch& watch,
+                                          const PreparedScene& out);
 
 }  // namespace gnomon::scene_detail
 

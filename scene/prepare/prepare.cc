@@ -9,6 +9,7 @@
 #include <span>
 
 #include "gnomon/scene/grid.h"
+#include "gnomon/scene/prepare_control.h"
 #include "scene/base/exact_int.h"
 #include "scene/base/large_pages.h"
 #include "scene/base/parallel.h"
@@ -32,10 +33,21 @@ Error index_error(const Scene& scene, std::size_t polygon, const std::string& wh
   return error;
 }
 
+/// Corners of polygons, those of their holes and two more a hole, for its bridge, included.
+struct Corners {
+  std::size_t most = 3;  // of one
+  std::size_t all = 0;
+
+  void add(const Corners& other) {
+    most = std::max(most, other.most);
+    all += other.all;
+  }
+};
+
 /// What a run of polygons says about vertices.
 struct VertexUse {
-  std::size_t most_corners = 3;  // of a polygon, those of its holes and their bridges included
-  std::optional<Error> error;    // the first
+  Corners corners;
+  std::optional<Error> error;  // the first
 };
 
 VertexUse mark_used_by(const Scene& scene, std::size_t begin, std::size_t end,
@@ -60,30 +72,28 @@ VertexUse mark_used_by(const Scene& scene, std::size_t begin, std::size_t end,
   for (; p < end; ++p) {
     if (p + kAhead < end) scene_detail::prefetch(scene.polygons[p + kAhead].loop.data());
     const Polygon& polygon = scene.polygons[p];
-    std::size_t corners = polygon.loop.size();
+    const std::size_t corners = scene_detail::corners_of(polygon);
     if (!mark(polygon.loop, [] { return std::string("loop"); })) return result;
     for (std::size_t h = 0; h < polygon.holes.size(); ++h) {
-      corners += polygon.holes[h].size() + 2;
       if (!mark(polygon.holes[h], [&] { return fmt::format("holes/{}", h); })) return result;
     }
-    result.most_corners = std::max(result.most_corners, corners);
+    result.corners.add({corners, corners});
   }
   return result;
 }
 
-/// Marks the vertices that loops and holes name; finds the number of corners of the largest
-/// polygon.
-Expected<std::size_t> mark_used(const Scene& scene, std::vector<std::uint8_t>& used) {
-  std::size_t most_corners = 3;
+/// Marks the vertices that loops and holes name, and counts corners.
+Expected<Corners> mark_used(const Scene& scene, std::vector<std::uint8_t>& used) {
+  Corners corners;
   for (VertexUse& piece :
        scene_detail::map_pieces(scene.polygons.size(), scene_detail::kPieceOfPolygons,
                                 [&](std::size_t begin, std::size_t end) {
                                   return mark_used_by(scene, begin, end, used);
                                 })) {
     if (piece.error) return tl::unexpected(std::move(*piece.error));
-    most_corners = std::max(most_corners, piece.most_corners);
+    corners.add(piece.corners);
   }
-  return most_corners;
+  return corners;
 }
 
 /// Gives equal positions one number, in order of first use, and keeps one of each. The grid starts
@@ -148,10 +158,10 @@ auto with_integers(const PreparedScene& out, std::size_t most_corners, const F& 
 }
 
 /// Positions on their grid, and the lights if they are wanted.
-Expected<std::size_t> prepare_positions(const Scene& scene, bool with_lights, PreparedScene& out) {
+Expected<Corners> prepare_positions(const Scene& scene, bool with_lights, PreparedScene& out) {
   std::vector<const Position*> points;
   std::vector<std::uint8_t> used(scene.vertices.size());
-  const Expected<std::size_t> corners = mark_used(scene, used);
+  const Expected<Corners> corners = mark_used(scene, used);
   if (!corners) return corners;
   std::size_t most = scene.vertices.size();
   for (const Light& light : scene.lights) most += light.is_point() ? 1 : light.loop.size();
@@ -185,12 +195,15 @@ Expected<std::size_t> prepare_positions(const Scene& scene, bool with_lights, Pr
 
 }  // namespace
 
-Expected<PreparedScene> prepare(const Scene& scene) {
+Expected<PreparedScene> prepare(const Scene& scene) { return prepare(scene, PrepareControl{}); }
+
+Expected<PreparedScene> prepare(const Scene& scene, const PrepareControl& control) {
   PreparedScene out;
-  const Expected<std::size_t> most_corners = prepare_positions(scene, true, out);
-  if (!most_corners) return tl::unexpected(most_corners.error());
-  auto error = with_integers(out, *most_corners, [&]<class Int>(const Int&) {
-    return scene_detail::make_parts<Int>(scene, out);
+  const Expected<Corners> corners = prepare_positions(scene, true, out);
+  if (!corners) return tl::unexpected(corners.error());
+  scene_detail::SceneWatch watch(control, corners->all);
+  auto error = with_integers(out, corners->most, [&]<class Int>(const Int&) {
+    return scene_detail::make_parts<Int>(scene, watch, out);
   });
   if (error) return tl::unexpected(std::move(*error));
   return out;
@@ -198,10 +211,12 @@ Expected<PreparedScene> prepare(const Scene& scene) {
 
 Expected<std::vector<PolygonProblem>> unusable_polygons(const Scene& scene) {
   PreparedScene out;
-  const Expected<std::size_t> most_corners = prepare_positions(scene, false, out);
-  if (!most_corners) return tl::unexpected(most_corners.error());
-  return with_integers(out, *most_corners, [&]<class Int>(const Int&) {
-    return scene_detail::find_problems<Int>(scene, out);
+  const Expected<Corners> corners = prepare_positions(scene, false, out);
+  if (!corners) return tl::unexpected(corners.error());
+  const PrepareControl control;
+  scene_detail::SceneWatch watch(control, corners->all);
+  return with_integers(out, corners->most, [&]<class Int>(const Int&) {
+    return scene_detail::find_problems<Int>(scene, watch, out);
   });
 }
 

@@ -18,7 +18,7 @@
 #include <set>
 #include <utility>
 
-#include "scene/prepare/chart.h"
+#include "scene/prepare/edge_index.h"
 
 namespace gnomon::scene_detail {
 
@@ -55,35 +55,16 @@ bool clockwise_before(const Chart<Int>& chart, std::uint32_t v, std::uint32_t a,
 template <class Int>
 class RegionTracer {
  public:
-  /// Requires: rings that RingCheck has passed: the loop counter-clockwise, holes clockwise.
-  RegionTracer(const Chart<Int>& chart, const std::vector<Ring>& rings)
-      : chart_(chart), rings_(rings) {}
+  /// Requires: edges() of a RingCheck that has passed: the loop counter-clockwise, holes clockwise.
+  RegionTracer(const Chart<Int>& chart, const std::vector<RingEdge>& edges)
+      : chart_(chart), rings_(edges) {}
 
   tl::expected<std::vector<RegionComponent>, CutProblem> run() {
     if (auto problem = cancel()) return tl::unexpected(std::move(*problem));
     while (!edges_.empty()) {
       if (auto problem = trace()) return tl::unexpected(std::move(*problem));
     }
-    // The region lies to the left once and never twice: a ring that bounds it from outside is
-    // inside of as many outer rings as inner ones, an inner ring of one outer ring more.
-    for (std::size_t i = 0; i < outer_.size(); ++i) {
-      if (count(outer_, outer_[i].loop, i) != count(holes_, outer_[i].loop))
-        return tl::unexpected(overlap(outer_[i].loop));
-    }
-    for (std::size_t i = 0; i < holes_.size(); ++i) {
-      if (count(outer_, holes_[i]) != count(holes_, holes_[i], i) + 1)
-        return tl::unexpected(overlap(holes_[i]));
-    }
-    for (Ring& hole : holes_) {
-      RegionComponent* owner = nullptr;
-      for (RegionComponent& component : outer_) {
-        if (!contains(component.loop, hole)) continue;
-        if (owner == nullptr || chart_.area(component.loop) < chart_.area(owner->loop))
-          owner = &component;
-      }
-      owner->holes.push_back(std::move(hole));
-    }
-    return std::move(outer_);
+    return give_holes_to_loops();
   }
 
  private:
@@ -93,28 +74,58 @@ class RegionTracer {
                 "runs round the same area more than once, or the wrong way round, near vertex {}",
                 chart_.key(ring[0]))};
   }
-  static const Ring& ring_of(const RegionComponent& component) { return component.loop; }
-  static const Ring& ring_of(const Ring& ring) { return ring; }
-  bool contains(const Ring& outer, const Ring& inner) const {
-    return chart_.middle_is_inside(outer, inner[0], inner[1]);
+
+  /// Outer rings first, then inner ones.
+  EdgeIndex<Int> index_of_traced() const {
+    std::vector<RingEdge> edges;
+    std::uint32_t r = 0;
+    const auto add = [&](const Ring& ring) {
+      for (std::uint32_t i = 0; i < ring.size(); ++i) {
+        edges.push_back({ring[i], ring[after(ring, i)], r, i});
+      }
+      ++r;
+    };
+    for (const RegionComponent& component : outer_) add(component.loop);
+    for (const Ring& hole : holes_) add(hole);
+    return EdgeIndex<Int>(chart_, std::move(edges));
   }
-  template <class Rings>
-  std::size_t count(const Rings& rings, const Ring& inner,
-                    std::size_t except = ~std::size_t{0}) const {
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < rings.size(); ++i)
-      n += i != except && contains(ring_of(rings[i]), inner) ? 1 : 0;
-    return n;
+
+  /// The region lies to the left once and never twice: a ring that bounds it from outside is inside
+  /// of as many outer rings as inner ones, an inner ring of one outer ring more. It belongs to the
+  /// smallest of these.
+  tl::expected<std::vector<RegionComponent>, CutProblem> give_holes_to_loops() {
+    if (holes_.empty() && outer_.size() <= 1) return std::move(outer_);
+    const EdgeIndex<Int> index = index_of_traced();
+    const auto outer_count = static_cast<std::uint32_t>(outer_.size());
+    std::vector<Int> areas;
+    for (const RegionComponent& component : outer_) areas.push_back(chart_.area(component.loop));
+    for (std::uint32_t r = 0; r < outer_count + holes_.size(); ++r) {
+      const bool is_hole = r >= outer_count;
+      const Ring& ring = is_hole ? holes_[r - outer_count] : outer_[r].loop;
+      std::size_t outer = 0, inner = 0;
+      std::uint32_t owner = outer_count;
+      for (const std::uint32_t around : index.rings_around(ring[0], ring[1])) {
+        if (around == r) continue;
+        ++(around < outer_count ? outer : inner);
+        if (around >= outer_count) continue;
+        if (owner == outer_count || areas[around] < areas[owner]) owner = around;
+      }
+      if (outer != inner + (is_hole ? 1 : 0)) return tl::unexpected(overlap(ring));
+      if (is_hole) owners_.push_back(owner);
+    }
+    for (std::size_t h = 0; h < holes_.size(); ++h) {
+      outer_[owners_[h]].holes.push_back(std::move(holes_[h]));
+    }
+    return std::move(outer_);
   }
 
   std::optional<CutProblem> cancel() {
-    for (std::size_t r = 0; r < rings_.size(); ++r) {
-      for (const DirectedEdge& edge : edges_without_hairs(rings_[r])) {
-        if (edges_.erase({edge.second, edge.first}) == 1) continue;
-        if (!edges_.insert(edge).second) {
-          return CutProblem{r, fmt::format("runs along the edge {}-{} twice",
-                                           chart_.key(edge.first), chart_.key(edge.second))};
-        }
+    for (const RingEdge& named : rings_) {
+      const DirectedEdge edge{named.a, named.b};
+      if (edges_.erase({edge.second, edge.first}) == 1) continue;
+      if (!edges_.insert(edge).second) {
+        return CutProblem{named.ring, fmt::format("runs along the edge {}-{} twice",
+                                                  chart_.key(edge.first), chart_.key(edge.second))};
       }
     }
     for (const auto& [a, b] : edges_) {
@@ -154,11 +165,12 @@ class RegionTracer {
   };
 
   const Chart<Int>& chart_;
-  const std::vector<Ring>& rings_;
+  const std::vector<RingEdge>& rings_;
   std::set<DirectedEdge> edges_;
   std::map<std::uint32_t, std::vector<Spoke>> around_;
   std::vector<RegionComponent> outer_;
   std::vector<Ring> holes_;
+  std::vector<std::uint32_t> owners_;  // of holes_: outer rings
 };
 
 }  // namespace gnomon::scene_detail

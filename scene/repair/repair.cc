@@ -9,7 +9,7 @@
 #include "gnomon/scene/intent.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/unusable.h"
-#include "scene/intent/box_tree.h"
+#include "scene/geometry/box_tree.h"
 #include "scene/intent/components.h"
 #include "scene/repair/snap.h"
 

@@ -200,6 +200,64 @@ TEST(Holes, WithHairs) {
   EXPECT_GE(sound(b, b.scene()).parts.size(), 4u);
 }
 
+TEST(Holes, WithHairsThatGoAnywhere) {
+  // Out of the loop and back, across another hole and back, along another hole's hair.
+  const Loop plain{{2, 2, 0}, {4, 2, 0}, {4, 4, 0}, {2, 4, 0}};
+  const auto with_hair_to = [&](std::initializer_list<Triple> way) {
+    Loop hole = plain;
+    hole.insert(hole.begin() + 2, {4, 3, 0});
+    std::vector<Triple> there(way), back(way);
+    std::reverse(back.begin(), back.end());
+    back.erase(back.begin());
+    back.push_back({4, 3, 0});
+    hole.insert(hole.begin() + 3, back.begin(), back.end());
+    hole.insert(hole.begin() + 3, there.begin(), there.end());
+    // The back way has a vertex of its own, so that the hair is more than a spike.
+    return hole;
+  };
+  const std::size_t parts = sound(kSquare, {plain}).parts.size();
+  EXPECT_EQ(sound(kSquare, {with_hair_to({{14, 3, 0}})}).parts.size(), parts);
+  EXPECT_EQ(sound(kSquare, {with_hair_to({{12, 3, 0}, {12, 8, 0}})}).parts.size(), parts);
+  // There in one step and back in two: a hair only once the vertex between is put into both.
+  const Loop uneven{{2, 2, 0}, {4, 2, 0}, {4, 3, 0}, {16, 3, 0},
+                    {9, 3, 0}, {4, 3, 0}, {4, 4, 0}, {2, 4, 0}};
+  const Loop other{{6, 1, 0}, {8, 1, 0}, {8, 6, 0}, {6, 6, 0}};
+  EXPECT_EQ(sound(kSquare, {uneven, other}).parts.size(),
+            sound(kSquare, {plain, other}).parts.size());
+  // Two hairs that cross each other.
+  const Loop hair_up{{6, 5, 0}, {8, 5, 0}, {8, 8, 0}, {7, 8, 0}, {7, 1, 0}, {7, 8, 0}, {6, 8, 0}};
+  EXPECT_GE(sound(kSquare, {uneven, hair_up}).parts.size(), parts);
+  // Of a loop, too.
+  EXPECT_EQ(sound({{0, 0, 0}, {6, 0, 0}, {6, 9, 0}, {9, -3, 0}, {6, 9, 0}, {6, 12, 0}, {0, 12, 0}})
+                .parts.size(),
+            1u);
+}
+
+TEST(Holes, OfALoopWithoutAreaAreCheckedFirst) {
+  const Error outside =
+      error_of({{0, 0, 0}, {4, 0, 0}, {8, 0, 0}}, {{{1, 1, 0}, {2, 1, 0}, {2, 2, 0}}});
+  EXPECT_EQ(outside.where.pointer, "/polygons/0/holes/0");
+  EXPECT_NE(outside.what.find("hole 0 leaves the loop"), std::string::npos) << outside.what;
+  const auto dropped =
+      sound({{0, 0, 0}, {4, 0, 0}, {8, 0, 0}}, {{{1, 0, 0}, {2, 0, 0}, {3, 0, 0}}});
+  EXPECT_TRUE(dropped.parts.empty());
+}
+
+TEST(Errors, BowTiesOfNoSignedAreaNameTheEdges) {
+  const auto what_of = [](const Loop& loop) { return error_of(loop).what; };
+  EXPECT_NE(what_of({{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}})
+                .find("crosses itself: edges 0-1 and 2-3"),
+            std::string::npos);
+  // In a plane along x, where the area vector cannot say in which direction to look.
+  EXPECT_NE(what_of({{5, 0, 0}, {5, 4, 4}, {5, 4, 0}, {5, 0, 4}})
+                .find("crosses itself: edges 0-1 and 2-3"),
+            std::string::npos);
+  // Two triangles that meet in a vertex, one each way round: no edges cross.
+  EXPECT_NE(what_of({{2, 2, 0}, {0, 0, 0}, {4, 0, 0}, {2, 2, 0}, {1, 6, 0}, {3, 6, 0}})
+                .find("crosses itself at vertex 0"),
+            std::string::npos);
+}
+
 TEST(Holes, OfFewVerticesAreDropped) {
   for (const Loop& hole : {Loop{{3, 3, 0}, {5, 5, 0}}, Loop{{3, 3, 0}}, Loop{},
                            Loop{{3, 3, 0}, {5, 5, 0}, {4, 4, 0}}, Loop{{0, 0, 0}, {24, 0, 0}}}) {

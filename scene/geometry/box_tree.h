@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // A tree of boxes: which of many boxes meet a given one.
-#ifndef GNOMON_SCENE_INTENT_BOX_TREE_H
-#define GNOMON_SCENE_INTENT_BOX_TREE_H
+#ifndef GNOMON_SCENE_GEOMETRY_BOX_TREE_H
+#define GNOMON_SCENE_GEOMETRY_BOX_TREE_H
 
 #include <algorithm>
 #include <array>
@@ -110,4 +110,4 @@ class BoxTree {
 
 }  // namespace gnomon::scene_detail
 
-#endif  // GNOMON_SCENE_INTENT_BOX_TREE_H
+#endif  // GNOMON_SCENE_GEOMETRY_BOX_TREE_H
