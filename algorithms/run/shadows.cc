@@ -228,6 +228,14 @@ Expected<LightList> select_lights(const PreparedScene& scene, const ShadowOption
 
 namespace {
 
+/// Where a rounded kernel gives up, if not before: its cuts may make children that are both the
+/// parent, and so never come to an end (docs: kernels). Each receiver cut along all edges of the
+/// scene has fewer fragments.
+std::uint64_t most_fragments_of_rounded(const PreparedScene& scene) {
+  constexpr std::uint64_t kLeast = 200'000;
+  return std::max<std::uint64_t>(kLeast, scene.parts.size() * scene.loop_vertices.size());
+}
+
 Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowOptions& options,
                                        const Rules& rules, const LightList& lights,
                                        MethodLookup lookup) {
@@ -241,6 +249,7 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
   }
   const CanonicalOrder order(scene, options.method.options.order == InsertionOrder::kFile);
   ShadowOptions own = options;
+  own.limits.fragments = std::min(own.limits.fragments, most_fragments_of_rounded(scene));
   if (options.control.light_done) {
     own.control.light_done = [&](LightResult&& light) {
       order.restore(light);
@@ -248,7 +257,12 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
     };
   }
   Expected<ShadowResult> result = Computation(order.scene(), own, rules, lights, lookup).run();
-  if (result) order.restore(*result);
+  if (result) {
+    order.restore(*result);
+  } else if (result.error().code == ErrorCode::kLimit && lights.size() <= 64) {
+    result.error().what = "gave up: " + result.error().what;
+    result.error().expected = "cuts that come to an end, which a rounded kernel does not promise";
+  }
   return result;
 }
 

@@ -198,6 +198,16 @@ class SectorTree {
     }
     return context_->stopped.load(std::memory_order_relaxed);
   }
+  /// Pieces that are not put out yet, as many as fragments may be, or their vertices: only a
+  /// rounded kernel comes to that, whose cuts may go on for ever. Stops the run.
+  bool gives_up(std::size_t open_pieces) {
+    constexpr std::uint64_t kVerticesAFragment = 32;
+    const std::uint64_t most = context_->options.limits.fragments;
+    if (open_pieces <= most && loops_.size() / kVerticesAFragment <= most) return false;
+    context_->pieces.fetch_add(most + 1, std::memory_order_relaxed);
+    context_->stopped.store(true, std::memory_order_relaxed);
+    return true;
+  }
   LoopView<Vertex> view(const LoopRange& range) const {
     return loops_.view(range, context_->scene.parts[range.part].plane);
   }

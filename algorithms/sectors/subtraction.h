@@ -191,6 +191,7 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
     planes_between(item, caster, how);
     still_lit_.clear();
     for (LitPiece& piece : lit_) {
+      if (!Space::kExact && gives_up(still_lit_.size())) break;
       if (chart != nullptr && !piece.located) {
         piece.box = box_of(*chart, view(piece.loop));
         piece.located = true;
@@ -211,7 +212,7 @@ void SectorTree<Space>::subtract_casters(std::uint32_t receiver,
       }
     }
     lit_.swap(still_lit_);
-    if (lit_.empty()) break;
+    if (lit_.empty() || (!Space::kExact && stopped())) break;
   }
   output_.vanished += clip_.take_vanished();
   if (cut) {

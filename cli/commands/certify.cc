@@ -2,6 +2,7 @@
 // gnomon certify: run kernels on a scene, or read a foreign result, and let the oracle judge each.
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -163,17 +164,15 @@ class CertifyRun {
 
     progress_.set_label("kernel " + run.name);
     ShadowOptions shadow_options = options_of(kernel, algorithm);
-    const auto seconds = cpu_time(shadow_options);
-    shadow_options.output.exact_points = true;
-    shadow_options.output.combined = options_.combined;
-    auto result = seconds ? compute_shadows(loaded_.prepared, shadow_options)
-                          : Expected<ShadowResult>(tl::unexpected(seconds.error()));
+    std::optional<double> seconds;
+    auto result = timed_run(shadow_options, seconds);
     progress_.clear();
     if (!result) {
       if (result.error().code == ErrorCode::kInterrupted) return tl::unexpected(result.error());
       // A kernel that cannot finish is a finding about that kernel.
       run.error = to_string(result.error());
-      limit_reached_ = limit_reached_ || result.error().code == ErrorCode::kLimit;
+      run.gave_up = result.error().code == ErrorCode::kLimit;
+      limit_reached_ = limit_reached_ || (run.exact && result.error().code == ErrorCode::kLimit);
       certificate_.runs.push_back(std::move(run));
       return {};
     }
@@ -226,6 +225,21 @@ class CertifyRun {
     shadow_options.control.progress = progress_.callback();
     shadow_options.control.interrupted = &interrupted();
     return shadow_options;
+  }
+
+  /// Times the kernel, then runs it with all that is judged. What one kernel has no memory for, the
+  /// others may have.
+  Expected<ShadowResult> timed_run(ShadowOptions& shadow_options, std::optional<double>& seconds) {
+    try {
+      const auto measured = cpu_time(shadow_options);
+      if (!measured) return tl::unexpected(measured.error());
+      seconds = *measured;
+      shadow_options.output.exact_points = true;
+      shadow_options.output.combined = options_.combined;
+      return compute_shadows(loaded_.prepared, shadow_options);
+    } catch (const std::bad_alloc&) {
+      return fail(ErrorCode::kLimit, "gave up, out of memory");
+    }
   }
 
   /// CPU seconds of the classification alone on one thread, without points for the oracle: the

@@ -32,7 +32,8 @@ struct JudgedRun {
   std::uint64_t fragments = 0;
   std::uint64_t dropped_slivers = 0;
   double cpu_seconds = 0;
-  std::string error;  // why there is no report; empty if there is one
+  std::string error;     // why there is no report; empty if there is one
+  bool gave_up = false;  // the error is a stated limit: fragments, memory
   std::optional<oracle::Report> report;
   std::string explanation;               // the first decision that went another way, if asked for
   std::optional<Explanation> decisions;  // all of them, and what each changes
