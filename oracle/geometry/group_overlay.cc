@@ -58,6 +58,11 @@ Enclosure group_area(const PreparedScene& scene, std::span<const std::uint32_t> 
   return enclose_square_root(value);
 }
 
+Enclosure group_area_on_grid(const PreparedScene& scene, std::span<const std::uint32_t> parts) {
+  const Integers3 sum = sum_of_area_vectors(scene, parts);
+  return enclose_square_root(mpq_class(dot(sum, sum)) / 4);
+}
+
 Enclosure enclose_ratio(const mpz_class& a, const mpz_class& b) {
   if (a == 0) return {};
   long exponent_a = 0, exponent_b = 0;

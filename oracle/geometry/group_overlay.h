@@ -21,6 +21,8 @@ std::vector<Integers3> grid_loop(const PreparedScene& scene, std::uint32_t part)
 ExactPlane support_of(const PreparedScene& scene, std::uint32_t part);
 /// Of coplanar parts, in scene units squared.
 Enclosure group_area(const PreparedScene& scene, std::span<const std::uint32_t> parts);
+/// The same in units of the scene's grid, which are of its size whatever the scale of its numbers.
+Enclosure group_area_on_grid(const PreparedScene& scene, std::span<const std::uint32_t> parts);
 /// The same of several groups in units of the largest, which doubles hold at every scale.
 std::vector<Enclosure> areas_in_ratio(const PreparedScene& scene,
                                       std::span<const std::vector<std::uint32_t>> groups);

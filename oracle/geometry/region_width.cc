@@ -289,14 +289,14 @@ class RegionMeasure {
     });
   }
 
-  RegionShape shape(double resolution) {
+  RegionShape shape(double resolution, double most) {
     const double rounding = 0x1p-47 * size_;
     const double fine = std::max(4 * rounding, unit_ > 0 ? resolution / 2 / unit_ : 0.0);
     const double lower = lower_bound(fine);
     double upper = queue_.empty() ? lower : std::max(lower, queue_.top().upper);
-    if (!complete_) upper = 2 * size_;  // said as it is: no better bound was computed
+    if (!complete_) upper = size_;  // no better bound was computed
     const Enclosure width{std::max(0.0, 2 * (lower - rounding)) * unit_,
-                          2 * (upper + rounding) * unit_};
+                          std::min(2 * (upper + rounding) * unit_, most)};
     reduce(interior_);
     return {width, std::move(interior_)};
   }
@@ -432,8 +432,15 @@ double RegionMeasure::lower_bound(double fine) {
 }  // namespace
 
 RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
-                           const std::vector<std::uint32_t>& boundary, double resolution) {
-  return RegionMeasure(overlay, metric, boundary).shape(resolution);
+                           const std::vector<std::uint32_t>& boundary, double resolution,
+                           double most) {
+  return RegionMeasure(overlay, metric, boundary).shape(resolution, most);
+}
+
+double width_of_area(double share, double whole) {
+  constexpr double kTwoOverRootPi = 1.1283791670955126;
+  // Four roundings.
+  return kTwoOverRootPi * std::sqrt(share) * std::sqrt(whole) * (1 + 0x1p-50);
 }
 
 std::vector<std::vector<ChartPoint>> trapezoids_of(const Overlay& overlay,

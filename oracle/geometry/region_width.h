@@ -25,14 +25,21 @@ struct ChartMetric {
 };
 
 struct RegionShape {
-  Enclosure width;      // grid units
+  Enclosure width;      // grid units; from above at most `most`
   ChartPoint interior;  // strictly inside the region
 };
 
 /// `boundary`: the halfedges that have the region on their left and something else on their right.
-/// Bounds closer than `resolution` (grid units) are not made closer.
+/// Bounds closer than `resolution` (grid units) are not made closer. `most` is a bound that the
+/// caller knows, of a strip that holds the region, say; infinity: none. It is what is told from
+/// above of a region of so many trapezoids that they are not all looked at.
 RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
-                           const std::vector<std::uint32_t>& boundary, double resolution);
+                           const std::vector<std::uint32_t>& boundary, double resolution,
+                           double most);
+
+/// No disc in a region of this area is wider: 2 sqrt(area / pi), rounded up. The area is that share
+/// of `whole`.
+double width_of_area(double share, double whole);
 
 /// The region between such halfedges as convex pieces: trapezoids with two sides along y.
 std::vector<std::vector<ChartPoint>> trapezoids_of(const Overlay& overlay,

@@ -119,6 +119,8 @@ class GroupComparison {
   void keep(ErrorRegion region, const std::vector<std::uint32_t>& faces);
   /// Among those that are kept.
   std::size_t place_of(const ErrorRegion& region) const;
+  double width_by_area(const std::vector<std::uint32_t>& faces,
+                       const std::vector<std::uint32_t>& boundary) const;
   long double width_at_most(RoundingCells& places,
                             const std::vector<std::uint32_t>& boundary) const;
   double known_width(bool excused) const;
@@ -126,7 +128,7 @@ class GroupComparison {
   /// more than the width is told of what will not be kept.
   ErrorRegion examine(const std::vector<std::uint32_t>& faces,
                       const std::vector<std::uint32_t>& boundary, const std::vector<Cell>& cells,
-                      bool rounding, double known);
+                      bool rounding, double known, long double most);
   void describe(Witness& witness, const Cell& cell, const ChartPoint& point) const;
   std::string describe_shadow(Witness& witness, const std::string& claimed,
                               const ChartPoint& point) const;
@@ -352,7 +354,7 @@ void GroupComparison::examine_regions(const std::vector<Cell>& cells, Excuses& e
       if (all_rounding) ++result_.rounding_regions;
       continue;
     }
-    ErrorRegion region = examine(faces[r], boundaries[r], cells, all_rounding, known);
+    ErrorRegion region = examine(faces[r], boundaries[r], cells, all_rounding, known, most);
     result_.width = greater_of(result_.width, region.witness.width);
     if (region.ill_conditioned) {
       ++result_.ill_conditioned_regions;
@@ -394,6 +396,20 @@ long double GroupComparison::width_at_most(RoundingCells& places,
   return std::isfinite(width) ? width : std::numeric_limits<long double>::infinity();
 }
 
+/// Of a region of so many edges that its trapezoids may be too many to look at: what its area
+/// allows, grid units.
+double GroupComparison::width_by_area(const std::vector<std::uint32_t>& faces,
+                                      const std::vector<std::uint32_t>& boundary) const {
+  constexpr std::size_t kFewEdges = 200;
+  if (boundary.size() < kFewEdges) return std::numeric_limits<double>::infinity();
+  std::vector<bool> chosen(overlay_.overlay().faces().size(), false);
+  for (const std::uint32_t face : faces) chosen[face] = true;
+  const double share = overlay_.share(chosen, 0).fraction.upper;
+  // 1 is also what is told where fixed point tells nothing.
+  if (!(share < 1)) return std::numeric_limits<double>::infinity();
+  return width_of_area(share, group_area_on_grid(answer_.prepared(), group_.parts).upper);
+}
+
 /// What a region has to be wider than to matter: neither a greatest width nor the regions that are
 /// kept change with one that is not.
 double GroupComparison::known_width(bool excused) const {
@@ -426,13 +442,17 @@ void GroupComparison::keep(ErrorRegion region, const std::vector<std::uint32_t>&
 
 ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
                                      const std::vector<std::uint32_t>& boundary,
-                                     const std::vector<Cell>& cells, bool rounding, double known) {
+                                     const std::vector<Cell>& cells, bool rounding, double known,
+                                     long double most) {
   const Overlay& overlay = overlay_.overlay();
   const Geometry& geometry = answer_.prepared().geometry;
   const ChartMetric metric(overlay_.chart());
   ErrorRegion region;
-  const double resolution = std::max(options_.width_resolution, known) / geometry.step.get_d();
-  const RegionShape shape = measure_region(overlay, metric, boundary, resolution);
+  const double step = geometry.step.get_d();
+  const double resolution = std::max(options_.width_resolution, known) / step;
+  const double strip = (1 + 0x1p-50) * static_cast<double>(most) / step;
+  const RegionShape shape = measure_region(overlay, metric, boundary, resolution,
+                                           std::min(strip, width_by_area(faces, boundary)));
   Witness& witness = region.witness;
   witness.width = not_negative(shape.width * enclose(geometry.step));
   region.rounding = rounding;
@@ -449,7 +469,8 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
     overlay.for_each_halfedge(worst, [&](std::uint32_t h) {
       if (overlay.halfedges()[Overlay::twin(h)].face != worst) own.push_back(h);
     });
-    inner = measure_region(overlay, metric, own, std::numeric_limits<double>::infinity()).interior;
+    constexpr double kNoMatter = std::numeric_limits<double>::infinity();
+    inner = measure_region(overlay, metric, own, kNoMatter, kNoMatter).interior;
   }
   const Cell& cell = cells[worst];
   witness.kind = kind_of(cell);

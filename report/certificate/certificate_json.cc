@@ -3,6 +3,7 @@
 
 #include "report/certificate/certificate.h"
 #include "report/certificate/decisions.h"
+#include "report/certificate/wrong_share.h"
 #include "report/json/json_writer.h"
 
 namespace gnomon::report {
@@ -64,7 +65,8 @@ void write_witness(JsonWriter& json, const oracle::Witness& witness) {
 }
 
 /// `areas`: there are area lights.
-void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals, bool areas) {
+void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals, double wrong_share,
+                  bool areas) {
   json.key("totals");
   json.begin_object();
   json.member("polygons", totals.polygons);
@@ -82,6 +84,7 @@ void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals, bool
   json.member("worst_overlapping", totals.worst_overlapping);
   json.member("worst_outside", totals.worst_outside);
   json.member("worst_share", totals.worst_share());
+  json.member("wrong_share", wrong_share);
   json.member("by_borders", totals.by_borders);
   write_enclosure(json, "area", totals.area);
   write_enclosure(json, "lit", totals.lit);
@@ -161,7 +164,8 @@ void write_wrong_polygons(JsonWriter& json, const Scene& scene, const oracle::Re
   json.end_array();
 }
 
-void write_run(JsonWriter& json, const NamedScene& named, const JudgedRun& run, bool times) {
+void write_run(JsonWriter& json, const NamedScene& named, const WrongShare& wrong_share,
+               const JudgedRun& run, bool times) {
   const Scene& scene = *named.scene;
   json.begin_object();
   if (run.foreign) {
@@ -212,7 +216,7 @@ void write_run(JsonWriter& json, const NamedScene& named, const JudgedRun& run, 
     }
     write_texts(json, "problems", report.problems);
     write_texts(json, "notes", report.notes);
-    write_totals(json, report.totals, has_area_light(scene));
+    write_totals(json, report.totals, wrong_share.of(report), has_area_light(scene));
     write_wrong_polygons(json, scene, report);
   }
   if (!run.explanation.empty()) json.member("first_difference", run.explanation);
@@ -240,10 +244,11 @@ void write_certificate_json(TextSink& sink, const Certificate& certificate, bool
   json.member("facing_area", certificate.facing_area);
   write_texts(json, "scene_findings", certificate.scene_findings);
   if (certificate.interrupted) json.member("interrupted", true);
+  const WrongShare wrong_share(certificate);
   json.key("runs");
   json.begin_array();
   for (const JudgedRun& run : certificate.runs)
-    write_run(json, {&scene, certificate.prepared}, run, times);
+    write_run(json, {&scene, certificate.prepared}, wrong_share, run, times);
   json.end_array();
   json.end_object();
   json.finish();

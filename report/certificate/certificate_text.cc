@@ -4,6 +4,7 @@
 
 #include "report/certificate/certificate.h"
 #include "report/certificate/decisions.h"
+#include "report/certificate/wrong_share.h"
 #include "report/text/number_text.h"
 #include "report/text/table.h"
 
@@ -45,11 +46,6 @@ std::string policy(const JudgedRun& run) {
   return "thick " + rounded(run.thickness, 2);
 }
 
-/// Misclassified area (what is not covered counts) as a share of all area that faces a light.
-double error_share(const oracle::ComparisonTotals& totals, double facing_area) {
-  return facing_area > 0 ? totals.misclassified.upper / facing_area : 0;
-}
-
 /// CPU time of the kernel `double` without identity, the measure of all others.
 std::optional<double> reference_time(const std::vector<JudgedRun>& runs) {
   for (const JudgedRun& run : runs) {
@@ -68,7 +64,7 @@ std::vector<std::string> algorithms_of(const std::vector<JudgedRun>& runs) {
   return algorithms;
 }
 
-std::vector<std::string> row(const JudgedRun& run, double facing_area,
+std::vector<std::string> row(const JudgedRun& run, const WrongShare& wrong_share,
                              std::optional<double> reference) {
   std::string time = "-";
   if (!run.foreign && run.error.empty()) {
@@ -77,7 +73,10 @@ std::vector<std::string> row(const JudgedRun& run, double facing_area,
                                  : rounded(run.cpu_seconds, 3) + " s";
   }
   const std::string& name = run.foreign ? run.name : run.kernel;
-  if (!run.report) return {name, policy(run), "no result", "-", "-", "-", "-", "-", time};
+  if (!run.report) {
+    return {name, policy(run), run.gave_up ? "gave up" : "no result", "-", "-", "-", "-",
+            "-",  time};
+  }
   const oracle::Report& report = *run.report;
   const oracle::ComparisonTotals& totals = report.totals;
   std::string verdict = name_of(report.verdict);
@@ -92,7 +91,7 @@ std::vector<std::string> row(const JudgedRun& run, double facing_area,
   return {name,
           policy(run),
           verdict,
-          bound(error_share(totals, facing_area)),
+          bound(wrong_share.of(report)),
           bound(totals.worst_share()),
           grouped(totals.wrong_polygons) + "/" + grouped(totals.polygons),
           bound(totals.width.upper),
@@ -235,6 +234,7 @@ std::string place_in_words(const oracle::Witness& witness) {
 }
 
 std::string certificate_text(const Certificate& certificate) {
+  const WrongShare wrong_share(certificate);
   const Scene& scene = *certificate.scene;
   std::string text;
   const std::vector<std::string> algorithms = algorithms_of(certificate.runs);
@@ -294,7 +294,7 @@ std::string certificate_text(const Certificate& certificate) {
       const JudgedRun& run = certificate.runs[i];
       if (algorithm.empty()) algorithm = run.algorithm;
       if (run.algorithm != algorithm) break;
-      table.add_row(row(run, certificate.facing_area, reference));
+      table.add_row(row(run, wrong_share, reference));
       add_notes(run, {certificate.scene, certificate.prepared}, table);
     }
     if (algorithms.size() > 1) text += "by " + algorithm + ":\n";

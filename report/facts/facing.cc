@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "report/sides/part_area.h"
 
@@ -89,7 +90,13 @@ bool reaches_behind(const PreparedScene& scene, const Part& part, const Prepared
   return front && back;
 }
 
-double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights) {
+namespace {
+
+/// The sum over all sides that face or see a light, once a light, of what `area` says of their
+/// part.
+template <class Area>
+double sum_of_facing(const PreparedScene& scene, const std::vector<std::uint32_t>& lights,
+                     const Area& area) {
   double sum = 0;
   for (const Part& part : scene.parts) {
     std::size_t sides = 0;
@@ -104,9 +111,33 @@ double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>&
       const Sign sign = sign_at_light(scene, part, light.point);
       if (sign == Sign::kPositive || (sign == Sign::kNegative && part.two_sided)) ++sides;
     }
-    if (sides > 0) sum += static_cast<double>(sides) * part_area(scene, part).middle();
+    if (sides > 0) sum += static_cast<double>(sides) * area(part);
   }
   return sum;
+}
+
+}  // namespace
+
+double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights) {
+  return sum_of_facing(scene, lights,
+                       [&](const Part& part) { return part_area(scene, part).middle(); });
+}
+
+double relative_facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights) {
+  return sum_of_facing(scene, lights, [&](const Part& part) { return relative_area(scene, part); });
+}
+
+double relative_area(const PreparedScene& scene, const Part& part) {
+  // The grid's box is 2^b wide.
+  const auto square = 2 * static_cast<long>(scene.position_bits) + 1;
+  std::array<double, 3> vector;
+  const std::array<mpz_class, 3> doubled = doubled_area_vector(scene, part);
+  for (std::size_t k = 0; k < 3; ++k) {
+    long exponent = 0;
+    const double mantissa = mpz_get_d_2exp(&exponent, doubled[k].get_mpz_t());
+    vector[k] = std::ldexp(mantissa, static_cast<int>(exponent - square));
+  }
+  return std::hypot(vector[0], vector[1], vector[2]);
 }
 
 }  // namespace gnomon::report

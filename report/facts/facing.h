@@ -26,6 +26,10 @@ bool reaches_behind(const PreparedScene& scene, const Part& part, const Prepared
 /// Area in scene units squared of all sides of parts that face or see one of the lights, once a
 /// light.
 double facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights);
+/// The same as a share of the square over the scene's box, for ratios: where areas in scene units
+/// overflow or underflow, these do not.
+double relative_facing_area(const PreparedScene& scene, const std::vector<std::uint32_t>& lights);
+double relative_area(const PreparedScene& scene, const Part& part);
 
 }  // namespace gnomon::report
 
