@@ -72,7 +72,8 @@ struct EdgeEnds {
   friend bool operator==(EdgeEnds, EdgeEnds) = default;
 };
 
-/// Three vertices of one loop, not collinear, counter-clockwise seen from the plane's front.
+/// Three vertices of the loops in one plane, not collinear, counter-clockwise seen from the plane's
+/// front.
 struct SupportTriple {
   VertexId a = 0, b = 0, c = 0;
 };

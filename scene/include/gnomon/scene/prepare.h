@@ -100,9 +100,10 @@ struct PreparedScene {
 /// The smallest index of Scene::vertices stands for repeated vertices. Vertices that no loop names
 /// have no part in the grid. Errors: kGeometry (a loop that crosses itself or runs round an area
 /// twice, a hole that crosses or leaves its loop or overlaps another, degenerate or non-planar area
-/// light, zero to_light), kIndex. Cost: O(n log n) for n vertices, plus the square of a loop's size
-/// where it is not convex. Large scenes are worked on by all threads of the caller's task arena
-/// (oneTBB); the result, errors included, does not depend on their number.
+/// light, zero to_light), kIndex. Cost: O(n log n) for n vertices, more where
+/// very many edges meet or overlap (watched: prepare_control.h). Large scenes are worked on by all
+/// threads of the caller's task arena (oneTBB); the result, errors included, does not depend on
+/// their number.
 Expected<PreparedScene> prepare(const Scene& scene);
 
 }  // namespace gnomon
