@@ -17,6 +17,7 @@
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
 #include "cli/common/progress.h"
+#include "cli/common/report_output.h"
 #include "cli/common/scene_options.h"
 #include "comparison/engine_tables/engine_table.h"
 #include "gnomon/algorithms/explain.h"
@@ -56,7 +57,7 @@ struct CertifyCommandOptions {
   std::optional<std::uint32_t> flips;
   bool strict = false, subset = false, explain = false, times = false, measure = false;
   bool combined = false;
-  std::string report_directory;
+  ReportOptions report;
   std::string json;
   CorpusCommandOptions corpus;  // what certify_corpus.h needs besides
   YearOptions suns;             // of candidates that are tables
@@ -279,7 +280,7 @@ class CertifyRun {
     }
     judged_before_ = certificate_.runs.size();
     certificate_.runs.push_back(std::move(run));
-    if (options_.report_directory.empty()) kept_.clear();
+    if (options_.report.directory.empty()) kept_.clear();
     kept_.push_back(std::move(candidate));
     if (stopped) return fail(ErrorCode::kInterrupted, "interrupted");
     return {};
@@ -383,8 +384,8 @@ int run_certify(const CertifyCommandOptions& options) {
     report::write_certificate_json(*output, run.certificate(), options.times);
     if (auto done = output->finish(); !done) return report_error(done.error());
   }
-  if (!options.report_directory.empty()) {
-    const auto done = write_certificate_report(options.report_directory, *loaded, run.certificate(),
+  if (options.report.asked()) {
+    const auto done = write_certificate_report(options.report, *loaded, run.certificate(),
                                                run.kept(), options.times);
     if (!done) return report_error(done.error());
   }
@@ -532,10 +533,7 @@ void add_certify_command(CLI::App& app, Action& action) {
                   "Decisions that --explain flips one by one, largest first [30]")
       ->needs(explain_option)
       ->type_name("N");
-  command
-      .add_option("--report", options->report_directory,
-                  "Write verdict.json, table.txt and pictures to this directory")
-      ->type_name("DIR");
+  add_report_options(command, options->report);
   command.add_option("--json", options->json, "Write the verdicts as JSON; - is standard output")
       ->type_name("FILE");
   command.add_flag("--times", options->times, "CPU times in the JSON, which then is not stable");

@@ -115,6 +115,8 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"certificate", {"json", "text"}},
         {"facts", {"json", "sides", "text"}},
         {"meshes", {"json", "text"}},
+        {"junit", {"text"}},
+        {"page", {"json", "text"}},
         {"pictures", {"meshes", "text"}}}},
       {"fuzz",
        {{"text", {}},

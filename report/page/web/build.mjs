@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bundles the page into a C++ source: node build.mjs OUTPUT.cc. The page is everything but its
+// data; what it may weigh is a promise of docs/report.md.
+import { readFileSync, writeFileSync } from "node:fs";
+import { build } from "esbuild";
+
+const kMostBytes = 1_000_000;
+// Compilers promise to take no more in one string.
+const kPieceBytes = 60_000;
+const kDataMark = "<!-- data -->";
+
+async function bundled(entry, options) {
+  const result = await build({
+    entryPoints: [entry],
+    bundle: true,
+    minify: true,
+    write: false,
+    target: ["es2021"],
+    charset: "ascii",
+    legalComments: "none",
+    logLevel: "warning",
+    ...options,
+  });
+  return result.outputFiles[0].text;
+}
+
+// The licences of what is bundled ask for their lines in every copy.
+function notices() {
+  const names = ["three", "@observablehq/plot"];
+  const lines = names.map((name) => {
+    const folder = new URL(`node_modules/${name}/`, import.meta.url);
+    const { version, license } = JSON.parse(readFileSync(new URL("package.json", folder), "utf8"));
+    const copyright = readFileSync(new URL("LICENSE", folder), "utf8").match(/Copyright.*/)[0];
+    return `${name} ${version}, ${license}, ${copyright}`;
+  });
+  return `Bundled: ${lines.join("; ")}; d3, ISC, Copyright Mike Bostock`.replaceAll("--", "-");
+}
+
+// Octal escapes, which end after three digits, for what is no plain character.
+function literal(bytes) {
+  let text = "";
+  for (const byte of bytes) {
+    if (byte === 0x0a) text += "\\n";
+    else if (byte === 0x22) text += '\\"';
+    else if (byte === 0x5c) text += "\\\\";
+    else if (byte === 0x3f)
+      text += "\\?"; // no trigraphs
+    else if (byte >= 0x20 && byte < 0x7f) text += String.fromCharCode(byte);
+    else text += `\\${byte.toString(8).padStart(3, "0")}`;
+  }
+  return `"${text}"`;
+}
+
+function pieces(text) {
+  const bytes = Buffer.from(text, "utf8");
+  const literals = [];
+  for (let at = 0; at < bytes.length; at += kPieceBytes) {
+    literals.push(`    ${literal(bytes.subarray(at, at + kPieceBytes))}sv,`);
+  }
+  return literals.join("\n");
+}
+
+const script = await bundled("src/main.ts", { format: "iife" });
+const style = await bundled("src/page.css", {});
+if (/<\/script|<!--/i.test(script)) throw new Error("the script would end its own element");
+const page = readFileSync("src/page.html", "utf8")
+  .replace("/* style */", () => style.trim())
+  .replace("/* script */", () => script.trim())
+  .replace("<!-- notices -->", () => `<!-- ${notices()} -->`);
+const bytes = Buffer.byteLength(page);
+if (bytes > kMostBytes) throw new Error(`the page has ${bytes} bytes, more than ${kMostBytes}`);
+const [before, after] = page.split(kDataMark);
+writeFileSync(
+  process.argv[2],
+  `// Made by report/page/web/build.mjs.
+#include "report/page/page_text.h"
+
+namespace gnomon::report {
+
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::string_view kBefore[] = {
+${pieces(before)}
+};
+
+constexpr std::string_view kAfter[] = {
+${pieces(after)}
+};
+
+}  // namespace
+
+PageText page_text() { return {kBefore, kAfter}; }
+
+}  // namespace gnomon::report
+`,
+);
+console.log(`page: ${bytes} bytes`);
