@@ -5,31 +5,19 @@
 
 namespace gnomon::report {
 
-namespace {
-
-void add_line(std::string& text, const std::vector<std::string>& cells) {
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i > 0) text += ',';
-    append_csv_field(text, cells[i]);
-  }
-  text += '\n';
-}
-
-}  // namespace
-
 std::string certificate_csv(const Certificate& certificate) {
   std::string text;
-  add_line(text, {"run", "kernel", "algorithm", "thickness", "counts", "verdict", "worst_share",
-                  "wrong_sides", "width", "fragments", "reason"});
+  append_csv_line(text, {"run", "kernel", "algorithm", "thickness", "counts", "verdict",
+                         "worst_share", "wrong_sides", "width", "fragments", "reason"});
   for (const JudgedRun& run : certificate.runs) {
     const auto& report = run.report;
-    add_line(text, {run.name, run.kernel, run.algorithm,
-                    run.foreign || run.exact ? "" : shortest(run.thickness), run.counts ? "1" : "0",
-                    report ? name_of(report->verdict) : "",
-                    report ? shortest(report->totals.worst_share()) : "",
-                    report ? std::to_string(report->totals.wrong_polygons) : "",
-                    report ? shortest(report->totals.width.upper) : "",
-                    std::to_string(run.fragments), report ? report->reason : run.error});
+    append_csv_line(text, {run.name, run.kernel, run.algorithm,
+                           run.foreign || run.exact ? "" : shortest(run.thickness),
+                           run.counts ? "1" : "0", report ? name_of(report->verdict) : "",
+                           report ? shortest(report->totals.worst_share()) : "",
+                           report ? std::to_string(report->totals.wrong_polygons) : "",
+                           report ? shortest(report->totals.width.upper) : "",
+                           std::to_string(run.fragments), report ? report->reason : run.error});
   }
   return text;
 }
