@@ -321,6 +321,7 @@ int run_corpus(const CertifyCommandOptions& options) {
   corpus.tolerance = options.tolerance.value_or(corpus.tolerance);
   corpus.jobs = options.scene.jobs;
   corpus.json = options.json;
+  corpus.report = options.report;
   return run_certify_corpus(corpus);
 }
 
@@ -329,7 +330,8 @@ int run_tables(const CertifyCommandOptions& options) {
                              .suns = options.suns,
                              .tables = options.candidates,
                              .tolerance = options.tolerance,
-                             .json = options.json},
+                             .json = options.json,
+                             .report = options.report},
                             options.table_rules);
 }
 
@@ -412,8 +414,8 @@ CorpusOptionRules add_corpus_options(CLI::App& command, CertifyCommandOptions& o
                                      CLI::Option* scene) {
   CorpusOptionRules rules;
   scene->required(false);
-  const std::vector<std::string> common = {"--help",      "--help-all", "--kernel",
-                                           "--tolerance", "--json",     "--jobs"};
+  const std::vector<std::string> common = {"--help", "--help-all", "--kernel", "--tolerance",
+                                           "--json", "--jobs",     "--report", "--junit"};
   for (const CLI::Option* other : command.get_options()) {
     const bool is_common = std::ranges::any_of(
         common, [&](const std::string& name) { return other->check_name(name); });

@@ -322,6 +322,7 @@ export interface CampaignFinding {
   polygon: string;
   text: string;
   folder: string;
+  replay: string;
 }
 
 export interface Campaign {
@@ -390,8 +391,40 @@ export interface Year {
   /** uint16 by row and side, in units of 1 / `units`. */
   lit?: string;
   /** Hours of sun by side and month. */
-  hours: { side: string; months: number[] }[];
+  hours: number[][];
   daylight: number[];
+}
+
+export interface WrongCounts {
+  all: number;
+  value: number;
+  night: number;
+  range: number;
+}
+
+/** A certificate of tables: its runs tell shares and no places. */
+export interface Tables {
+  format: "gnomon-certificate";
+  scene: string;
+  geometry: string;
+  runs: {
+    candidate: string;
+    verdict: string;
+    reason: string;
+    told_shares: number;
+    wrong: WrongCounts;
+    worst: {
+      polygon: string;
+      time: string;
+      error: string;
+      found: number;
+      found_text: string;
+      true: number;
+      off: number | null;
+      casters?: { polygon: string; share: number }[];
+    }[];
+    surfaces: { polygon: string; side: string; gross?: boolean; wrong: WrongCounts }[];
+  }[];
 }
 
 export interface Documents {
@@ -407,12 +440,11 @@ export interface Documents {
   case?: Case;
   corpus?: Corpus;
   year?: Year;
+  tables?: Tables;
 }
 
 /** Reads one document from its element; a page holds those that its command wrote. */
-export function readDocument<Name extends keyof Documents>(
-  name: Name,
-): Documents[Name] | undefined {
+export function readDocument<Type>(name: string): Type | undefined {
   const element = document.getElementById(`gnomon-data-${name}`);
-  return element ? (JSON.parse(element.textContent ?? "") as Documents[Name]) : undefined;
+  return element ? (JSON.parse(element.textContent ?? "") as Type) : undefined;
 }

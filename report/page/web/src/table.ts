@@ -53,6 +53,9 @@ export function sortedRows<Row>(rows: Row[], column: Column<Row>, descending: bo
   return keyed.map(({ row }) => row);
 }
 
+/** A text that need not be broken into lines. */
+const isShort = (value: Cell): boolean => String(value ?? "").length <= 28;
+
 /** Does a row have all words, wherever? */
 export function hasWords<Row>(row: Row, columns: Column<Row>[], words: string[]): boolean {
   if (words.length === 0) return true;
@@ -174,7 +177,12 @@ export class Table<Row> {
       },
       column.label,
     );
-    const cell = h("th", { scope: "col", "data-key": column.key }, button);
+    const numeric = this.options.rows.some((row) => typeof column.value(row) === "number");
+    const cell = h(
+      "th",
+      { scope: "col", "data-key": column.key, class: numeric ? "number" : undefined },
+      button,
+    );
     this.headers.set(column.key, cell);
     return cell;
   }
@@ -239,7 +247,7 @@ export class Table<Row> {
       scope: first ? "row" : undefined,
       "data-key": column.key,
       "data-value": value === null ? "" : String(value),
-      class: typeof value === "number" ? "number" : undefined,
+      class: typeof value === "number" ? "number" : isShort(value) ? "short" : undefined,
       title: typeof value === "number" ? String(value) : undefined,
     });
     const content: Child = column.show ? column.show(row) : (value ?? "–");

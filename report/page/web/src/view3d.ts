@@ -36,7 +36,14 @@ import {
 } from "./colours";
 import type { Point, View, ViewLight } from "./documents";
 import { wantsStillness } from "./dom";
-import { readFragments, readParts, shapeOfTriangle, type Fragments, type Parts } from "./view_data";
+import {
+  focusOf,
+  readFragments,
+  readParts,
+  shapeOfTriangle,
+  type Fragments,
+  type Parts,
+} from "./view_data";
 
 /** A place of error to draw. */
 export interface Mark {
@@ -67,7 +74,7 @@ interface Flight {
 }
 
 const kFlightMilliseconds = 600;
-const kMarkPixels = 26;
+const kMarkPixels = 20;
 
 export class SceneView {
   readonly canvas: HTMLCanvasElement;
@@ -253,15 +260,17 @@ export class SceneView {
     this.flyFrom(centre.clone().addScaledVector(way, Math.max(size * 4, 1e-6)), centre);
   }
 
-  /** The whole scene from a corner above it. */
+  /** The scene from a corner above it. */
   reset(fly = true): void {
+    const focus = focusOf(this.parts, this.view.radius);
+    const target = new Vector3(...focus.centre);
     const way = new Vector3(0.55, -0.75, 0.6).normalize();
-    const position = way.multiplyScalar(this.view.radius * 2.7);
+    const position = target.clone().addScaledVector(way, Math.max(focus.radius, 1e-30) * 3);
     if (fly) {
-      this.flyFrom(position, new Vector3());
+      this.flyFrom(position, target);
     } else {
       this.camera.position.copy(position);
-      this.controls.target.set(0, 0, 0);
+      this.controls.target.copy(target);
       this.controls.update();
     }
   }

@@ -7,6 +7,8 @@ import type { View, ViewLayer } from "./documents";
 
 /** No caster, no polygon. */
 export const kNone = 0xffffffff;
+/** The share of points at either end of an axis that the first view may leave out. */
+const kLeftOut = 0.05;
 
 export interface Shapes {
   /** Three numbers a point, about the centre of the scene. */
@@ -317,4 +319,23 @@ export function castersOf(fragments: Fragments, polygon: number): [number, numbe
     counts.set(caster, (counts.get(caster) ?? 0) + 1);
   }
   return [...counts].sort((a, b) => b[1] - a[1] || a[0] - b[0]);
+}
+
+/**
+ * Where to look first: the box of most of the points, since a ground plane can be ten times as large
+ * as the house on it. Its centre, and the radius of a ball about it.
+ */
+export function focusOf(parts: Parts, radius: number): { centre: Vector; radius: number } {
+  const { points } = parts;
+  const count = points.length / 3;
+  const centre: Vector = [0, 0, 0];
+  let size = 0;
+  for (let axis = 0; axis < 3; axis += 1) {
+    const values = Float32Array.from({ length: count }, (_, i) => points[i * 3 + axis] ?? 0).sort();
+    const low = values[Math.floor(count * kLeftOut)] ?? 0;
+    const high = values[Math.min(count - 1, Math.ceil(count * (1 - kLeftOut)))] ?? 0;
+    centre[axis] = (low + high) / 2;
+    size = Math.hypot(size, (high - low) / 2);
+  }
+  return { centre, radius: Math.min(radius, Math.max(size * 1.15, radius * 0.15)) };
 }
