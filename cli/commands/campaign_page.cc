@@ -28,13 +28,15 @@ void add_scene(Report& report, const std::string& name, const Scene& scene,
       {"result-" + name, [shown](report::TextSink& sink) { shown->write_result(sink); }});
 }
 
+/// By the place of a finding in the list: one case may fail in several ways.
 void add_scenes(Report& report, const fuzz::CampaignOutcome& outcome) {
   std::size_t count = 0;
-  for (const fuzz::CampaignFinding& found : outcome.findings) {
+  for (std::size_t i = 0; i < outcome.findings.size(); ++i) {
+    const fuzz::CampaignFinding& found = outcome.findings[i];
     // What took down a process that made it cannot be made here.
     if (found.failure.subject == "generator") continue;
     if (++count > kMostScenes) break;
-    const std::string name = std::to_string(found.case_index);
+    const std::string name = std::to_string(i);
     if (const auto generator = fuzz::Generator::parse(found.generator)) {
       add_scene(report, name, generator->make(found.seed).scene, found.failure);
     }

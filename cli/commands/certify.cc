@@ -39,6 +39,8 @@ namespace {
 /// Up to so many parts the slow exact kernels run without being asked for, and every error is
 /// measured.
 constexpr std::size_t kSmallScene = 200;
+/// Regions of error that a report shows of each polygon side.
+constexpr std::size_t kShownRegions = 30;
 /// So many decisions are flipped without being asked for.
 constexpr std::uint32_t kFlips = 30;
 /// Every kernel under the policies of the default set, however slow; all of them count.
@@ -260,6 +262,7 @@ class CertifyRun {
     certify_options.leaks = options_.leaks;
     certify_options.borders = !options_.measure && loaded_.prepared.parts.size() > kSmallScene;
     certify_options.lights = loaded_.lights;
+    if (!options_.report.directory.empty()) certify_options.most_regions = kShownRegions;
     certify_options.progress = progress_.callback();
     certify_options.interrupted = &interrupted();
     if (judged_before_ && kept_.back().same_as(candidate)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bundles the page into a C++ source: node build.mjs OUTPUT.cc. The page is everything but its
-// data; what it may weigh is a promise of docs/report.md.
+// Bundles the page into a C++ source: node build.mjs OUTPUT.cc; or as it is: OUTPUT.html. The page
+// is everything but its data; what it may weigh is a promise of docs/report.md.
 import { readFileSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
 
@@ -70,9 +70,7 @@ const page = readFileSync("src/page.html", "utf8")
 const bytes = Buffer.byteLength(page);
 if (bytes > kMostBytes) throw new Error(`the page has ${bytes} bytes, more than ${kMostBytes}`);
 const [before, after] = page.split(kDataMark);
-writeFileSync(
-  process.argv[2],
-  `// Made by report/page/web/build.mjs.
+const source = `// Made by report/page/web/build.mjs.
 #include "report/page/page_text.h"
 
 namespace gnomon::report {
@@ -94,6 +92,7 @@ ${pieces(after)}
 PageText page_text() { return {kBefore, kAfter}; }
 
 }  // namespace gnomon::report
-`,
-);
+`;
+const output = process.argv[2];
+writeFileSync(output, output.endsWith(".html") ? page : source);
 console.log(`page: ${bytes} bytes`);

@@ -29,7 +29,7 @@ function findingSection(campaign: Campaign, sceneOf: SceneOf): HTMLElement {
       h("p", {}, finding.text),
       finding.folder ? h("p", {}, "Shrunken: ", h("code", {}, finding.folder)) : null,
       h("p", {}, command(finding.replay)),
-      sceneButton(finding, sceneOf, host),
+      sceneButton(finding, campaign.findings.indexOf(finding), sceneOf, host),
     ],
     columns: [
       { key: "signature", label: "failure", value: (finding) => finding.signature },
@@ -63,8 +63,14 @@ function findingSection(campaign: Campaign, sceneOf: SceneOf): HTMLElement {
   );
 }
 
-function sceneButton(finding: CampaignFinding, sceneOf: SceneOf, host: HTMLElement) {
-  const name = String(finding.case);
+/** `place`: of the finding among all. */
+function sceneButton(
+  finding: CampaignFinding,
+  place: number,
+  sceneOf: SceneOf,
+  host: HTMLElement,
+): HTMLElement {
+  const name = String(place);
   const buttons = [
     ["", "Show the scene"],
     ["-shrunken", "Show the shrunken scene"],
@@ -78,7 +84,10 @@ function sceneButton(finding: CampaignFinding, sceneOf: SceneOf, host: HTMLEleme
           const found = sceneOf(name + suffix);
           if (!found) return;
           const scene = new SceneSection(found);
-          host.replaceChildren(h("h3", {}, `Case ${name}: ${finding.signature}`), scene.element);
+          host.replaceChildren(
+            h("h3", {}, `Case ${finding.case}: ${finding.signature}`),
+            scene.element,
+          );
           scene.start();
           const polygon = finding.polygon.replace(/#back$/, "");
           if (polygon) scene.showPolygon(polygon);

@@ -5,7 +5,7 @@ import { chart, decades } from "./charts";
 import { kSeries, toneOf } from "./colours";
 import type { Certificate, Flip, Run } from "./documents";
 import { h, section, type Child } from "./dom";
-import { counted, duration, plural, rounded } from "./numbers";
+import { counted, duration, plural, rounded, sentence } from "./numbers";
 import { errorInWords, errorsOf, nameOfRun, widthOf, wrongShare, type RunError } from "./runs";
 import { Table } from "./table";
 
@@ -121,8 +121,8 @@ export function summary(certificate: Certificate): string {
 function runDetails(run: Run): Child[] {
   const lines: string[] = [];
   if (run.error) lines.push(`No answer: ${run.error}`);
-  if (run.reason) lines.push(`Why: ${run.reason}.`);
-  if (run.excess) lines.push(`Too much: ${run.excess}.`);
+  if (run.reason) lines.push(sentence(`Why: ${run.reason}`));
+  if (run.excess) lines.push(sentence(`Too much: ${run.excess}`));
   const { worst, totals } = run;
   if (worst?.point) {
     const at = worst.point.map((x) => rounded(x, 9)).join(", ");
@@ -131,7 +131,7 @@ function runDetails(run: Run): Child[] {
         `${errorInWords(worst)}; ${rounded(widthOf(worst))} wide.`,
     );
   } else if (worst?.text) {
-    lines.push(`Worst place: ${worst.text}.`);
+    lines.push(sentence(`Worst place: ${worst.text}`));
   }
   if (totals && totals.regions > 0) {
     lines.push(
@@ -139,7 +139,7 @@ function runDetails(run: Run): Child[] {
         `${counted(totals.lost)} lost.`,
     );
   }
-  if (run.first_difference) lines.push(`First difference: ${run.first_difference}.`);
+  if (run.first_difference) lines.push(sentence(`First difference: ${run.first_difference}`));
   lines.push(...(run.problems ?? []), ...(run.notes ?? []));
   return lines.map((line) => h("p", {}, line));
 }
@@ -259,8 +259,8 @@ export function decisionSection(certificate: Certificate): HTMLElement | null {
 function decisionsOf(run: Run, name: string): HTMLElement {
   const { decisions } = run;
   const box = h("article", { class: "decision" }, h("h3", {}, name));
-  if (run.first_difference) box.append(h("p", { class: "first" }, `${run.first_difference}.`));
-  if (!decisions) return box;
+  if (run.first_difference) box.append(h("p", { class: "first" }, sentence(run.first_difference)));
+  if (!decisions || decisions.differing === 0) return box;
   box.append(
     h(
       "p",

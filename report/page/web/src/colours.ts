@@ -31,7 +31,7 @@ export const kSeries = [
   "#2b8cbe",
 ];
 
-export const css = ([r, g, b]: Rgb): string => `rgb(${r} ${g} ${b})`;
+export const css = ([r, g, b]: Rgb): string => `rgb(${r}, ${g}, ${b})`;
 
 /** From shade to sun, for shares that are lit. */
 export function litColour(share: number): Rgb {

@@ -93,8 +93,16 @@ function rowSection(comparison: Comparison): HTMLElement {
   return section("rows", "Systems", table.element);
 }
 
+const kDashes = [
+  { name: "solid", dash: "" },
+  { name: "dashed", dash: "7 4" },
+  { name: "dotted", dash: "2 3" },
+  { name: "dash-dotted", dash: "7 3 2 3" },
+];
+
 interface Measured {
-  series: string;
+  system: string;
+  kernel: string;
   polygons: number;
   time: number;
   label: string;
@@ -110,12 +118,17 @@ function growthSections(comparison: Comparison): HTMLElement[] {
     const measured: Measured[] = comparison.rows
       .filter((row) => row.scene === scene && row.cpu_seconds)
       .map((row) => ({
-        series: `${row.system} on ${row.kernel}`,
+        system: row.system,
+        kernel: row.kernel,
         polygons: row.polygons,
         time: (row.cpu_seconds ?? 0) * 1e3,
         label: `${row.system} on ${row.kernel}\n${counted(row.polygons)} polygons, ${duration(row.cpu_seconds ?? 0)}`,
       }));
-    const names = [...new Set(measured.map(({ series }) => series))];
+    const systems = [...new Set(measured.map(({ system }) => system))];
+    const kernels = [...new Set(measured.map(({ kernel }) => kernel))];
+    const dashes = kernels.map(
+      (kernel, k) => `${kernel} ${kDashes[k % kDashes.length]?.name ?? ""}`,
+    );
     const table = new Table<Growth>({
       caption: "Time grows as the polygons to this power",
       rows: own,
@@ -131,7 +144,9 @@ function growthSections(comparison: Comparison): HTMLElement[] {
         { key: "sizes", label: "sizes", value: (row) => row.sizes },
       ],
     });
-    const label = `Scene ${scene}: polygons to the right, CPU time upwards, both logarithmic.`;
+    const label =
+      `Scene ${scene}: polygons to the right, CPU time upwards, both logarithmic. ` +
+      `A colour a system; lines of ${dashes.join(", of ")}.`;
     return section(
       `growth-${i + 1}`,
       `Growth: ${scene}`,
@@ -140,16 +155,23 @@ function growthSections(comparison: Comparison): HTMLElement[] {
         marginBottom: 40,
         x: { type: "log", label: "polygons", grid: true },
         y: { type: "log", label: "CPU time, ms", grid: true },
-        color: {
-          domain: names,
-          range: names.map((_, k) => kSeries[k % kSeries.length] ?? "gray"),
-          legend: true,
-        },
+        color: { domain: systems, range: kSeries, legend: true },
         marks: [
           axisX({ ticks: 5, tickFormat: "~s" }),
           axisY({ ticks: 6, tickFormat: "~g" }),
-          line(measured, { x: "polygons", y: "time", stroke: "series", sort: "polygons" }),
-          dot(measured, { x: "polygons", y: "time", fill: "series", r: 3.5 }),
+          ...kernels.map((kernel, k) =>
+            line(
+              measured.filter((each) => each.kernel === kernel),
+              {
+                x: "polygons",
+                y: "time",
+                stroke: "system",
+                sort: "polygons",
+                strokeDasharray: kDashes[k % kDashes.length]?.dash ?? "",
+              },
+            ),
+          ),
+          dot(measured, { x: "polygons", y: "time", fill: "system", r: 3.5 }),
           tip(measured, pointer({ x: "polygons", y: "time", title: "label" })),
         ],
       })),

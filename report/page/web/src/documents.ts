@@ -57,7 +57,7 @@ export interface WrongSide {
 }
 
 export interface Effect {
-  ended: string;
+  ended: boolean;
   changed_sides: number;
   classes: boolean | number;
 }

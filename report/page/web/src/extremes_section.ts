@@ -7,14 +7,14 @@ import type { Curve, CurveStep, Extremes } from "./documents";
 import { command, h, section } from "./dom";
 import { duration, plural, rounded } from "./numbers";
 import { Table } from "./table";
-import { contradictions } from "./tradeoff_section";
+import { contradictions, powerText } from "./tradeoff_section";
 
 const kTolerance = 1e-9;
 
-export function nameOfCurve(curve: Curve, all: Curve[]): string {
-  const several = new Set(all.map(({ system }) => system)).size > 1;
-  const thickness = curve.thickness === null ? "" : `, thickness ${curve.thickness}`;
-  return (several ? `${curve.kernel}/${curve.system}` : curve.kernel) + thickness;
+export function nameOfCurve(curve: Curve): string {
+  return (
+    curve.kernel + (curve.thickness === null ? "" : `, thickness ${powerText(curve.thickness)}`)
+  );
 }
 
 export function extremesSections(extremes: Extremes): HTMLElement[] {
@@ -76,6 +76,7 @@ function thresholdSection(extremes: Extremes): HTMLElement {
 
 interface Step {
   curve: string;
+  system: string;
   k: number;
   log: number;
   failed: boolean;
@@ -91,24 +92,30 @@ function axisSection(axis: string, curves: Curve[]): HTMLElement {
     curve.steps
       .filter(({ worst_share }) => worst_share !== null)
       .map((step) => ({
-        curve: nameOfCurve(curve, curves),
+        curve: nameOfCurve(curve),
+        system: curve.system,
         k: step.k,
         log: step.worst_share ? Math.log10(step.worst_share) : zero,
         failed: step.failure !== "",
         label:
-          `${nameOfCurve(curve, curves)}, k = ${step.k}\nworst share ${rounded(step.worst_share ?? 0)}` +
+          `${nameOfCurve(curve)}/${curve.system}, k = ${step.k}\nworst share ${rounded(step.worst_share ?? 0)}` +
           `, ${duration(step.cpu_seconds)}\n${step.failure === "" ? "right" : step.failure}`,
         step,
       })),
   );
-  const names = curves.map((curve) => nameOfCurve(curve, curves));
+  const names = [...new Set(curves.map((curve) => nameOfCurve(curve)))];
+  const systems = [...new Set(curves.map(({ system }) => system))];
   const thresholds = curves
     .filter(({ first_failure }) => first_failure !== null)
-    .map((curve) => ({ k: curve.first_failure, curve: nameOfCurve(curve, curves) }));
+    .map((curve) => ({
+      k: curve.first_failure,
+      curve: nameOfCurve(curve),
+      system: curve.system,
+    }));
   const chosen = h("div", { class: "chosen", "aria-live": "polite" });
-  const show = ({ curve, k, step }: Step): void =>
+  const show = ({ curve, system, k, step }: Step): void =>
     chosen.replaceChildren(
-      h("h3", {}, `${curve}, k = ${k}`),
+      h("h3", {}, `${curve}/${system}, k = ${k}`),
       h("p", {}, step.failure === "" ? "right" : step.failure),
       h("p", {}, command(step.command)),
     );
@@ -122,27 +129,36 @@ function axisSection(axis: string, curves: Curve[]): HTMLElement {
     `axis-${axis}`,
     axis,
     h("p", { class: "lead" }, value ? `Step k: ${value}` : ""),
-    chart({ label, height: 340, onclick: (picked) => show(picked as Step) }, () => ({
-      marginLeft: 60,
-      marginBottom: 40,
-      x: { label: "k", grid: true },
-      y: { domain: [zero - 0.4, high + 0.3], label: "worst share" },
-      color: { domain: names, range: kSeries, legend: true },
-      marks: [
-        axisY(ticks, { tickFormat: (k: number) => (k === zero ? "0" : `1e${k}`) }),
-        ruleY([Math.log10(kTolerance)], { strokeDasharray: "6 4", strokeOpacity: 0.6 }),
-        ruleX(thresholds, { x: "k", stroke: "curve", strokeDasharray: "2 3" }),
-        line(steps, { x: "k", y: "log", stroke: "curve", strokeWidth: 1.6 }),
-        dot(steps, {
-          x: "k",
-          y: "log",
-          stroke: "curve",
-          fill: (step: Step) => (step.failed ? step.curve : "none"),
-          r: (step: Step) => (step.failed ? 4.5 : 3),
-        }),
-        tip(steps, pointer({ x: "k", y: "log", title: "label" })),
-      ],
-    })),
+    chart({ label, height: 340, onclick: (picked) => show(picked as Step) }, (width) => {
+      // Systems beside each other, or where there is no room, below.
+      const beside = width >= 260 * systems.length;
+      const facet = beside ? { fx: "system" } : { fy: "system" };
+      return {
+        height: beside ? 340 : 220 * systems.length + 60,
+        marginLeft: 60,
+        marginBottom: 40,
+        x: { label: "k", grid: true },
+        y: { domain: [zero - 0.4, high + 0.3], label: "worst share" },
+        fx: { label: null },
+        fy: { label: null },
+        color: { domain: names, range: kSeries, legend: true },
+        marks: [
+          axisY(ticks, { tickFormat: (k: number) => (k === zero ? "0" : `1e${k}`) }),
+          ruleY([Math.log10(kTolerance)], { strokeDasharray: "6 4", strokeOpacity: 0.6 }),
+          ruleX(thresholds, { ...facet, x: "k", stroke: "curve", strokeDasharray: "2 3" }),
+          line(steps, { ...facet, x: "k", y: "log", stroke: "curve", strokeWidth: 1.6 }),
+          dot(
+            steps.filter(({ failed }) => !failed),
+            { ...facet, x: "k", y: "log", stroke: "curve", r: 2.5 },
+          ),
+          dot(
+            steps.filter(({ failed }) => failed),
+            { ...facet, x: "k", y: "log", stroke: "curve", fill: "curve", r: 4.5 },
+          ),
+          tip(steps, pointer({ x: "k", y: "log", title: "label", ...facet })),
+        ],
+      };
+    }),
     chosen,
   );
 }

@@ -87,7 +87,7 @@ function start(): void {
   main.replaceChildren();
   add(
     main,
-    documents.page.notes.map((note) => h("p", { class: "note" }, note)),
+    documents.page.notes.map((note) => h("p", { class: "remark" }, note)),
   );
   add(main, parts);
   fillHead(documents);

@@ -3,7 +3,7 @@
 import { css, kClassColours, kUnlitColour } from "./colours";
 import type { Certificate, ResultSide, Result, View } from "./documents";
 import { add, freshId, h, section, type Child } from "./dom";
-import { counted, percent, plural, rounded } from "./numbers";
+import { counted, percent, plural, rounded, sentence } from "./numbers";
 import { errorInWords, errorsOf, widthOf, type RunError } from "./runs";
 import { SceneView, type Mark, type Picked } from "./view3d";
 import { castersOf, kNone } from "./view_data";
@@ -489,7 +489,7 @@ export class SceneSection {
       list.append(h("dt", {}, name), h("dd", { "data-fact": name }, value));
     }
     this.info.replaceChildren(h("h3", {}, "A place of error"), list);
-    if (witness.text) this.info.append(h("p", {}, `${witness.text}.`));
+    if (witness.text) this.info.append(h("p", {}, sentence(witness.text)));
     this.picked = null;
   }
 }

@@ -75,6 +75,7 @@ export class Table<Row> {
   private readonly headers = new Map<string, HTMLElement>();
   private sort: { key: string; descending: boolean } | null;
   private words: string[] = [];
+  private readonly numeric = new Map<string, boolean>();
   private readonly facets = new Map<string, string>();
   private pages = 1;
   private current: Row | null = null;
@@ -177,7 +178,7 @@ export class Table<Row> {
       },
       column.label,
     );
-    const numeric = this.options.rows.some((row) => typeof column.value(row) === "number");
+    const numeric = this.isNumeric(column);
     const cell = h(
       "th",
       { scope: "col", "data-key": column.key, class: numeric ? "number" : undefined },
@@ -185,6 +186,15 @@ export class Table<Row> {
     );
     this.headers.set(column.key, cell);
     return cell;
+  }
+
+  /** Has it numbers, besides what is missing? */
+  private isNumeric(column: Column<Row>): boolean {
+    const known = this.numeric.get(column.key);
+    if (known !== undefined) return known;
+    const found = this.options.rows.some((row) => typeof column.value(row) === "number");
+    this.numeric.set(column.key, found);
+    return found;
   }
 
   private changed(): void {
@@ -247,7 +257,7 @@ export class Table<Row> {
       scope: first ? "row" : undefined,
       "data-key": column.key,
       "data-value": value === null ? "" : String(value),
-      class: typeof value === "number" ? "number" : isShort(value) ? "short" : undefined,
+      class: this.isNumeric(column) ? "number" : isShort(value) ? "short" : undefined,
       title: typeof value === "number" ? String(value) : undefined,
     });
     const content: Child = column.show ? column.show(row) : (value ?? "–");

@@ -28,8 +28,12 @@ export function errorOf(row: TradeoffRow): number {
   return row.verdict === "identical" ? 0 : (row.worst_share ?? 0);
 }
 
+/** "0", "1e-6": a thickness. */
+export const powerText = (value: number): string =>
+  value === 0 ? "0" : value.toExponential().replace("e+", "e");
+
 export function nameOf(row: TradeoffRow): string {
-  const thickness = row.thickness === null ? "" : `, thickness ${row.thickness}`;
+  const thickness = row.thickness === null ? "" : `, thickness ${powerText(row.thickness)}`;
   return `${row.kernel}/${row.system}${thickness}`;
 }
 
@@ -189,7 +193,12 @@ function rowSection(tradeoff: Tradeoff): HTMLElement {
       { key: "lights", label: "lights", value: (row) => row.lights, facet: true },
       { key: "system", label: "system", value: (row) => row.system, facet: true },
       { key: "kernel", label: "kernel", value: (row) => row.kernel, facet: true },
-      { key: "thickness", label: "thickness", value: (row) => row.thickness },
+      {
+        key: "thickness",
+        label: "thickness",
+        value: (row) => row.thickness,
+        show: (row) => (row.thickness === null ? "–" : powerText(row.thickness)),
+      },
       ...(changes
         ? [
             { key: "change", label: "change", value: (row: TradeoffRow) => row.change ?? null },
@@ -253,7 +262,9 @@ function thicknessSection(tradeoff: Tradeoff): HTMLElement {
         label: "right with",
         value: (row) =>
           row.right
-            .map(([from, to]) => (from === to ? `${from}` : `${from} to ${to}`))
+            .map(([from, to]) =>
+              from === to ? powerText(from) : `${powerText(from)} to ${powerText(to)}`,
+            )
             .join(", ") || (row.judged === 0 ? "not judged" : "none"),
       },
     ],

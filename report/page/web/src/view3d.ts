@@ -41,6 +41,7 @@ import {
   readFragments,
   readParts,
   shapeOfTriangle,
+  viewDirection,
   type Fragments,
   type Parts,
 } from "./view_data";
@@ -230,7 +231,11 @@ export class SceneView {
 
   highlightPolygon(polygon: number | null): void {
     clear(this.highlight);
-    if (polygon !== null) this.highlight.add(...this.outline(polygon, kPickColour));
+    // Without a face, which would hide the classes.
+    if (polygon !== null) {
+      const drawn = this.outline(polygon, kPickColour);
+      this.highlight.add(...drawn.filter((each) => each instanceof LineSegments));
+    }
     this.draw();
   }
 
@@ -245,7 +250,7 @@ export class SceneView {
     // A little aside, so that a floor is not seen from straight above.
     way.add(this.camera.position.clone().sub(target).normalize().multiplyScalar(0.6)).normalize();
     const { radius } = this.view;
-    const distance = Math.min(Math.max(mark.width * 30, radius * 0.06), radius * 2);
+    const distance = Math.min(Math.max(mark.width * 30, radius * 0.12), radius * 2);
     this.flyFrom(target.clone().addScaledVector(way, distance), target);
   }
 
@@ -264,7 +269,7 @@ export class SceneView {
   reset(fly = true): void {
     const focus = focusOf(this.parts, this.view.radius);
     const target = new Vector3(...focus.centre);
-    const way = new Vector3(0.55, -0.75, 0.6).normalize();
+    const way = new Vector3(...viewDirection(this.parts)).normalize();
     const position = target.clone().addScaledVector(way, Math.max(focus.radius, 1e-30) * 3);
     if (fly) {
       this.flyFrom(position, target);

@@ -9,6 +9,8 @@ import type { View, ViewLayer } from "./documents";
 export const kNone = 0xffffffff;
 /** The share of points at either end of an axis that the first view may leave out. */
 const kLeftOut = 0.05;
+/** Of so few, all are looked at. */
+const kFewPoints = 60;
 
 export interface Shapes {
   /** Three numbers a point, about the centre of the scene. */
@@ -255,6 +257,30 @@ export function readParts(view: View): Parts {
   return { ...shapes, polygon, borders: bordersOf(shapes, polygon), normals };
 }
 
+/**
+ * From where most can be seen: of the eight corners about a scene the usual one, unless another
+ * sees far more of what polygons have before them.
+ */
+export function viewDirection(parts: Parts): Vector {
+  const usual: Vector = [0.55, -0.75, 0.6];
+  const corners: Vector[] = [];
+  for (const z of [1, -1]) {
+    for (const y of [1, -1]) {
+      for (const x of [1, -1]) corners.push([usual[0] * x, usual[1] * y, usual[2] * z]);
+    }
+  }
+  const seen = corners.map(() => 0);
+  for (let part = 0; part + 1 < parts.firstPoint.length; part += 1) {
+    const first = parts.firstPoint[part] ?? 0;
+    const [x, y, z] = areaVector(parts.points, first, (parts.firstPoint[part + 1] ?? 0) - first);
+    corners.forEach(([cx, cy, cz], i) => {
+      seen[i] = (seen[i] ?? 0) + Math.max(0, x * cx + y * cy + z * cz);
+    });
+  }
+  const best = seen.indexOf(Math.max(...seen));
+  return (seen[best] ?? 0) > 1.5 * (seen[0] ?? 0) ? (corners[best] ?? usual) : usual;
+}
+
 /** The fragments of a layer; null where the page has none of it. */
 export function readFragments(layer: ViewLayer, parts: Parts, radius: number): Fragments | null {
   if (layer.rings === undefined || layer.points === undefined) return null;
@@ -328,12 +354,13 @@ export function castersOf(fragments: Fragments, polygon: number): [number, numbe
 export function focusOf(parts: Parts, radius: number): { centre: Vector; radius: number } {
   const { points } = parts;
   const count = points.length / 3;
+  const leftOut = count < kFewPoints ? 0 : kLeftOut;
   const centre: Vector = [0, 0, 0];
   let size = 0;
   for (let axis = 0; axis < 3; axis += 1) {
     const values = Float32Array.from({ length: count }, (_, i) => points[i * 3 + axis] ?? 0).sort();
-    const low = values[Math.floor(count * kLeftOut)] ?? 0;
-    const high = values[Math.min(count - 1, Math.ceil(count * (1 - kLeftOut)))] ?? 0;
+    const low = values[Math.floor(count * leftOut)] ?? 0;
+    const high = values[Math.min(count - 1, Math.ceil(count * (1 - leftOut)))] ?? 0;
     centre[axis] = (low + high) / 2;
     size = Math.hypot(size, (high - low) / 2);
   }

@@ -103,6 +103,7 @@ export class YearSection {
       if (picked) this.pickPolygon(picked.polygon, picked.back);
     };
     this.host.append(three.canvas);
+    this.info.append(h("p", { class: "hint" }, "Pick a polygon to see its sides at this time."));
     this.paint();
   }
 
@@ -204,7 +205,7 @@ export class YearSection {
     return section(
       "hours",
       "Hours of sun",
-      h("p", { class: "lead" }, `The sun is up for ${rounded(daylight, 5)} hours.`),
+      h("p", { class: "lead" }, `The sun is up for ${counted(Math.round(daylight))} hours.`),
       this.table.element,
     );
   }
@@ -249,7 +250,6 @@ export class YearSection {
       color: {
         type: "linear",
         domain: [0, 1],
-        range: ["black", "white"],
         interpolate: (t: number) => css(litColour(t)),
       },
       marks: [
