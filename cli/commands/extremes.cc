@@ -75,6 +75,12 @@ Expected<void> report_extremes(const comparison::Extremes& extremes,
   MeasuredRows measured;
   measured.command = measured.document = "extremes";
   for (const comparison::TradeoffRow& row : extremes.runs.rows) measured.rows.push_back(&row);
+  const comparison::ExtremeAxis* last = nullptr;  // curves are in the order of axes
+  for (const comparison::ExtremeCurve& curve : extremes.curves) {
+    if (curve.axis == last) continue;
+    last = curve.axis;
+    measured.title += (measured.title.empty() ? "" : ", ") + std::string(last->name);
+  }
   measured.contradictions = extremes.runs.contradictions;
   measured.interrupted = extremes.runs.interrupted;
   measured.text = [&] { return comparison::extremes_text(extremes, options.curves); };

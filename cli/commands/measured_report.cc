@@ -2,6 +2,7 @@
 #include "cli/commands/measured_report.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "comparison/extremes.h"
 #include "report/text/number_text.h"
@@ -33,9 +34,10 @@ report::JUnitCase junit_case_of(const comparison::Row& row, const std::string& c
 std::string scene_names(const std::vector<const comparison::Row*>& rows) {
   std::vector<std::string> names;
   for (const comparison::Row* row : rows) {
-    if (std::ranges::find(names, row->request.scene) == names.end()) {
-      names.push_back(row->request.scene);
-    }
+    // Of a file its name is enough here.
+    const std::string& scene = row->request.scene;
+    std::string name = scene.substr(scene.rfind('/') + 1);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   }
   constexpr std::size_t kMost = 3;
   if (names.size() > kMost) return std::to_string(names.size()) + " scenes";
@@ -49,7 +51,7 @@ std::string scene_names(const std::vector<const comparison::Row*>& rows) {
 Expected<void> write_measured_report(const ReportOptions& options, const MeasuredRows& measured) {
   Report report;
   report.command = measured.command;
-  report.scene = scene_names(measured.rows);
+  report.scene = measured.title.empty() ? scene_names(measured.rows) : measured.title;
   for (const comparison::Row* row : measured.rows) {
     report.cases.push_back(junit_case_of(*row, measured.command));
   }

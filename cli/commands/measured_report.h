@@ -18,6 +18,7 @@ namespace gnomon::cli {
 struct MeasuredRows {
   std::string command;   // "tradeoff"
   std::string document;  // "tradeoff": the page knows it by that
+  std::string title;     // empty: the scenes
   std::vector<const comparison::Row*> rows;
   std::vector<std::string> contradictions;
   bool interrupted = false;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/cli/run_gnomon.h"
+#include "run_gnomon.h"
 
 namespace gnomon::test {
 namespace {

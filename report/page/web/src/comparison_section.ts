@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Systems beside each other, and how their times grow.
-import { axisX, axisY, dot, line, tip, pointer } from "@observablehq/plot";
+import { axisX, axisY, dot, gridX, gridY, line, tip, pointer } from "@observablehq/plot";
 import { chart } from "./charts";
 import { kSeries, toneOf } from "./colours";
 import type { Comparison, ComparisonRow } from "./documents";
@@ -153,10 +153,12 @@ function growthSections(comparison: Comparison): HTMLElement[] {
       chart({ label, height: 380 }, () => ({
         marginLeft: 60,
         marginBottom: 40,
-        x: { type: "log", label: "polygons", grid: true },
-        y: { type: "log", label: "CPU time, ms", grid: true },
+        x: { type: "log", label: "polygons" },
+        y: { type: "log", label: "CPU time, ms" },
         color: { domain: systems, range: kSeries, legend: true },
         marks: [
+          gridX({ ticks: 5 }),
+          gridY({ ticks: 6 }),
           axisX({ ticks: 5, tickFormat: "~s" }),
           axisY({ ticks: 6, tickFormat: "~g" }),
           ...kernels.map((kernel, k) =>

@@ -31,6 +31,11 @@ export function add(to: Element, children: Child[]): void {
   }
 }
 
+/** A control with its label, which stay together. */
+export function field(id: string, label: string, control: HTMLElement): HTMLElement {
+  return h("span", { class: "field" }, h("label", { for: id }, label), control);
+}
+
 let lastId = 0;
 /** An id that nothing else on the page has. */
 export function freshId(prefix: string): string {

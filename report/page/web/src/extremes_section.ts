@@ -137,6 +137,7 @@ function axisSection(axis: string, curves: Curve[]): HTMLElement {
         height: beside ? 340 : 220 * systems.length + 60,
         marginLeft: 60,
         marginBottom: 40,
+        marginRight: beside ? 20 : 80,
         x: { label: "k", grid: true },
         y: { domain: [zero - 0.4, high + 0.3], label: "worst share" },
         fx: { label: null },

@@ -2,7 +2,7 @@
 // The scene with what is said of it: runs and lights to choose, errors to fly to, polygons to pick.
 import { css, kClassColours, kUnlitColour } from "./colours";
 import type { Certificate, ResultSide, Result, View } from "./documents";
-import { add, freshId, h, section, type Child } from "./dom";
+import { add, field, freshId, h, section, type Child } from "./dom";
 import { counted, percent, plural, rounded, sentence } from "./numbers";
 import { errorInWords, errorsOf, widthOf, type RunError } from "./runs";
 import { SceneView, type Mark, type Picked } from "./view3d";
@@ -162,12 +162,10 @@ export class SceneSection {
       h("button", { type: "button", id, onclick: act }, label);
     const bar = h("div", { class: "controls", role: "toolbar", "aria-label": "The scene" });
     add(bar, [
-      h("label", { for: "scene-run" }, "Answer"),
-      this.runSelect,
+      field("scene-run", "Answer", this.runSelect),
       this.candidates().length > 0 &&
         button("scene-toggle", "Exact or candidate", () => this.toggle()),
-      h("label", { for: "scene-light" }, "Light"),
-      this.lightSelect,
+      field("scene-light", "Light", this.lightSelect),
     ]);
     if (this.errors.length > 0) {
       add(bar, [

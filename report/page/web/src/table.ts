@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tables that sort and filter, for mouse, keyboard and screen reader. Long ones show a page of
 // rows at a time.
-import { add, freshId, h, type Child } from "./dom";
+import { add, field, freshId, h, type Child } from "./dom";
 import { counted } from "./numbers";
 
 export type Cell = string | number | null;
@@ -135,7 +135,7 @@ export class Table<Row> {
         this.changed();
       },
     });
-    const bar = h("div", { class: "controls" }, h("label", { for: id }, "Filter"), input);
+    const bar = h("div", { class: "controls" }, field(id, "Filter", input));
     for (const column of this.options.columns.filter(({ facet }) => facet)) {
       add(bar, this.facet(column));
     }
@@ -161,7 +161,7 @@ export class Table<Row> {
       h("option", {}, "all"),
       ...values.map((value) => h("option", { value }, value === "" ? "(none)" : value)),
     );
-    return [h("label", { for: id }, column.label), select];
+    return [field(id, column.label, select)];
   }
 
   private header(column: Column<Row>): HTMLElement {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Speed against accuracy: time to the right, error upwards, the front drawn.
-import { axisX, axisY, dot, line, text, tip, pointer } from "@observablehq/plot";
+import { axisX, axisY, dot, gridX, line, text, tip, pointer } from "@observablehq/plot";
 import { chart, decades } from "./charts";
 import { kSeries, toneOf } from "./colours";
 import type { Tradeoff, TradeoffRow } from "./documents";
@@ -13,7 +13,8 @@ export function groupsOf(rows: TradeoffRow[]): Map<string, TradeoffRow[]> {
   const groups = new Map<string, TradeoffRow[]>();
   for (const row of rows) {
     const lights = row.lights === "area" ? " (area lights)" : "";
-    const name = `${row.scene}${lights}, ${plural(row.polygons, "polygon")}`;
+    const scene = row.scene.slice(row.scene.lastIndexOf("/") + 1);
+    const name = `${scene}${lights}, ${plural(row.polygons, "polygon")}`;
     groups.set(name, [...(groups.get(name) ?? []), row]);
   }
   return groups;
@@ -123,10 +124,11 @@ function frontChart(rows: TradeoffRow[], show: (row: TradeoffRow) => void): HTML
       marginLeft: 60,
       marginBottom: 40,
       marginRight: 30,
-      x: { type: "log", label: "CPU time, ms", grid: true },
+      x: { type: "log", label: "CPU time, ms" },
       y: { domain: [zero - 0.4, high], label: "worst share" },
       color: { domain: kernels, range: kSeries, legend: true },
       marks: [
+        gridX({ ticks: 6 }),
         axisX({ ticks: 6, tickFormat: "~g" }),
         axisY(ticks, { tickFormat: (k: number) => (k === zero ? "0" : `1e${k}`) }),
         line(front, { x: "time", y: "error", curve: "step-after", strokeOpacity: 0.5 }),

@@ -76,6 +76,7 @@ interface Flight {
 
 const kFlightMilliseconds = 600;
 const kMarkPixels = 20;
+const kManyFragments = 100_000;
 
 export class SceneView {
   readonly canvas: HTMLCanvasElement;
@@ -101,7 +102,10 @@ export class SceneView {
 
   constructor(view: View) {
     this.view = view;
-    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    // Smooth edges cost as much as all else where a picture has a million triangles.
+    const most = Math.max(0, ...view.layers.map(({ fragments }) => fragments ?? 0));
+    const antialias = most < kManyFragments;
+    this.renderer = new WebGLRenderer({ antialias, preserveDrawingBuffer: true });
     // Colours are drawn as they are written: nothing here is lit by anything.
     ColorManagement.enabled = false;
     this.renderer.outputColorSpace = LinearSRGBColorSpace;

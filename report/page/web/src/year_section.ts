@@ -5,7 +5,7 @@ import { axisX, axisY, raster } from "@observablehq/plot";
 import { chart } from "./charts";
 import { css, kUnlitColour, litColour } from "./colours";
 import type { View, Year } from "./documents";
-import { h, section } from "./dom";
+import { field, h, section } from "./dom";
 import { counted, percent, plural, rounded } from "./numbers";
 import { Table } from "./table";
 import { SceneView } from "./view3d";
@@ -138,7 +138,7 @@ export class YearSection {
         `${plural(year.sides.length, "side")}, ${counted(year.rows)} times of ${year.step_minutes} minutes, ` +
           `at ${year.latitude}, ${year.longitude}; kernel ${year.kernel}.`,
       ),
-      h("div", { class: "controls" }, h("label", { for: "year-side" }, "Side"), this.sideSelect),
+      h("div", { class: "controls" }, field("year-side", "Side", this.sideSelect)),
       this.heatHost,
       scale(),
       this.readout,
@@ -152,10 +152,8 @@ export class YearSection {
       h(
         "div",
         { class: "controls" },
-        h("label", { for: "year-day" }, "Day"),
-        this.daySlider,
-        h("label", { for: "year-hour" }, "Hour"),
-        this.hourSlider,
+        field("year-day", "Day", this.daySlider),
+        field("year-hour", "Hour", this.hourSlider),
         h("button", { type: "button", onclick: () => this.three?.reset() }, "Whole scene"),
       ),
       this.sceneStatus,
