@@ -335,6 +335,7 @@ export class SceneSection {
       polygon: this.polygonIndex.get(error.polygon) ?? 0,
       back: error.side === "back",
       width: widthOf(error.witness),
+      minor: error.witness !== error.wrong.worst,
     };
   }
 

@@ -54,6 +54,8 @@ export interface Mark {
   back: boolean;
   /** Greatest width of the region, scene units. */
   width: number;
+  /** Not the widest of its side: a dot, not a ring. */
+  minor: boolean;
 }
 
 /** What a click met. */
@@ -76,6 +78,7 @@ interface Flight {
 
 const kFlightMilliseconds = 600;
 const kMarkPixels = 20;
+const kDotPixels = 8;
 const kManyFragments = 100_000;
 
 export class SceneView {
@@ -166,22 +169,27 @@ export class SceneView {
   setMarks(marks: Mark[]): void {
     this.marks = marks;
     clear(this.markGroup);
-    if (marks.length > 0) {
-      const positions = new Float32Array(marks.flatMap(({ point }) => this.about(point).toArray()));
-      const geometry = new BufferGeometry();
-      geometry.setAttribute("position", new BufferAttribute(positions, 3));
-      const material = new PointsMaterial({
-        size: kMarkPixels,
-        sizeAttenuation: false,
-        map: ringTexture(),
-        transparent: true,
-        depthTest: false,
-      });
-      const points = new Points(geometry, material);
-      points.renderOrder = 10;
-      this.markGroup.add(points);
+    for (const minor of [true, false]) {
+      const shown = marks.filter((mark) => mark.minor === minor);
+      if (shown.length > 0) this.markGroup.add(this.markPoints(shown, minor));
     }
     this.draw();
+  }
+
+  private markPoints(marks: Mark[], minor: boolean): Points {
+    const positions = new Float32Array(marks.flatMap(({ point }) => this.about(point).toArray()));
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    const material = new PointsMaterial({
+      size: minor ? kDotPixels : kMarkPixels,
+      sizeAttenuation: false,
+      map: minor ? discTexture(kMarkColour, "#ffffff") : ringTexture(),
+      transparent: true,
+      depthTest: false,
+    });
+    const points = new Points(geometry, material);
+    points.renderOrder = minor ? 9 : 10;
+    return points;
   }
 
   /** Draws the light of a witness, the ray to it and the caster that it meets. */
@@ -209,7 +217,7 @@ export class SceneView {
         "position",
         new BufferAttribute(new Float32Array(this.about(light.position).toArray()), 3),
       );
-      const map = discTexture();
+      const map = discTexture("#ffb703", "#7a5200");
       this.lights.add(
         new Points(
           geometry,
@@ -594,10 +602,10 @@ function ringTexture(): CanvasTexture {
   });
 }
 
-function discTexture(): CanvasTexture {
+function discTexture(fill: string, border: string): CanvasTexture {
   return drawnTexture((context, size) => {
-    context.fillStyle = "#ffb703";
-    context.strokeStyle = "#7a5200";
+    context.fillStyle = fill;
+    context.strokeStyle = border;
     context.lineWidth = 5;
     context.beginPath();
     context.arc(size / 2, size / 2, size / 2 - 6, 0, 2 * Math.PI);
