@@ -128,7 +128,7 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"mistakes", {}},
         {"check", {"mistakes", "moves", "process"}},
         {"workers", {"check", "generate", "process"}},
-        {"campaign", {"generate", "workers"}},
+        {"campaign", {"check", "generate", "workers"}},
         {"shrink", {"check", "scene"}},
         {"corpus", {"check", "process", "text"}},
         {"findings", {"check", "corpus", "process", "scene", "shrink"}},
