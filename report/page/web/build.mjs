@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bundles the page into a C++ source: node build.mjs OUTPUT.cc; or as it is: OUTPUT.html. The page
 // is everything but its data; what it may weigh is a promise of docs/report.md.
-import { readFileSync, writeFileSync } from "node:fs";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { build } from "esbuild";
 
 const kMostBytes = 1_000_000;
@@ -10,30 +10,41 @@ const kPieceBytes = 60_000;
 const kDataMark = "<!-- data -->";
 
 async function bundled(entry, options) {
-  const result = await build({
+  return build({
     entryPoints: [entry],
     bundle: true,
     minify: true,
     write: false,
+    metafile: true,
     target: ["es2021"],
     charset: "ascii",
     legalComments: "none",
     logLevel: "warning",
     ...options,
   });
-  return result.outputFiles[0].text;
 }
 
-// The licences of what is bundled ask for their lines in every copy.
-function notices() {
-  const names = ["three", "@observablehq/plot"];
-  const lines = names.map((name) => {
-    const folder = new URL(`node_modules/${name}/`, import.meta.url);
-    const { version, license } = JSON.parse(readFileSync(new URL("package.json", folder), "utf8"));
-    const copyright = readFileSync(new URL("LICENSE", folder), "utf8").match(/Copyright.*/)[0];
-    return `${name} ${version}, ${license}, ${copyright}`;
-  });
-  return `Bundled: ${lines.join("; ")}; d3, ISC, Copyright Mike Bostock`.replaceAll("--", "-");
+const textOf = (result) => result.outputFiles[0].text.trim();
+
+// What is bundled is under licences that ask for their text in every copy: each once, with the
+// packages that it is of.
+function notices(metafile) {
+  const packages = new Set();
+  for (const file of Object.keys(metafile.inputs)) {
+    const found = file.match(/^node_modules\/((?:@[^/]+\/)?[^/]+)\//);
+    if (found) packages.add(found[1]);
+  }
+  const texts = new Map();
+  for (const name of [...packages].sort()) {
+    const folder = `node_modules/${name}`;
+    const file = readdirSync(folder).find((each) => /^licen[cs]e/i.test(each));
+    if (!file) throw new Error(`${name} has no licence`);
+    const { version } = JSON.parse(readFileSync(`${folder}/package.json`, "utf8"));
+    const text = readFileSync(`${folder}/${file}`, "utf8").trim();
+    texts.set(text, [...(texts.get(text) ?? []), `${name} ${version}`]);
+  }
+  const parts = [...texts].map(([text, names]) => `${names.join(", ")}:\n${text}`);
+  return parts.join("\n\n").replaceAll(/-{2,}/g, "-");
 }
 
 // Octal escapes, which end after three digits, for what is no plain character.
@@ -60,13 +71,14 @@ function pieces(text) {
   return literals.join("\n");
 }
 
-const script = await bundled("src/main.ts", { format: "iife" });
-const style = await bundled("src/page.css", {});
+const bundle = await bundled("src/main.ts", { format: "iife" });
+const script = textOf(bundle);
+const style = textOf(await bundled("src/page.css", {}));
 if (/<\/script|<!--/i.test(script)) throw new Error("the script would end its own element");
 const page = readFileSync("src/page.html", "utf8")
-  .replace("/* style */", () => style.trim())
-  .replace("/* script */", () => script.trim())
-  .replace("<!-- notices -->", () => `<!-- ${notices()} -->`);
+  .replace("/* style */", () => style)
+  .replace("/* script */", () => script)
+  .replace("<!-- notices -->", () => `<!--\n${notices(bundle.metafile)}\n-->`);
 const bytes = Buffer.byteLength(page);
 if (bytes > kMostBytes) throw new Error(`the page has ${bytes} bytes, more than ${kMostBytes}`);
 const [before, after] = page.split(kDataMark);
