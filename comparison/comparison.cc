@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -17,6 +16,7 @@
 #include "fuzz/process/command.h"
 #include "gnomon/algorithms/method.h"
 #include "report/text/number_text.h"
+#include "report/text/shell_word.h"
 
 namespace gnomon::comparison {
 
@@ -57,17 +57,6 @@ void set_end(Measurement& measurement, const fuzz::CommandResult& result, const 
   if (measurement.timed()) {
     measurement.why += measurement.checksum.empty() ? ", for the answer" : ", while it was judged";
   }
-}
-
-std::string quoted(const std::string& word) {
-  const auto plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view("-_+=:,./").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + '\'';
 }
 
 /// What no size changes: the rows over which time grows.
@@ -239,10 +228,11 @@ Expected<Measurement> run_in_process(const RunProgram& program, const RunRequest
 
 std::string command_of(const RunRequest& request, const RunLimits& limits) {
   const RunLimits usual;
-  std::string text = "gnomon compare " + quoted(request.scene);
+  std::string text = "gnomon compare " + report::shell_word(request.scene);
   if (request.size) text += " --size " + std::to_string(*request.size);
   if (request.seed != 1) text += " --seed " + std::to_string(request.seed);
-  text += " --algorithm " + quoted(request.system) + " --kernel " + quoted(request.kernel);
+  text += " --algorithm " + report::shell_word(request.system) + " --kernel " +
+          report::shell_word(request.kernel);
   if (request.repeat > 0) text += " --repeat " + std::to_string(request.repeat);
   if (request.certify_up_to != kCertifyUpTo) {
     text += " --certify-up-to " + std::to_string(request.certify_up_to);

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "comparison/csv_text.h"
 #include "gnomon/algorithms/method.h"
 #include "gnomon/algorithms/method_options.h"
 #include "report/json/json_writer.h"
 #include "report/text/count_text.h"
+#include "report/text/csv_field.h"
 #include "report/text/number_text.h"
 #include "report/text/table.h"
 
@@ -258,7 +258,7 @@ std::string comparison_csv(const Comparison& comparison, bool times) {
   }
   header.emplace_back("command");
   std::string text;
-  add_csv_line(text, header);
+  report::append_csv_line(text, header);
   for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
     const Row& row = comparison.rows[i];
     const Measurement& measurement = row.measurement;
@@ -286,7 +286,7 @@ std::string comparison_csv(const Comparison& comparison, bool times) {
       line.push_back(growth ? report::shortest(*growth) : "");
     }
     line.push_back(row.command);
-    add_csv_line(text, line);
+    report::append_csv_line(text, line);
   }
   return text;
 }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "comparison/csv_text.h"
 #include "report/json/json_writer.h"
+#include "report/text/csv_field.h"
 #include "report/text/number_text.h"
 #include "report/text/table.h"
 
@@ -186,23 +186,24 @@ void write_extremes_json(report::TextSink& sink, const Extremes& extremes) {
 
 std::string extremes_csv(const Extremes& extremes) {
   std::string text;
-  add_csv_line(text, {"axis", "k", "system", "kernel", "thickness", "failure", "worst_share",
-                      "width", "invented", "lost", "cpu_seconds", "peak_bytes", "command"});
+  report::append_csv_line(
+      text, {"axis", "k", "system", "kernel", "thickness", "failure", "worst_share", "width",
+             "invented", "lost", "cpu_seconds", "peak_bytes", "command"});
   for (const ExtremeCurve& curve : extremes.curves) {
     for (std::size_t i = 0; i < curve.steps.size(); ++i) {
       const Measurement& measurement = curve.rows[i]->measurement;
       const auto& judgement = measurement.judgement;
       const auto error = error_of(measurement);
-      add_csv_line(text,
-                   {std::string(curve.axis->name), std::to_string(curve.steps[i]), curve.system,
-                    curve.kernel, curve.thickness ? shortest(*curve.thickness) : "",
-                    failure_of(*curve.rows[i]), error ? shortest(*error) : "",
-                    judgement ? shortest(judgement->width) : "",
-                    judgement ? std::to_string(judgement->invented) : "",
-                    judgement ? std::to_string(judgement->lost) : "",
-                    measurement.timed() ? shortest(measurement.seconds) : "",
-                    measurement.timed() ? std::to_string(measurement.peak_bytes) : "",
-                    curve.rows[i]->command});
+      report::append_csv_line(
+          text, {std::string(curve.axis->name), std::to_string(curve.steps[i]), curve.system,
+                 curve.kernel, curve.thickness ? shortest(*curve.thickness) : "",
+                 failure_of(*curve.rows[i]), error ? shortest(*error) : "",
+                 judgement ? shortest(judgement->width) : "",
+                 judgement ? std::to_string(judgement->invented) : "",
+                 judgement ? std::to_string(judgement->lost) : "",
+                 measurement.timed() ? shortest(measurement.seconds) : "",
+                 measurement.timed() ? std::to_string(measurement.peak_bytes) : "",
+                 curve.rows[i]->command});
     }
   }
   return text;

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "comparison/csv_text.h"
 #include "gnomon/kernel/kernel_list.h"
 #include "report/json/json_writer.h"
+#include "report/text/csv_field.h"
 #include "report/text/number_text.h"
 #include "report/text/table.h"
 
@@ -306,39 +306,40 @@ void write_tradeoff_json(report::TextSink& sink, const Tradeoff& tradeoff) {
 
 std::string tradeoff_csv(const Tradeoff& tradeoff) {
   std::string text;
-  add_csv_line(text, {"scene",      "polygons",  "lights",  "system", "kernel",
-                      "thickness",  "change",    "end",     "why",    "cpu_seconds",
-                      "peak_bytes", "fragments", "verdict", "wrong",  "worst_share",
-                      "width",      "invented",  "lost",    "breaks", "sides_that_differ",
-                      "differ_by",  "on_front",  "command"});
+  report::append_csv_line(text,
+                          {"scene",      "polygons",  "lights",  "system", "kernel",
+                           "thickness",  "change",    "end",     "why",    "cpu_seconds",
+                           "peak_bytes", "fragments", "verdict", "wrong",  "worst_share",
+                           "width",      "invented",  "lost",    "breaks", "sides_that_differ",
+                           "differ_by",  "on_front",  "command"});
   for (const TradeoffRow& row : tradeoff.rows) {
     const Measurement& measurement = row.measurement;
     const auto& judgement = measurement.judgement;
     const auto& difference = measurement.difference;
     const bool timed = measurement.timed();
-    add_csv_line(text, {row.request.scene,
-                        std::to_string(row.polygons),
-                        row.request.lights == LightsAsked::kArea ? "area" : "point",
-                        row.request.system,
-                        row.request.kernel,
-                        row.request.thickness ? shortest(*row.request.thickness) : "",
-                        row.request.change,
-                        std::string(name_of(measurement.end)),
-                        measurement.why,
-                        timed ? shortest(measurement.seconds) : "",
-                        timed ? std::to_string(measurement.peak_bytes) : "",
-                        timed ? std::to_string(measurement.fragments) : "",
-                        judgement ? judgement->verdict : "",
-                        judgement ? shortest(judgement->wrong) : "",
-                        judgement ? shortest(judgement->worst_share) : "",
-                        judgement ? shortest(judgement->width) : "",
-                        judgement ? std::to_string(judgement->invented) : "",
-                        judgement ? std::to_string(judgement->lost) : "",
-                        judgement ? judgement->breaks : "",
-                        difference ? std::to_string(difference->sides) : "",
-                        difference ? shortest(difference->worst_share) : "",
-                        row.on_front ? "1" : "0",
-                        row.command});
+    report::append_csv_line(text, {row.request.scene,
+                                   std::to_string(row.polygons),
+                                   row.request.lights == LightsAsked::kArea ? "area" : "point",
+                                   row.request.system,
+                                   row.request.kernel,
+                                   row.request.thickness ? shortest(*row.request.thickness) : "",
+                                   row.request.change,
+                                   std::string(name_of(measurement.end)),
+                                   measurement.why,
+                                   timed ? shortest(measurement.seconds) : "",
+                                   timed ? std::to_string(measurement.peak_bytes) : "",
+                                   timed ? std::to_string(measurement.fragments) : "",
+                                   judgement ? judgement->verdict : "",
+                                   judgement ? shortest(judgement->wrong) : "",
+                                   judgement ? shortest(judgement->worst_share) : "",
+                                   judgement ? shortest(judgement->width) : "",
+                                   judgement ? std::to_string(judgement->invented) : "",
+                                   judgement ? std::to_string(judgement->lost) : "",
+                                   judgement ? judgement->breaks : "",
+                                   difference ? std::to_string(difference->sides) : "",
+                                   difference ? shortest(difference->worst_share) : "",
+                                   row.on_front ? "1" : "0",
+                                   row.command});
   }
   return text;
 }

@@ -18,6 +18,7 @@
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
 #include "cli/common/progress.h"
+#include "cli/common/report_output.h"
 #include "cli/common/scene_options.h"
 #include "comparison/engine_tables/engine_table.h"
 #include "gnomon/algorithms/explain.h"
@@ -39,6 +40,8 @@ namespace {
 /// Up to so many parts the slow exact kernels run without being asked for, and every error is
 /// measured.
 constexpr std::size_t kSmallScene = 200;
+/// Regions of error that a report shows of each polygon side.
+constexpr std::size_t kShownRegions = 30;
 /// So many decisions are flipped without being asked for.
 constexpr std::uint32_t kFlips = 30;
 /// Every kernel under the policies of the default set, however slow; all of them count.
@@ -57,7 +60,7 @@ struct CertifyCommandOptions {
   std::optional<std::uint32_t> flips;
   bool strict = false, subset = false, explain = false, times = false, measure = false;
   bool combined = false;
-  std::string report_directory;
+  ReportOptions report;
   std::string json;
   CorpusCommandOptions corpus;  // what certify_corpus.h needs besides
   YearOptions suns;             // of candidates that are tables
@@ -273,6 +276,7 @@ class CertifyRun {
     certify_options.leaks = options_.leaks;
     certify_options.borders = !options_.measure && loaded_.prepared.parts.size() > kSmallScene;
     certify_options.lights = loaded_.lights;
+    if (!options_.report.directory.empty()) certify_options.most_regions = kShownRegions;
     certify_options.progress = progress_.callback();
     certify_options.interrupted = &interrupted();
     if (judged_before_ && kept_.back().same_as(candidate)) {
@@ -293,7 +297,7 @@ class CertifyRun {
     }
     judged_before_ = certificate_.runs.size();
     certificate_.runs.push_back(std::move(run));
-    if (options_.report_directory.empty()) kept_.clear();
+    if (options_.report.directory.empty()) kept_.clear();
     kept_.push_back(std::move(candidate));
     if (stopped) return fail(ErrorCode::kInterrupted, "interrupted");
     return {};
@@ -334,6 +338,7 @@ int run_corpus(const CertifyCommandOptions& options) {
   corpus.tolerance = options.tolerance.value_or(corpus.tolerance);
   corpus.jobs = options.scene.jobs;
   corpus.json = options.json;
+  corpus.report = options.report;
   return run_certify_corpus(corpus);
 }
 
@@ -342,7 +347,8 @@ int run_tables(const CertifyCommandOptions& options) {
                              .suns = options.suns,
                              .tables = options.candidates,
                              .tolerance = options.tolerance,
-                             .json = options.json},
+                             .json = options.json,
+                             .report = options.report},
                             options.table_rules);
 }
 
@@ -397,8 +403,8 @@ int run_certify(const CertifyCommandOptions& options) {
     report::write_certificate_json(*output, run.certificate(), options.times);
     if (auto done = output->finish(); !done) return report_error(done.error());
   }
-  if (!options.report_directory.empty()) {
-    const auto done = write_certificate_report(options.report_directory, *loaded, run.certificate(),
+  if (options.report.asked()) {
+    const auto done = write_certificate_report(options.report, *loaded, run.certificate(),
                                                run.kept(), options.times);
     if (!done) return report_error(done.error());
   }
@@ -425,8 +431,8 @@ CorpusOptionRules add_corpus_options(CLI::App& command, CertifyCommandOptions& o
                                      CLI::Option* scene) {
   CorpusOptionRules rules;
   scene->required(false);
-  const std::vector<std::string> common = {"--help",      "--help-all", "--kernel",
-                                           "--tolerance", "--json",     "--jobs"};
+  const std::vector<std::string> common = {"--help", "--help-all", "--kernel", "--tolerance",
+                                           "--json", "--jobs",     "--report", "--junit"};
   for (const CLI::Option* other : command.get_options()) {
     const bool is_common = std::ranges::any_of(
         common, [&](const std::string& name) { return other->check_name(name); });
@@ -546,10 +552,7 @@ void add_certify_command(CLI::App& app, Action& action) {
                   "Decisions that --explain flips one by one, largest first [30]")
       ->needs(explain_option)
       ->type_name("N");
-  command
-      .add_option("--report", options->report_directory,
-                  "Write verdict.json, table.txt and pictures to this directory")
-      ->type_name("DIR");
+  add_report_options(command, options->report);
   command.add_option("--json", options->json, "Write the verdicts as JSON; - is standard output")
       ->type_name("FILE");
   command.add_flag("--times", options->times, "CPU times in the JSON, which then is not stable");

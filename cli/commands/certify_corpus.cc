@@ -57,6 +57,48 @@ int record_corpus(const CorpusCommandOptions& options) {
   return done ? kDone : report_error(done.error());
 }
 
+/// What is recorded and not scored is skipped.
+std::vector<report::JUnitCase> junit_cases_of(const fuzz::CorpusReport& report) {
+  using report::JUnitOutcome;
+  std::vector<report::JUnitCase> cases;
+  for (std::size_t i = 0; i < report.judgements.size(); ++i) {
+    const fuzz::Fixture& fixture = (*report.fixtures)[i];
+    if (!report.oracle_findings[i].empty()) {
+      cases.push_back(
+          {"corpus.oracle", fixture.name, JUnitOutcome::kFailed, report.oracle_findings[i], {}});
+    }
+    for (std::size_t s = 0; s < report.subjects.size(); ++s) {
+      const fuzz::Judgement& judgement = report.judgements[i][s];
+      const bool scored =
+          report.subjects[s].exact() || fixture.expectation != fuzz::Expectation::kInform;
+      JUnitOutcome outcome = JUnitOutcome::kPassed;
+      if (judgement.outcome == fuzz::Outcome::kNotAsked) {
+        outcome = JUnitOutcome::kSkipped;
+      } else if (judgement.outcome != fuzz::Outcome::kPass) {
+        outcome = scored ? JUnitOutcome::kFailed : JUnitOutcome::kSkipped;
+      }
+      cases.push_back({"corpus." + report.names[s], fixture.name, outcome, judgement.why, {}});
+    }
+  }
+  return cases;
+}
+
+Expected<void> report_corpus(const CorpusCommandOptions& options,
+                             const fuzz::CorpusReport& judged) {
+  Report report;
+  report.command = "certify";
+  report.scene = options.corpus;
+  report.cases = junit_cases_of(judged);
+  const auto json = [&](report::TextSink& sink) { fuzz::write_corpus_json(sink, judged); };
+  report.files = {
+      {"table.txt",
+       [&](report::TextSink& sink) { sink.write(fuzz::corpus_text(judged, options.by_scene)); }},
+      {"corpus.json", json},
+      {"corpus.csv", [&](report::TextSink& sink) { sink.write(fuzz::corpus_csv(judged)); }}};
+  report.documents = {{"corpus", json}};
+  return write_report(options.report, report);
+}
+
 }  // namespace
 
 int run_certify_corpus(const CorpusCommandOptions& options) {
@@ -90,6 +132,9 @@ int run_certify_corpus(const CorpusCommandOptions& options) {
     if (!output) return report_error(output.error());
     fuzz::write_corpus_json(*output, *report);
     if (auto done = output->finish(); !done) return report_error(done.error());
+  }
+  if (options.report.asked()) {
+    if (auto done = report_corpus(options, *report); !done) return report_error(done.error());
   }
   if (report->disagree()) return kDisagree;
   return report->failures(false) > 0 ? kFailed : kDone;

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/common/report_output.h"
+
 namespace gnomon::cli {
 
 struct CorpusCommandOptions {
@@ -22,6 +24,7 @@ struct CorpusCommandOptions {
   bool in_process = false;  // kernels too
   bool record = false;
   std::string json;
+  ReportOptions report;
 };
 
 /// The exit status: 4 where the oracle or an exact kernel does not say what is recorded, 1 where a

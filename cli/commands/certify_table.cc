@@ -320,6 +320,41 @@ int status_of_tables(const std::vector<TableVerdict>& verdicts) {
   return std::ranges::any_of(verdicts, &TableVerdict::failed) ? kFailed : kDone;
 }
 
+Expected<void> report_tables(const ReportOptions& options,
+                             const std::vector<TableVerdict>& verdicts, const std::string& text) {
+  using report::JUnitOutcome;
+  Report report;
+  report.command = "certify";
+  report.scene = verdicts.front().scene;
+  for (const TableVerdict& verdict : verdicts) {
+    for (const comparison::JudgedSurface& surface : verdict.surfaces) {
+      const std::uint64_t wrong = surface.wrong.all();
+      report.cases.push_back({"certify." + verdict.file,
+                              surface.name,
+                              wrong > 0 ? JUnitOutcome::kFailed : JUnitOutcome::kPassed,
+                              std::to_string(wrong) + " values are wrong",
+                              {}});
+    }
+    if (verdict.oracle_fault) {
+      report.cases.push_back({"certify." + verdict.file,
+                              "oracle",
+                              JUnitOutcome::kFailed,
+                              "kernel and oracle differ: a bug of ours",
+                              {}});
+    }
+  }
+  const auto json = [&](report::TextSink& sink) {
+    comparison::write_table_verdicts_json(sink, verdicts);
+  };
+  report.files = {{"table.txt", [&](report::TextSink& sink) { sink.write(text); }},
+                  {"verdict.json", json},
+                  {"surfaces.csv", [&](report::TextSink& sink) {
+                     sink.write(comparison::table_verdicts_csv(verdicts));
+                   }}};
+  report.documents = {{"tables", json}};
+  return write_report(options, report);
+}
+
 }  // namespace
 
 int run_certify_tables(const TableCommandOptions& options, const TableOptionRules& rules) {
@@ -334,11 +369,11 @@ int run_certify_tables(const TableCommandOptions& options, const TableOptionRule
     if (!verdict) return report_error(verdict.error());
     verdicts.push_back(*std::move(verdict));
   }
+  std::string text;
+  for (const TableVerdict& verdict : verdicts) {
+    text += (text.empty() ? "" : "\n") + comparison::table_verdict_text(verdict);
+  }
   if (options.json != "-") {
-    std::string text;
-    for (const TableVerdict& verdict : verdicts) {
-      text += (text.empty() ? "" : "\n") + comparison::table_verdict_text(verdict);
-    }
     if (auto done = write_output({}, text); !done) return report_error(done.error());
   }
   if (!options.json.empty()) {
@@ -346,6 +381,11 @@ int run_certify_tables(const TableCommandOptions& options, const TableOptionRule
     if (!output) return report_error(output.error());
     comparison::write_table_verdicts_json(*output, verdicts);
     if (auto done = output->finish(); !done) return report_error(done.error());
+  }
+  if (options.report.asked()) {
+    if (auto done = report_tables(options.report, verdicts, text); !done) {
+      return report_error(done.error());
+    }
   }
   return status_of_tables(verdicts);
 }

@@ -10,6 +10,7 @@
 
 #include "cli/commands/table_options.h"
 #include "cli/commands/year_options.h"
+#include "cli/common/report_output.h"
 #include "cli/common/scene_options.h"
 
 namespace gnomon::cli {
@@ -20,6 +21,7 @@ struct TableCommandOptions {
   std::vector<std::string> tables;
   std::optional<double> tolerance;
   std::string json;
+  ReportOptions report;
 };
 
 /// The exit status.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/commands/comparison_options.h"
+#include "cli/commands/measured_report.h"
 #include "cli/common/check_options.h"
 #include "cli/common/commands.h"
 #include "cli/common/interrupt.h"
@@ -43,6 +44,25 @@ Expected<comparison::ComparePlan> plan_of(const CompareCommandOptions& options) 
   return plan;
 }
 
+/// With times: a page is looked at, and compared with no other byte for byte.
+Expected<void> report_comparison(const comparison::Comparison& comparison,
+                                 const CompareCommandOptions& options) {
+  MeasuredRows measured;
+  measured.command = "compare";
+  measured.document = "comparison";
+  for (const comparison::Row& row : comparison.rows) measured.rows.push_back(&row);
+  measured.contradictions = comparison.contradictions;
+  measured.interrupted = comparison.interrupted;
+  measured.text = [&] {
+    return comparison::comparison_text(comparison, {options.commands, options.counters});
+  };
+  measured.csv = [&] { return comparison::comparison_csv(comparison, true); };
+  measured.json = [&](report::TextSink& sink) {
+    comparison::write_comparison_json(sink, comparison, true);
+  };
+  return write_measured_report(options.report, measured);
+}
+
 int run_compare(const CompareCommandOptions& options) {
   const auto plan = plan_of(options);
   if (!plan) return report_error(plan.error());
@@ -68,6 +88,11 @@ int run_compare(const CompareCommandOptions& options) {
       },
       [&] { return comparison::comparison_csv(*comparison, options.times); });
   if (!written) return report_error(written.error());
+  if (options.report.asked()) {
+    if (auto done = report_comparison(*comparison, options); !done) {
+      return report_error(done.error());
+    }
+  }
   return status_of(comparison->interrupted, comparison->contradictions);
 }
 

@@ -208,6 +208,7 @@ void add_run_options(CLI::App& command, ComparisonOptions& options,
       ->type_name("FILE");
   command.add_option("--csv", options.csv, "Write the rows as CSV; - for standard output alone")
       ->type_name("FILE");
+  add_report_options(command, options.report);
 }
 
 void add_comparison_options(CLI::App& command, ComparisonOptions& options,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/common/exit_status.h"
+#include "cli/common/report_output.h"
 #include "comparison/comparison.h"
 #include "comparison/run_log.h"
 #include "gnomon/kernel/error.h"
@@ -26,6 +27,7 @@ struct ComparisonOptions {
   std::uint64_t megabytes = comparison::RunLimits{}.megabytes;
   bool commands = false;
   std::string json, csv;
+  ReportOptions report;
 
   /// A folder is all scene files below it. Errors: of a scene that is none.
   Expected<std::vector<comparison::SceneSource>> sources() const;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/commands/comparison_options.h"
+#include "cli/commands/measured_report.h"
 #include "cli/common/check_options.h"
 #include "cli/common/commands.h"
 #include "cli/common/interrupt.h"
@@ -69,6 +70,26 @@ Expected<comparison::ExtremesPlan> plan_of(const ExtremesOptions& options) {
   return plan;
 }
 
+Expected<void> report_extremes(const comparison::Extremes& extremes,
+                               const ExtremesOptions& options) {
+  MeasuredRows measured;
+  measured.command = measured.document = "extremes";
+  for (const comparison::TradeoffRow& row : extremes.runs.rows) measured.rows.push_back(&row);
+  const comparison::ExtremeAxis* last = nullptr;  // curves are in the order of axes
+  for (const comparison::ExtremeCurve& curve : extremes.curves) {
+    if (curve.axis == last) continue;
+    last = curve.axis;
+    measured.title += (measured.title.empty() ? "" : ", ") + std::string(last->name);
+  }
+  measured.contradictions = extremes.runs.contradictions;
+  measured.interrupted = extremes.runs.interrupted;
+  measured.text = [&] { return comparison::extremes_text(extremes, options.curves); };
+  measured.csv = [&] { return comparison::extremes_csv(extremes); };
+  measured.json = [&](report::TextSink& sink) { comparison::write_extremes_json(sink, extremes); };
+  measured.plot = [&](report::TextSink& sink) { comparison::write_extremes_plot(sink, extremes); };
+  return write_measured_report(options.report, measured);
+}
+
 int run_extremes(const ExtremesOptions& options) {
   if (options.list) {
     const auto done = write_output({}, comparison::extreme_axes_text());
@@ -99,6 +120,9 @@ int run_extremes(const ExtremesOptions& options) {
     comparison::write_extremes_plot(sink, *extremes);
   });
   if (!drawn) return report_error(drawn.error());
+  if (options.report.asked()) {
+    if (auto done = report_extremes(*extremes, options); !done) return report_error(done.error());
+  }
   return status_of(extremes->runs.interrupted, extremes->runs.contradictions);
 }
 

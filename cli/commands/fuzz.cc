@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/commands/campaign_findings.h"
+#include "cli/commands/campaign_page.h"
 #include "cli/common/check_options.h"
 #include "cli/common/commands.h"
 #include "cli/common/failures.h"
@@ -39,6 +40,7 @@ struct FuzzOptions {
   unsigned jobs = 0;
   bool every_kernel = false, zoo = false, times = false;
   std::string findings;
+  ReportOptions report;
 };
 
 /// Hours, minutes and seconds.
@@ -96,6 +98,11 @@ int status_of_campaign(const fuzz::CampaignOutcome& outcome, const FuzzOptions& 
   return ours ? kDisagree : asked ? kFailed : kDone;
 }
 
+/// A failure that the exit status tells of.
+bool counts(const fuzz::Failure& failure, const FuzzOptions& options) {
+  return is_ours(failure) || asked_to_fail(failure, options.fail_on);
+}
+
 int finish(const FuzzOptions& options, const std::string& plan,
            const fuzz::CampaignOutcome& outcome) {
   if (!options.json.empty()) {
@@ -112,6 +119,12 @@ int finish(const FuzzOptions& options, const std::string& plan,
     }
     const auto written = write_output({}, text);
     if (!written) return report_error(written.error());
+  }
+  if (options.report.asked()) {
+    const auto done =
+        write_campaign_page(options.report, plan, outcome, options.times,
+                            [&](const fuzz::Failure& failure) { return counts(failure, options); });
+    if (!done) return report_error(done.error());
   }
   return status_of_campaign(outcome, options);
 }
@@ -258,6 +271,7 @@ void add_fuzz_command(CLI::App& app, Action& action) {
   command.add_option("--json", options->json, "Write the campaign's figures; - is standard output")
       ->type_name("FILE");
   command.add_flag("--times", options->times, "Times in --json");
+  add_report_options(command, options->report);
   command.callback([options, &action] { action = [options] { return run_fuzz(*options); }; });
 }
 

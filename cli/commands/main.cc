@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 
+#include "cli/common/command_line.h"
 #include "cli/common/commands.h"
 #include "cli/common/exit_status.h"
 #include "cli/common/interrupt.h"
@@ -51,8 +52,9 @@ int print(const std::string& text) {
 }
 
 int run(int argc, char** argv) {
+  set_command_line(argc, argv);
   CLI::App app("Exact shadows of polygons, and the verdict on every other number type.", "gnomon");
-  app.set_version_flag("--version", "gnomon " GNOMON_VERSION, "Print the version and exit");
+  app.set_version_flag("--version", program_version(), "Print the version and exit");
   app.set_help_all_flag("--help-all", "Print the help of every command and exit");
   app.get_formatter()->column_width(34);
   app.require_subcommand(1);
@@ -87,7 +89,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::CallForHelp&) {
     return print(app.help());
   } catch (const CLI::CallForVersion&) {
-    return print("gnomon " GNOMON_VERSION "\n");
+    return print(program_version() + '\n');
   } catch (const CLI::ParseError& error) {
     return usage_error(app, error);
   }

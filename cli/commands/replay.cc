@@ -7,12 +7,14 @@
 #include <memory>
 #include <utility>
 
+#include "cli/commands/case_scene.h"
 #include "cli/common/check_options.h"
 #include "cli/common/commands.h"
 #include "cli/common/failures.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
+#include "cli/common/report_output.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/findings/finding.h"
 #include "fuzz/generate/generator.h"
@@ -30,6 +32,7 @@ struct ReplayOptions {
   std::string what, generator, output;
   std::optional<std::uint64_t> case_index, case_seed;
   std::uint64_t relation_seed = 1;
+  ReportOptions report;
 };
 
 /// A scene to check, and under which seed.
@@ -89,6 +92,29 @@ Expected<ReplayedCase> chosen_case(const ReplayOptions& options) {
   return ReplayedCase{std::move(read->scene), options.relation_seed, options.what, {}};
 }
 
+Expected<void> report_case(const ReplayOptions& options, const ReplayedCase& replayed,
+                           const fuzz::CaseReport& found) {
+  Report report;
+  report.command = "replay";
+  report.scene = replayed.name;
+  report.cases = junit_cases_of("replay." + replayed.name, found);
+  const auto json = [&](report::TextSink& sink) { write_case_json(sink, replayed.name, found); };
+  report.files = {
+      {"table.txt", [&](report::TextSink& sink) { sink.write(case_text(replayed.name, found)); }},
+      {"case.json", json},
+      {"failures.csv", [&](report::TextSink& sink) { sink.write(case_csv(found)); }}};
+  report.documents = {{"case", json}};
+  const CaseScene scene(replayed.scene, found.failures);
+  if (scene.is_shown()) {
+    report.documents.push_back({"view", [&](report::TextSink& sink) { scene.write_view(sink); }});
+  }
+  if (scene.has_result()) {
+    report.documents.push_back(
+        {"result", [&](report::TextSink& sink) { scene.write_result(sink); }});
+  }
+  return write_report(options.report, report);
+}
+
 int run_replay(const ReplayOptions& options) {
   auto worker = worker_options(options.check, all_subjects());
   if (!worker) return report_error(worker.error());
@@ -112,6 +138,11 @@ int run_replay(const ReplayOptions& options) {
   if (!report) return report_error(report.error());
   const auto written = write_output({}, case_text(chosen->name, *report));
   if (!written) return report_error(written.error());
+  if (options.report.asked()) {
+    if (auto done = report_case(options, *chosen, *report); !done) {
+      return report_error(done.error());
+    }
+  }
   return status_of_failures(report->failures);
 }
 
@@ -146,6 +177,7 @@ void add_replay_command(CLI::App& app, Action& action) {
       ->capture_default_str();
   command.add_option("-o,--output", options->output, "Also write the scene")->type_name("FILE");
   add_check_options(command, options->check);
+  add_report_options(command, options->report);
   command.callback([options, &action] { action = [options] { return run_replay(*options); }; });
 }
 

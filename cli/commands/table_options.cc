@@ -6,9 +6,9 @@
 namespace gnomon::cli {
 
 void TableOptionRules::add(CLI::App& command, YearOptions& options) {
-  const std::vector<std::string> common = {"--help",      "--help-all", "SCENE",     "--candidate",
-                                           "--tolerance", "--json",     "--numbers", "--jobs",
-                                           "--two-sided", "--skip-bad", "--lod",     "--subset"};
+  const std::vector<std::string> common = {
+      "--help", "--help-all",  "SCENE",      "--candidate", "--tolerance", "--json",   "--numbers",
+      "--jobs", "--two-sided", "--skip-bad", "--lod",       "--subset",    "--report", "--junit"};
   const std::vector<CLI::Option*> others = command.get_options();
   for (const CLI::Option* other : others) {
     const bool is_common = std::ranges::any_of(

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/commands/comparison_options.h"
+#include "cli/commands/measured_report.h"
 #include "cli/common/check_options.h"
 #include "cli/common/commands.h"
 #include "cli/common/interrupt.h"
@@ -79,6 +80,20 @@ std::string text_of(const comparison::Tradeoff& tradeoff, const TradeoffOptions&
   return comparison::tradeoff_text(tradeoff, options.commands);
 }
 
+Expected<void> report_tradeoff(const comparison::Tradeoff& tradeoff,
+                               const TradeoffOptions& options) {
+  MeasuredRows measured;
+  measured.command = measured.document = "tradeoff";
+  for (const comparison::TradeoffRow& row : tradeoff.rows) measured.rows.push_back(&row);
+  measured.contradictions = tradeoff.contradictions;
+  measured.interrupted = tradeoff.interrupted;
+  measured.text = [&] { return text_of(tradeoff, options); };
+  measured.csv = [&] { return comparison::tradeoff_csv(tradeoff); };
+  measured.json = [&](report::TextSink& sink) { comparison::write_tradeoff_json(sink, tradeoff); };
+  measured.plot = [&](report::TextSink& sink) { comparison::write_tradeoff_plot(sink, tradeoff); };
+  return write_measured_report(options.report, measured);
+}
+
 int run_tradeoff(const TradeoffOptions& options) {
   const auto plan = plan_of(options);
   if (!plan) return report_error(plan.error());
@@ -107,6 +122,9 @@ int run_tradeoff(const TradeoffOptions& options) {
     comparison::write_tradeoff_plot(sink, *tradeoff);
   });
   if (!drawn) return report_error(drawn.error());
+  if (options.report.asked()) {
+    if (auto done = report_tradeoff(*tradeoff, options); !done) return report_error(done.error());
+  }
   return status_of(tradeoff->interrupted, tradeoff->contradictions);
 }
 

@@ -22,10 +22,12 @@
 #include "cli/common/statistics.h"
 #include "gnomon/kernel/kernel_choice.h"
 #include "gnomon/scene/digest.h"
+#include "report/page/scene_view.h"
 #include "report/shares/gross_shares.h"
 #include "report/text/number_text.h"
 #include "report/year/row_sum.h"
 #include "report/year/sun_hours.h"
+#include "report/year/year_page.h"
 #include "report/year/year_writer.h"
 #include "scene/base/output_file.h"
 
@@ -48,6 +50,7 @@ class Tables {
     const std::span<const double> lit = row_;
     sum_.add(sun, lit);
     if (hours_) hours_->add(sun, lit);
+    if (page_) page_->add(sun, lit);
     for (const auto& writer : writers_) {
       if (auto done = writer->add(sun, lit); !done) return done;
     }
@@ -62,11 +65,14 @@ class Tables {
     return hours_file_->commit();
   }
   std::string checksum() const { return sum_.text(); }
+  /// Empty unless it was asked for.
+  const std::optional<report::YearPage>& page() const { return page_; }
 
  private:
   std::vector<std::unique_ptr<report::YearWriter>> writers_;
   std::optional<report::SunHours> hours_;
   std::optional<OutputFile> hours_file_;
+  std::optional<report::YearPage> page_;
   report::RowSum sum_;
   const report::GrossShares* gross_ = nullptr;
   std::vector<double> row_;
@@ -99,6 +105,7 @@ Expected<Tables> Tables::open(const YearOptions& options, const report::YearHead
     if (!file) return tl::unexpected(std::move(file.error()));
     tables.hours_file_ = *std::move(file);
   }
+  if (options.report.asked()) tables.page_.emplace(head);
   return tables;
 }
 
@@ -151,6 +158,8 @@ class YearRun {
   Expected<void> compute_into_tables();
   Expected<void> compute_into_database();
   Expected<void> write_from_database();
+  Expected<void> finish(Tables& tables);
+  Expected<void> write_page(const report::YearPage& page) const;
   void tell(const Tables& tables) const;
   /// What has passed since the last call was for one of the phases.
   void passed(Seconds& phase) { phase += stopwatch_.lap(); }
@@ -215,7 +224,7 @@ Expected<void> YearRun::compute_into_tables() {
   if (!added) return added;
   if (!computed && computed.error().code != ErrorCode::kInterrupted) return computed;
   if (done == 0 && !computed) return computed;
-  if (auto finished = tables->finish(); !finished) return finished;
+  if (auto finished = finish(*tables); !finished) return finished;
   if (done < suns_.rows.size()) {
     return fail(ErrorCode::kInterrupted,
                 fmt::format("interrupted: the tables have {} of {} rows", done, suns_.rows.size()));
@@ -262,9 +271,34 @@ Expected<void> YearRun::write_from_database() {
     }
     if (auto added = tables->add(times_[row], *lit); !added) return added;
   }
-  if (auto finished = tables->finish(); !finished) return finished;
+  if (auto finished = finish(*tables); !finished) return finished;
   tell(*tables);
   return {};
+}
+
+Expected<void> YearRun::finish(Tables& tables) {
+  if (auto finished = tables.finish(); !finished) return finished;
+  return tables.page() ? write_page(*tables.page()) : Expected<void>();
+}
+
+Expected<void> YearRun::write_page(const report::YearPage& page) const {
+  const auto json = [&](report::TextSink& sink) { page.write(sink); };
+  Report report;
+  report.command = "year";
+  report.scene = head_.scene;
+  report.cases.push_back(
+      {"year." + head_.scene, report::grouped(page.rows()) + " rows", {}, {}, {}});
+  report.files = {{"hours.csv", [&](report::TextSink& sink) { sink.write(page.hours_csv()); }},
+                  {"year.json", json}};
+  if (page.rows() < times_.size()) {
+    report.notes.push_back(
+        fmt::format("The run was interrupted: it has {} of {} rows.", page.rows(), times_.size()));
+  }
+  report.documents = {{"year", json}, {"view", [&](report::TextSink& sink) {
+                                         report::write_scene_view(sink, loaded_.scene,
+                                                                  loaded_.prepared, {});
+                                       }}};
+  return write_report(options_.report, report);
 }
 
 /// One line, so that shards and machines can be compared; not where the table itself is printed.

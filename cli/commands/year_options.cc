@@ -35,6 +35,7 @@ void add_table_options(CLI::App& command, YearOptions& options) {
       ->type_name("FILE.csv");
   command.add_option("--hours", options.hours, "Hours of sun of every side, by month")
       ->type_name("FILE.csv");
+  add_report_options(command, options.report);
   command
       .add_option("--digits", options.digits,
                   ".nc: significant digits of shares; fewer make smaller files")

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/common/report_output.h"
 #include "cli/common/scene_options.h"
 #include "gnomon/kernel/error.h"
 #include "suns/year/year_of_suns.h"
@@ -32,10 +33,13 @@ struct YearOptions {
   std::string output, shading, hours;
   std::string database, shard;
   std::vector<std::string> merge;
+  ReportOptions report;
   bool gross = false, stats = false;
   int digits = 7;
 
-  bool writes_tables() const { return !output.empty() || !shading.empty() || !hours.empty(); }
+  bool writes_tables() const {
+    return !output.empty() || !shading.empty() || !hours.empty() || report.asked();
+  }
 };
 
 void add_year_options(CLI::App& command, YearOptions& options);

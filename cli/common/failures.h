@@ -10,6 +10,8 @@
 #include "cli/common/exit_status.h"
 #include "fuzz/check/property.h"
 #include "fuzz/check/subject.h"
+#include "report/junit/junit.h"
+#include "report/text/text_sink.h"
 
 namespace gnomon::cli {
 
@@ -24,6 +26,16 @@ ExitStatus status_of_failures(std::span<const fuzz::Failure> failures);
 
 /// One case: what was checked, and every failure with its sentence.
 std::string case_text(const std::string& name, const fuzz::CaseReport& report);
+
+/// The same for programs: "format": "gnomon-case".
+void write_case_json(report::TextSink& sink, const std::string& name,
+                     const fuzz::CaseReport& report);
+/// And for spreadsheets, a line a failure.
+std::string case_csv(const fuzz::CaseReport& report);
+
+/// A failure of a rounded kernel fails its case as it fails the command.
+std::vector<report::JUnitCase> junit_cases_of(const std::string& group,
+                                              const fuzz::CaseReport& report);
 
 }  // namespace gnomon::cli
 

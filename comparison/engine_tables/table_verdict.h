@@ -65,6 +65,8 @@ struct TableVerdict {
 };
 
 std::string table_verdict_text(const TableVerdict& verdict);
+/// A line a surface.
+std::string table_verdicts_csv(const std::vector<TableVerdict>& verdicts);
 /// "gnomon-certificate" with a run a table. Requires: at least one, all of one scene.
 void write_table_verdicts_json(report::TextSink& sink, const std::vector<TableVerdict>& verdicts);
 

@@ -6,6 +6,8 @@
 
 #include "comparison/engine_tables/table_verdict.h"
 #include "report/json/json_writer.h"
+#include "report/text/csv_field.h"
+#include "report/text/number_text.h"
 
 namespace gnomon::comparison {
 
@@ -168,6 +170,22 @@ void write_table_verdicts_json(report::TextSink& sink, const std::vector<TableVe
   json.end_array();
   json.end_object();
   json.finish();
+}
+
+std::string table_verdicts_csv(const std::vector<TableVerdict>& verdicts) {
+  std::string text;
+  report::append_csv_line(text, {"table", "surface", "polygon", "side", "wrong", "wrong_at_night",
+                                 "out_of_range", "hours_found", "hours_true"});
+  for (const TableVerdict& verdict : verdicts) {
+    for (const JudgedSurface& surface : verdict.surfaces) {
+      report::append_csv_line(
+          text, {verdict.file, surface.name, surface.polygon, gnomon::name_of(surface.side),
+                 std::to_string(surface.wrong.value), std::to_string(surface.wrong.night),
+                 std::to_string(surface.wrong.range), report::shortest(surface.hours.found),
+                 report::shortest(surface.hours.truth)});
+    }
+  }
+  return text;
 }
 
 }  // namespace gnomon::comparison

@@ -8,8 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "fuzz/check/subject.h"
 #include "report/json/json_writer.h"
+#include "report/text/csv_field.h"
 #include "report/text/number_text.h"
+#include "report/text/shell_word.h"
 #include "report/text/table.h"
 
 namespace gnomon::fuzz {
@@ -114,6 +117,31 @@ std::string campaign_report(const CampaignOutcome& outcome) {
   return text;
 }
 
+std::string campaign_csv(const CampaignOutcome& outcome) {
+  std::string text;
+  report::append_csv_line(text, {"signature", "scenes", "case", "seed", "generator", "recipe",
+                                 "light", "polygon", "text", "folder", "replay"});
+  for (const CampaignFinding& finding : outcome.findings) {
+    report::append_csv_line(
+        text,
+        {finding.signature, std::to_string(outcome.totals.count("failure:" + finding.signature)),
+         std::to_string(finding.case_index), std::to_string(finding.seed), finding.generator,
+         finding.recipe, finding.failure.light, finding.failure.polygon, finding.failure.text,
+         finding.folder, replay_command(finding)});
+  }
+  return text;
+}
+
+std::string replay_command(const CampaignFinding& finding) {
+  if (!finding.folder.empty()) return "gnomon replay " + report::shell_word(finding.folder);
+  std::string text = "gnomon replay --generator " + report::shell_word(finding.generator) +
+                     " --seed " + std::to_string(finding.seed);
+  const auto subject = parse_subject(finding.failure.subject);
+  if (!subject) return text;
+  return text + (subject->foreign() ? " --candidate-command " + report::shell_word(subject->command)
+                                    : " --kernel " + report::shell_word(finding.failure.subject));
+}
+
 void write_campaign_json(report::TextSink& sink, const std::string& plan,
                          const CampaignOutcome& outcome, bool times) {
   using report::JsonLayout;
@@ -149,6 +177,7 @@ void write_campaign_json(report::TextSink& sink, const std::string& plan,
     json.member("polygon", finding.failure.polygon);
     json.member("text", finding.failure.text);
     json.member("folder", finding.folder);
+    json.member("replay", replay_command(finding));
     json.end_object();
   }
   json.end_array();

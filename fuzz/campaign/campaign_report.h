@@ -14,6 +14,12 @@ namespace gnomon::fuzz {
 /// columns.
 std::string campaign_report(const CampaignOutcome& outcome);
 
+/// For spreadsheets: a line a finding.
+std::string campaign_csv(const CampaignOutcome& outcome);
+
+/// The command that checks a finding again.
+std::string replay_command(const CampaignFinding& finding);
+
 /// For programs: stable; times only if asked for.
 void write_campaign_json(report::TextSink& sink, const std::string& plan,
                          const CampaignOutcome& outcome, bool times);

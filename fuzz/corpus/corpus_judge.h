@@ -93,6 +93,8 @@ Expected<std::string> record_fixture(const std::filesystem::path& file);
 /// The matrix: a row a kind, or a scene if `by_scene`, a column a subject, at most 100 columns
 /// wide while there are not too many subjects; below it totals, and what failed and must not.
 std::string corpus_text(const CorpusReport& report, bool by_scene);
+/// A line a file and subject.
+std::string corpus_csv(const CorpusReport& report);
 /// The same for programs: stable.
 void write_corpus_json(report::TextSink& sink, const CorpusReport& report);
 

@@ -7,6 +7,7 @@
 
 #include "fuzz/corpus/corpus_judge.h"
 #include "report/json/json_writer.h"
+#include "report/text/csv_field.h"
 #include "report/text/table.h"
 
 namespace gnomon::fuzz {
@@ -218,6 +219,21 @@ std::string corpus_text(const CorpusReport& report, bool by_scene) {
   text += '\n' + totals(report);
   const std::string told = reasons(report);
   if (!told.empty()) text += '\n' + told;
+  return text;
+}
+
+std::string corpus_csv(const CorpusReport& report) {
+  std::string text;
+  report::append_csv_line(text, {"file", "kind", "expected", "subject", "outcome", "why"});
+  for (std::size_t i = 0; i < report.judgements.size(); ++i) {
+    const Fixture& fixture = (*report.fixtures)[i];
+    for (std::size_t s = 0; s < report.subjects.size(); ++s) {
+      const Judgement& judgement = report.judgements[i][s];
+      report::append_csv_line(
+          text, {fixture.name, fixture.kind, std::string(expectation_name(fixture.expectation)),
+                 report.names[s], std::string(name_of(judgement.outcome)), judgement.why});
+    }
+  }
   return text;
 }
 

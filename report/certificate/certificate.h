@@ -60,6 +60,9 @@ std::string certificate_text(const Certificate& certificate);
 /// For programs: stable, in the order of the runs; CPU times only if asked for.
 void write_certificate_json(TextSink& sink, const Certificate& certificate, bool times);
 
+/// For spreadsheets: a line a run.
+std::string certificate_csv(const Certificate& certificate);
+
 /// "light sun, polygon floor (front), at (1, 2, 0): found lit, true shadow, by caster table".
 std::string place_in_words(const oracle::Witness& witness);
 

@@ -158,6 +158,14 @@ void write_wrong_polygons(JsonWriter& json, const Scene& scene, const oracle::Re
         json.key("worst");
         write_witness(json, polygon.worst.front().witness);
       }
+      if (polygon.worst.size() > 1) {
+        json.key("others");
+        json.begin_array();
+        for (std::size_t i = 1; i < polygon.worst.size(); ++i) {
+          write_witness(json, polygon.worst[i].witness);
+        }
+        json.end_array();
+      }
       json.end_object();
     }
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fields of CSV files as RFC 4180 has them.
+// Fields and lines of CSV files as RFC 4180 has them, with line feeds alone.
 #ifndef GNOMON_REPORT_TEXT_CSV_FIELD_H
 #define GNOMON_REPORT_TEXT_CSV_FIELD_H
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gnomon::report {
 
@@ -20,6 +21,14 @@ inline void append_csv_field(std::string& text, std::string_view field) {
     text += c;
   }
   text += '"';
+}
+
+inline void append_csv_line(std::string& text, const std::vector<std::string>& cells) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i > 0) text += ',';
+    append_csv_field(text, cells[i]);
+  }
+  text += '\n';
 }
 
 }  // namespace gnomon::report

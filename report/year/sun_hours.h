@@ -22,12 +22,19 @@ class SunHours {
   /// CSV: a row a side, with the hours of all and of each month; the last row, "daylight", has the
   /// hours in which the sun is up.
   std::string text() const;
+  /// Of each month, of one side.
+  std::vector<double> hours_of(std::size_t side) const { return in_hours(hours_[side]); }
+  /// The hours of each month in which the sun is up.
+  std::vector<double> daylight() const { return in_hours(daylight_); }
 
  private:
-  using Months = std::array<double, 12>;
+  using Months = std::array<double, 12>;  // in steps
+  double hours_of_step() const { return static_cast<double>(step_.count()) / 60; }
+  std::vector<double> in_hours(const Months& months) const;
+
   std::vector<std::string> sides_;
   suns::Minutes step_;
-  std::vector<Months> hours_;  // by side, in steps
+  std::vector<Months> hours_;  // by side
   Months daylight_{};
 };
 

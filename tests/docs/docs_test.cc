@@ -26,7 +26,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// All files and folders of the project, by their paths from its root; builds are left out.
+/// All files and folders of the project, by their paths from its root; builds and packages are left
+/// out.
 struct Tree {
   fs::path root;
   std::set<std::string> paths;
@@ -34,7 +35,8 @@ struct Tree {
   explicit Tree(const fs::path& folder) : root(folder) {
     for (auto entry = fs::recursive_directory_iterator(root); entry != fs::end(entry); ++entry) {
       const std::string name = entry->path().filename().string();
-      if (entry->is_directory() && (name == "build" || name == ".git" || name == ".cache")) {
+      if (entry->is_directory() &&
+          (name == "build" || name == "node_modules" || name == ".git" || name == ".cache")) {
         entry.disable_recursion_pending();
         continue;
       }
