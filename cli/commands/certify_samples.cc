@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cli/common/commands.h"
 #include "cli/common/exit_status.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/jobs.h"
@@ -178,7 +179,6 @@ Expected<SampleVerdict> SampleRun::run() {
   verdict_.clearance = options_.strict ? 0 : options_.clearance;
   verdict_.tolerance = options_.strict ? 0 : options_.tolerance;
   verdict_.passed_over = file->passed_over();
-  verdict_.has_polygons = file->has_polygons();
   verdict_.has_area_lights = std::ranges::any_of(loaded_.lights, [&](std::uint32_t light) {
     return loaded_.prepared.lights[light].has_area();
   });

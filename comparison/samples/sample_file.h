@@ -51,7 +51,6 @@ class SampleFile {
   tl::unexpected<Error> wrong_at_end(std::string what, std::string expected) const;
   /// Columns that mean nothing here.
   const std::vector<std::string>& passed_over() const { return passed_over_; }
-  bool has_polygons() const { return column_[kPolygon].has_value(); }
   double done() const { return csv_.done(); }
 
  private:

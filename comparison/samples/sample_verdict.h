@@ -65,7 +65,6 @@ struct SampleVerdict {
   std::uint64_t samples = 0;             // in the file, of the lights that were asked for
   std::uint64_t left_out = 0;            // of other lights
   std::vector<std::string> passed_over;  // columns
-  bool has_polygons = false;             // a column of that name
   SampleCounts counts;
   SamplePlaces places;
   std::uint64_t far_dark = 0;                    // seen dark, truly lit and far from every shadow

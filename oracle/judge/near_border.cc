@@ -70,10 +70,11 @@ class ShadowLines {
     bool some = add(value_of(part.normal), loop[0], -facing);
     for (std::size_t i = 0; i < loop.size() && some; ++i) {
       const GridVector &a = loop[i], &b = loop[(i + 1) % loop.size()];
-      // Of the pyramid from the light over an edge: the same orientation for all edges.
-      const GridVector normal = directional_
-                                    ? normal_to(light_, difference(b, a))
-                                    : normal_to(difference(b, light_), difference(a, light_));
+      // Of the pyramid from the light over an edge: the same orientation for all edges, and as good
+      // from a light that is far away.
+      const GridVector edge = difference(b, a);
+      const GridVector normal =
+          directional_ ? normal_to(light_, edge) : normal_to(edge, difference(a, light_));
       some = add(normal, a, facing);
     }
     if (!some) lines.clear();

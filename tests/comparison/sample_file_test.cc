@@ -97,7 +97,6 @@ TEST_F(SampleFileTest, ColumnsStandInAnyOrderAndOthersArePassedOver) {
   auto file = SampleFile::open(file_, scene_, prepared_);
   ASSERT_TRUE(file) << to_string(file.error());
   EXPECT_THAT(file->passed_over(), ElementsAre("weight"));
-  EXPECT_FALSE(file->has_polygons());
   for (int time = 0; time < 2; ++time) {
     SampleRow row;
     const auto more = file->next(row);

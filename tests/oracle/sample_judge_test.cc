@@ -233,6 +233,19 @@ TEST(SampleJudge, MissesWithinTheWidthOfABorderAreApart) {
   EXPECT_EQ(judged(1.5, 1, {.clearance = 0.01}).outcome, SampleOutcome::kWrong);
 }
 
+TEST(SampleJudge, ALightFarAwayMakesBordersNoLessCertain) {
+  const BuiltScene built = SceneBuilder()
+                               .polygon("floor", {{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}})
+                               .polygon("square", {{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}})
+                               .point("lamp", {0, 0, 0x1p40})
+                               .build();
+  const SampleJudge judge(built.prepared, {.width = 1e-9});
+  const JudgedSample inside = judge.judge(sample_at(at(0.75, 0, 0), 1));
+  EXPECT_NEAR(inside.from_border.value_or(0), 0.25, 1e-11);
+  EXPECT_EQ(judge.judge(sample_at(at(1 - 1e-10, 0, 0), 1)).outcome, SampleOutcome::kNearBorder);
+  EXPECT_EQ(judge.judge(sample_at(at(1 - 1e-8, 0, 0), 1)).outcome, SampleOutcome::kWrong);
+}
+
 TEST(SampleJudge, TheEdgeOfTwoShadowsTogetherIsNoBorder) {
   const BuiltScene built = SceneBuilder()
                                .polygon("floor", {{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}})
