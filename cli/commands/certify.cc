@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gnomon certify: run kernels on a scene, or read a foreign result, and let the oracle judge each.
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <optional>
@@ -9,6 +10,7 @@
 
 #include "cli/commands/certify_corpus.h"
 #include "cli/commands/certify_report.h"
+#include "cli/commands/certify_samples.h"
 #include "cli/commands/certify_table.h"
 #include "cli/commands/table_options.h"
 #include "cli/common/algorithm_choice.h"
@@ -21,6 +23,7 @@
 #include "cli/common/report_output.h"
 #include "cli/common/scene_options.h"
 #include "comparison/engine_tables/engine_table.h"
+#include "comparison/samples/sample_file.h"
 #include "gnomon/algorithms/explain.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/kernel_choice.h"
@@ -65,6 +68,9 @@ struct CertifyCommandOptions {
   CorpusCommandOptions corpus;  // what certify_corpus.h needs besides
   YearOptions suns;             // of candidates that are tables
   TableOptionRules table_rules;
+  std::vector<std::string> samples;
+  std::size_t misses = 10;  // of samples
+  SampleOptionRules sample_rules;
 };
 
 Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& options,
@@ -352,11 +358,35 @@ int run_tables(const CertifyCommandOptions& options) {
                             options.table_rules);
 }
 
+int run_samples(const CertifyCommandOptions& options, std::vector<std::string> files) {
+  return run_certify_samples({.scene = options.scene,
+                              .files = std::move(files),
+                              .tolerance = options.tolerance,
+                              .width = options.width,
+                              .clearance = options.clearance,
+                              .strict = options.strict,
+                              .misses = options.misses,
+                              .json = options.json});
+}
+
+/// Those of --samples, and candidates that are samples too.
+std::vector<std::string> sample_files(const CertifyCommandOptions& options) {
+  std::vector<std::string> files = options.samples;
+  std::ranges::copy_if(options.candidates, std::back_inserter(files),
+                       [](const std::string& file) { return comparison::is_sample_file(file); });
+  return files;
+}
+
 int run_certify(const CertifyCommandOptions& options) {
   if (!options.corpus.corpus.empty()) return run_corpus(options);
   if (options.scene.scene.empty()) {
     return report_usage("neither a scene nor a corpus", "SCENE, or --corpus DIR");
   }
+  const std::vector<std::string> samples = sample_files(options);
+  const auto checked_samples = options.sample_rules.check(
+      samples.size(), options.samples.size() + options.candidates.size());
+  if (!checked_samples) return report_error(checked_samples.error());
+  if (!samples.empty()) return run_samples(options, samples);
   const auto tables = static_cast<std::size_t>(std::ranges::count_if(
       options.candidates,
       [](const std::string& file) { return comparison::is_engine_table(file); }));
@@ -481,7 +511,8 @@ void add_certify_command(CLI::App& app, Action& action) {
       "Without --kernel and --candidate, every kernel that suits the size of the scene is run;\n"
       "float is then shown and does not count for the exit status.\n"
       "Verdicts: identical; within tolerance; shares agree, of a candidate that tells shares\n"
-      "without fragments; failed, with the worst place as a witness.\n\n"
+      "without fragments; samples agree, of --samples; failed, with the worst place as a "
+      "witness.\n\n"
       "Examples:\n"
       "  gnomon certify room.json\n"
       "  gnomon certify room.json --kernel double --kernel double+identity --explain\n"
@@ -489,6 +520,7 @@ void add_certify_command(CLI::App& app, Action& action) {
       "  gnomon certify room.json --candidate other.result.json --tolerance 1e-6 --report out\n"
       "  gnomon certify house.idf --candidate eplusshading.csv --epw phoenix.epw \\\n"
       "    --sun-model energyplus --average-days 20\n"
+      "  gnomon certify room.json --samples rays.csv --tolerance 0.02\n"
       "  gnomon certify --corpus tests/regressions --candidate-command ./my-shadows");
   CLI::Option* scene = add_scene_options(command, options->scene);
   repeatable(command.add_option(
@@ -556,6 +588,7 @@ void add_certify_command(CLI::App& app, Action& action) {
   command.add_option("--json", options->json, "Write the verdicts as JSON; - is standard output")
       ->type_name("FILE");
   command.add_flag("--times", options->times, "CPU times in the JSON, which then is not stable");
+  options->sample_rules.add(command, options->samples, options->misses);
   options->table_rules.add(command, options->suns);
   const CorpusOptionRules rules = add_corpus_options(command, *options, scene);
   command.callback([options, rules, &action] {

@@ -240,7 +240,7 @@ TableVerdict TableRun::verdict_of(const LoadedScene& loaded, const comparison::T
   verdict.suns = asked_;
   verdict.suns_up = static_cast<std::size_t>(std::ranges::count_if(times_, &suns::SunTime::is_day));
   verdict.tolerance = options_.tolerance;
-  verdict.decimals = table_.values.most_decimals();
+  verdict.decimals = table_.values.digits().most_decimals();
   verdict.doubles = judge.are_doubles();
   verdict.values = judge.values();
   verdict.wrong = judge.wrong();

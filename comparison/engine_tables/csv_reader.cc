@@ -31,7 +31,6 @@ std::string undoubled(std::string_view text) {
 }  // namespace
 
 Expected<CsvReader> CsvReader::open(const std::filesystem::path& path) {
-  std::string file = shown_name(path);
   std::unique_ptr<std::string> text;
   std::optional<TextWindow> window = path == "-" ? std::nullopt : TextWindow::of_file(path);
   if (!window) {
@@ -43,18 +42,38 @@ Expected<CsvReader> CsvReader::open(const std::filesystem::path& path) {
   const std::string_view start(window->begin(),
                                static_cast<std::size_t>(window->end() - window->begin()));
   const bool is_blank_text = start.find_first_not_of(" \t\r\n") == std::string_view::npos;
-  if (auto checked = check_is_text(start, file); !checked && !is_blank_text) {
+  if (auto checked = check_is_text(start, shown_name(path)); !checked && !is_blank_text) {
     return tl::unexpected(std::move(checked.error()));
   }
-  return CsvReader(std::move(file), std::move(text), *std::move(window));
+  return CsvReader(path, std::move(text), *std::move(window));
 }
 
-CsvReader::CsvReader(std::string file, std::unique_ptr<std::string> text, TextWindow window)
-    : file_(std::move(file)), text_(std::move(text)), window_(std::move(window)) {
+CsvReader::CsvReader(std::filesystem::path path, std::unique_ptr<std::string> text,
+                     TextWindow window)
+    : path_(std::move(path)), text_(std::move(text)), window_(std::move(window)) {
+  start();
+}
+
+void CsvReader::start() {
+  line_ = next_line_ = 1;
   size_ = window_.bytes_left();
   const std::string_view start(window_.begin(),
                                static_cast<std::size_t>(window_.end() - window_.begin()));
   next_ = record_ = record_end_ = window_.begin() + byte_order_mark(start);
+}
+
+Expected<void> CsvReader::rewind() {
+  std::optional<TextWindow> window =
+      text_ ? std::optional<TextWindow>(std::in_place, *text_) : TextWindow::of_file(path_);
+  if (!window) return fail(ErrorCode::kFile, shown_name(path_) + ": cannot be read again");
+  window_ = *std::move(window);
+  start();
+  return {};
+}
+
+bool CsvReader::is_comment() const {
+  const char* const begin = std::find_if_not(record_, window_.end(), is_blank);
+  return skips_comments_ && begin != window_.end() && *begin == '#';
 }
 
 double CsvReader::done() const {
@@ -72,8 +91,9 @@ bool CsvReader::find_record() {
   bool quoted = false;
   for (;;) {
     const char* line_break = find(at, window_.end(), '\n');
-    for (const char* quote = find(at, line_break, '"'); quote != line_break;
-         quote = find(quote + 1, line_break, '"')) {
+    // A comment ends with its line, whatever quotes it has.
+    for (const char* quote = is_comment() ? line_break : find(at, line_break, '"');
+         quote != line_break; quote = find(quote + 1, line_break, '"')) {
       quoted = !quoted;
     }
     at = line_break;
@@ -100,10 +120,10 @@ Expected<bool> CsvReader::next() {
     if (!find_record()) {
       if (window_.is_whole()) return false;
       ErrorPlace where;
-      where.file = file_;
+      where.file = shown_name(path_);
       return fail(ErrorCode::kFile, "cannot be read to its end", {}, where);
     }
-  } while (std::all_of(record_, record_end_, is_blank));
+  } while (std::all_of(record_, record_end_, is_blank) || is_comment());
   if (auto done = split(); !done) return tl::unexpected(std::move(done.error()));
   return true;
 }
@@ -156,7 +176,7 @@ Expected<void> CsvReader::split() {
 
 ErrorPlace CsvReader::place_at(std::size_t offset) const {
   const std::string_view record(record_, static_cast<std::size_t>(record_end_ - record_));
-  ErrorPlace place = place_in_text(file_, record, offset);
+  ErrorPlace place = place_in_text(shown_name(path_), record, offset);
   place.line += line_ - 1;
   return place;
 }

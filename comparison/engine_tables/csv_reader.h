@@ -28,6 +28,10 @@ class CsvReader {
  public:
   /// Errors: kFile; kSyntax (no text).
   static Expected<CsvReader> open(const std::filesystem::path& file);
+  /// From here on lines that begin with '#' are passed over like blank ones.
+  void skip_comments() { skips_comments_ = true; }
+  /// Back to the first record. What is no regular file was kept. Errors: kFile.
+  Expected<void> rewind();
 
   /// Goes on to the next record that is not blank; false at the end. Fields before end. Errors:
   /// kSyntax (wrong quotes), kFile.
@@ -40,21 +44,26 @@ class CsvReader {
                               std::string expected) const {
     return fail(code, std::move(what), std::move(expected), place_of(field));
   }
+  /// The line that the record begins in, from 1.
+  std::uint64_t line() const { return line_; }
   /// The share of the file that was read, for progress.
   double done() const;
 
  private:
-  CsvReader(std::string file, std::unique_ptr<std::string> text, TextWindow window);
+  CsvReader(std::filesystem::path path, std::unique_ptr<std::string> text, TextWindow window);
+  void start();
   bool find_record();
+  bool is_comment() const;
   Expected<void> split();
   ErrorPlace place_at(std::size_t offset) const;
 
-  std::string file_;
+  std::filesystem::path path_;
+  bool skips_comments_ = false;
   std::unique_ptr<std::string> text_;  // of what is no regular file
   TextWindow window_;
-  std::size_t size_;
-  const char *record_, *record_end_;  // without its line break
-  const char* next_;                  // where the next record begins
+  std::size_t size_ = 0;
+  const char *record_ = nullptr, *record_end_ = nullptr;  // without its line break
+  const char* next_ = nullptr;                            // where the next record begins
   std::uint64_t line_ = 1, next_line_ = 1;
   std::vector<CsvField> fields_;
   std::deque<std::string> unescaped_;  // texts of fields with doubled quotes

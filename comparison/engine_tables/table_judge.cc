@@ -33,14 +33,12 @@ TableJudge::TableJudge(const EngineTable& table, std::vector<std::size_t> share_
       wrong_of_columns_(share_of_column_.size()),
       sums_(share_of_column_.size()) {}
 
-bool TableJudge::are_doubles() const {
-  constexpr std::int32_t kDigitsOfDoubles = 15;
-  return table_->values.most_digits() >= kDigitsOfDoubles;
-}
+bool TableJudge::are_doubles() const { return table_->values.digits().are_doubles(); }
 
 double TableJudge::allowed(const WrittenNumber& number) const {
   if (tolerance_) return *tolerance_ + kTruth;
-  return table_->values.rounding_of(number) + (are_doubles() ? kDoubles : 0) + kTruth;
+  return table_->values.digits().rounding_of(number) + (are_doubles() ? kRoundingOfDoubles : 0) +
+         kTruth;
 }
 
 void TableJudge::add(std::size_t row, std::span<const double> truth, bool is_day) {

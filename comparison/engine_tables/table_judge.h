@@ -47,9 +47,6 @@ class TableJudge {
   static constexpr std::size_t kWorst = 10;
   /// What truth itself may be off by, as the double nearest to an enclosure.
   static constexpr double kTruth = 1e-14;
-  /// What numbers that came out of a computation in doubles may be off by besides their digits: as
-  /// told_share_check.h has it.
-  static constexpr double kDoubles = 1e-9;
   /// Of a column whose polygon has no area, and so no share.
   static constexpr std::size_t kNoShare = static_cast<std::size_t>(-1);
 

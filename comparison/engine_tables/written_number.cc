@@ -106,11 +106,19 @@ std::string text_of(const WrittenNumber& number) {
   return fmt::format("{:.{}f}", number.value, number.decimals);
 }
 
+void WrittenDigits::add(const WrittenNumber& number) {
+  if (number.has_exponent) return;
+  most_decimals_ = std::max(most_decimals_, number.decimals);
+  most_digits_ = std::max(most_digits_, number.digits);
+}
+
+bool WrittenDigits::are_doubles() const {
+  constexpr std::int32_t kDigitsOfDoubles = 15;
+  return most_digits_ >= kDigitsOfDoubles;
+}
+
 void WrittenNumbers::add(const WrittenNumber& number) {
-  if (!number.has_exponent) {
-    most_decimals_ = std::max(most_decimals_, number.decimals);
-    most_digits_ = std::max(most_digits_, number.digits);
-  }
+  digits_.add(number);
   const bool may_be_short = !number.has_exponent && !std::signbit(number.value) &&
                             number.decimals <= kMostDecimals && number.digits <= 9;
   if (may_be_short) {
@@ -140,7 +148,7 @@ WrittenNumber WrittenNumbers::operator[](std::size_t index) const {
           false};
 }
 
-double WrittenNumbers::rounding_of(const WrittenNumber& number) const {
+double WrittenDigits::rounding_of(const WrittenNumber& number) const {
   std::int32_t decimals = number.decimals;
   if (decimals < most_decimals_ && number.digits < most_digits_) {
     const std::int32_t by_digits = decimals + most_digits_ - number.digits;

@@ -26,20 +26,37 @@ std::optional<WrittenNumber> parse_written(std::string_view text);
 /// With as many decimals as were written.
 std::string text_of(const WrittenNumber& number);
 
+/// How many digits the numbers of a file have: programs leave out zeros at the end, and so one
+/// number alone does not tell how many were meant.
+class WrittenDigits {
+ public:
+  void add(const WrittenNumber& number);
+  /// The most that any number without an exponent has.
+  std::int32_t most_decimals() const { return most_decimals_; }
+  std::int32_t most_digits() const { return most_digits_; }
+  /// Some have all digits of a double: they came so out of a computation, and nobody claims the
+  /// last ones.
+  bool are_doubles() const;
+
+  /// How far the exact value may be from a number of this file: half a unit of its last digit. One
+  /// with fewer decimals and fewer digits than the file has had zeros at its end, as many as its
+  /// decimals or its digits lack, whichever allows more.
+  double rounding_of(const WrittenNumber& number) const;
+
+ private:
+  std::int32_t most_decimals_ = 0, most_digits_ = 0;
+};
+
+/// What numbers that came out of a computation in doubles may be off by besides their digits: as
+/// told_share_check.h has it.
+inline constexpr double kRoundingOfDoubles = 1e-9;
+
 class WrittenNumbers {
  public:
   void add(const WrittenNumber& number);
   WrittenNumber operator[](std::size_t index) const;
   std::size_t size() const { return codes_.size(); }
-  /// The most that any number without an exponent has: programs leave out zeros at the end, and so
-  /// one number alone does not tell how many digits were meant.
-  std::int32_t most_decimals() const { return most_decimals_; }
-  std::int32_t most_digits() const { return most_digits_; }
-
-  /// How far the exact value may be from a number of this table: half a unit of its last digit. One
-  /// with fewer decimals and fewer digits than the table has had zeros at its end, as many as its
-  /// decimals or its digits lack, whichever allows more.
-  double rounding_of(const WrittenNumber& number) const;
+  const WrittenDigits& digits() const { return digits_; }
 
  private:
   struct Wide {
@@ -49,7 +66,7 @@ class WrittenNumbers {
   };
   std::vector<std::uint32_t> codes_;  // decimals and digits, or an index into wide_
   std::vector<Wide> wide_;
-  std::int32_t most_decimals_ = 0, most_digits_ = 0;
+  WrittenDigits digits_;
 };
 
 }  // namespace gnomon::comparison

@@ -85,6 +85,7 @@ HalfSpace through(const Vector& point, const Polygon3& polygon, std::size_t edge
 
 struct AreaVisibility::Data {
   std::vector<Polygon3> parts;
+  std::vector<std::uint32_t> all;  // parts
   Loop light;
   Vector light_normal;
   mpq_class light_area;
@@ -140,6 +141,8 @@ AreaVisibility::AreaVisibility(const PreparedScene& scene, const PreparedLight& 
     polygon.casts = part.casts;
     data_->parts.push_back(std::move(polygon));
   }
+  data_->all.resize(data_->parts.size());
+  std::iota(data_->all.begin(), data_->all.end(), 0u);
 }
 
 AreaVisibility::~AreaVisibility() = default;
@@ -174,6 +177,12 @@ std::vector<Loop> AreaVisibility::Data::without(const std::vector<Loop>& loops,
 
 AreaPointVisibility AreaVisibility::at(std::uint32_t receiver, Side side,
                                        const RationalPoint& point, bool fractions) const {
+  return at(receiver, side, point, fractions, data_->all);
+}
+
+AreaPointVisibility AreaVisibility::at(std::uint32_t receiver, Side side,
+                                       const RationalPoint& point, bool fractions,
+                                       std::span<const std::uint32_t> casters) const {
   const Data& data = *data_;
   AreaPointVisibility result;
   const Loop seen = data.seen_by(receiver, side);
@@ -181,14 +190,14 @@ AreaPointVisibility AreaVisibility::at(std::uint32_t receiver, Side side,
   if (seen.empty() || above <= 0) {
     result.state = LightState::kUmbra;
     result.behind_light = true;
-    result.on_boundary = !seen.empty() && above == 0;
+    result.on_boundary = result.jumps = !seen.empty() && above == 0;
     return result;
   }
   const mpq_class whole = data.area_of(seen);
   bool touches = false, touches_all = false, certain_umbra = false, some_umbra = false;
   mpq_class most;
   std::vector<Loop> visible{seen};
-  for (std::uint32_t i = 0; i < data.parts.size(); ++i) {
+  for (const std::uint32_t i : casters) {
     const Polygon3& caster = data.parts[i];
     if (i == receiver || !caster.casts) continue;
     const mpq_class rise = dot(caster.normal, minus(point, caster.loop[0]));
@@ -204,7 +213,9 @@ AreaPointVisibility AreaVisibility::at(std::uint32_t receiver, Side side,
       };
       const bool front = on_or(1), back = on_or(-1);
       if (!front && !caster.two_sided) continue;
-      if ((front && back) || place_in(caster, point) >= 0) touches = touches_all = true;
+      const bool lies_on = place_in(caster, point) >= 0;
+      if ((front && back) || lies_on) touches = touches_all = true;
+      result.jumps = result.jumps || lies_on;
       continue;
     }
     if (rise > 0 && !caster.two_sided) continue;

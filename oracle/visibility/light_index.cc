@@ -53,14 +53,20 @@ std::vector<LightIndex::FaceBox> LightIndex::boxes_of(std::uint32_t part) const 
   for (const VertexId vertex : scene_.loop(scene_.parts[part])) {
     corners.push_back(scene_.geometry.positions[vertex]);
   }
+  return boxes_of(corners, error_);
+}
+
+/// `error`: of a difference of coordinates.
+std::vector<LightIndex::FaceBox> LightIndex::boxes_of(
+    std::span<const std::array<double, 3>> corners, double error) const {
   std::vector<FaceBox> result;
-  const auto add = [&](int face, const auto& corner_at, double error, double limit) {
+  const auto add = [&](int face, const auto& corner_at, double off, double limit) {
     Box box{{limit, limit}, {-limit, -limit}};
     for (const std::array<double, 3>& corner : corners) {
       const std::array<double, 2> place = corner_at(corner);
       for (int i = 0; i < 2; ++i) {
-        box.low[i] = std::min(box.low[i], std::max(place[i] - error, -limit));
-        box.high[i] = std::max(box.high[i], std::min(place[i] + error, limit));
+        box.low[i] = std::min(box.low[i], std::max(place[i] - off, -limit));
+        box.high[i] = std::max(box.high[i], std::min(place[i] + off, limit));
       }
     }
     result.push_back({face, box});
@@ -74,7 +80,7 @@ std::vector<LightIndex::FaceBox> LightIndex::boxes_of(std::uint32_t part) const 
           return std::array<double, 2>{p[i] - p[axis_] * sign * light_[i],
                                        p[j] - p[axis_] * sign * light_[j]};
         },
-        error_, std::numeric_limits<double>::infinity());
+        error, std::numeric_limits<double>::infinity());
     return result;
   }
   for (int face = 0; face < 6; ++face) {
@@ -84,7 +90,7 @@ std::vector<LightIndex::FaceBox> LightIndex::boxes_of(std::uint32_t part) const 
     // Beyond one of the planes that bound what the face is seen through.
     const auto all_beyond = [&](const auto& value) {
       return std::ranges::all_of(
-          corners, [&](const std::array<double, 3>& p) { return value(p) < -3 * error_; });
+          corners, [&](const std::array<double, 3>& p) { return value(p) < -3 * error; });
     };
     bool apart = all_beyond(depth);
     for (const int other : {i, j}) {
@@ -97,7 +103,7 @@ std::vector<LightIndex::FaceBox> LightIndex::boxes_of(std::uint32_t part) const 
     if (apart) continue;
     double nearest = std::numeric_limits<double>::infinity();
     for (const std::array<double, 3>& p : corners) nearest = std::min(nearest, depth(p));
-    if (!(nearest > kNear * error_)) {
+    if (!(nearest > kNear * error)) {
       result.push_back({face, {{-1, -1}, {1, 1}}});
       continue;
     }
@@ -108,7 +114,7 @@ std::vector<LightIndex::FaceBox> LightIndex::boxes_of(std::uint32_t part) const 
           return std::array<double, 2>{(p[i] - light_[i]) / depth(p),
                                        (p[j] - light_[j]) / depth(p)};
         },
-        4 * error_ / nearest + 0x1p-50, 1);
+        4 * error / nearest + 0x1p-50, 1);
   }
   return result;
 }
@@ -158,9 +164,21 @@ void LightIndex::arrange(Face& face) const {
 }
 
 std::vector<std::uint32_t> LightIndex::overlapping(std::uint32_t part) const {
-  if (faces_.empty()) return everywhere_;
+  return faces_.empty() ? everywhere_ : meeting(boxes_of(part));
+}
+
+std::vector<std::uint32_t> LightIndex::before(const std::array<double, 3>& point) const {
+  double greatest = 0;
+  for (const double coordinate : point) greatest = std::max(greatest, std::fabs(coordinate));
+  if (faces_.empty() || !(greatest < kLargest)) return everywhere_;
+  // As error_, of which the scene's own coordinates are a part.
+  const double error = std::max(error_, 16 * 0x1p-53 * greatest);
+  return meeting(boxes_of(std::span(&point, 1), error));
+}
+
+std::vector<std::uint32_t> LightIndex::meeting(const std::vector<FaceBox>& boxes) const {
   std::vector<std::uint32_t> found;
-  for (const FaceBox& own : boxes_of(part)) {
+  for (const FaceBox& own : boxes) {
     const Face& face = faces_[own.face];
     if (face.boxes.empty()) continue;
     const auto look_at = [&](std::uint32_t b) {

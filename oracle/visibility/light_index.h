@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which parts may hide a point or directional light from a part: those that overlap it as seen from
-// the light, found by a raster of boxes. Directions are drawn on the faces of a cube around a point
-// light, or on one plane across a directional one.
+// Which parts may hide a point or directional light from a part, or from a point: those that
+// overlap it as seen from the light, found by a raster of boxes. Directions are drawn on the faces
+// of a cube around a point light, or on one plane across a directional one.
 //
 // Exactness: none, and never too few: every box holds what it is the box of, with a bound of the
 // rounding added, and what cannot be bounded is everywhere.
@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "gnomon/scene/prepare.h"
@@ -24,6 +25,9 @@ class LightIndex {
 
   /// Casters that may hide the light from some point of the part, in order; each once.
   std::vector<std::uint32_t> overlapping(std::uint32_t part) const;
+  /// The same of one point, scene units, each of whose coordinates is off by no more than a unit in
+  /// the last place. It may lie anywhere.
+  std::vector<std::uint32_t> before(const std::array<double, 3>& point) const;
 
  private:
   struct Box {
@@ -46,6 +50,8 @@ class LightIndex {
   };
 
   std::vector<FaceBox> boxes_of(std::uint32_t part) const;
+  std::vector<FaceBox> boxes_of(std::span<const std::array<double, 3>> corners, double error) const;
+  std::vector<std::uint32_t> meeting(const std::vector<FaceBox>& boxes) const;
   static Cells cells_of(const Face& face, const Box& box);
   void arrange(Face& face) const;
 

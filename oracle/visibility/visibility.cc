@@ -2,6 +2,8 @@
 #include "gnomon/oracle/visibility.h"
 
 #include <array>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "oracle/geometry/space_loop.h"
@@ -25,15 +27,27 @@ struct VisibilityTest::Data {
     std::vector<Vector> loop;    // scene units
     Vector normal;               // of the first corner, from the loop's front
     std::vector<Vector> inward;  // per edge: in the plane, towards the inside
-    bool casts = false;
-    bool receives = false;
+    bool two_sided = false, may_cast = false;
+  };
+  /// What is not of the light.
+  struct Parts {
+    std::array<mpq_class, 3> origin;
+    mpq_class step;
+    std::vector<Caster> parts;
+    std::vector<std::uint32_t> all;
+  };
+  struct State {
+    bool casts = false, receives = false;
   };
 
+  std::shared_ptr<const Parts> scene;
   bool directional = false;
   Vector light;
-  std::vector<Caster> parts;
+  std::vector<State> states;  // of parts
 
-  Place place(const Caster& caster, const Vector& point) const {
+  Data(std::shared_ptr<const Parts> parts, const PreparedLight& prepared_light);
+
+  static Place place(const Caster& caster, const Vector& point) {
     Place result = Place::kInside;
     for (std::size_t i = 0; i < caster.loop.size(); ++i) {
       const mpq_class side = dot(caster.inward[i], minus(point, caster.loop[i]));
@@ -44,24 +58,43 @@ struct VisibilityTest::Data {
   }
 };
 
-VisibilityTest::VisibilityTest(const PreparedScene& scene, const PreparedLight& light)
-    : data_(std::make_unique<Data>()) {
-  const Geometry& geometry = scene.geometry;
-  const auto in_scene = [&](const std::array<mpz_class, 3>& grid) {
-    Vector result;
-    for (int k = 0; k < 3; ++k) result[k] = geometry.origin[k] + geometry.step * grid[k];
-    return result;
-  };
-  data_->directional = light.point.directional;
-  if (data_->directional) {
-    for (int k = 0; k < 3; ++k) data_->light[k] = light.point.grid[k];
+namespace {
+
+Vector in_scene(const RationalPoint& origin, const mpq_class& step,
+                const std::array<mpz_class, 3>& grid) {
+  Vector result;
+  for (int k = 0; k < 3; ++k) result[k] = origin[k] + step * grid[k];
+  return result;
+}
+
+}  // namespace
+
+VisibilityTest::Data::Data(std::shared_ptr<const Parts> parts, const PreparedLight& prepared_light)
+    : scene(std::move(parts)), directional(prepared_light.point.directional) {
+  if (directional) {
+    for (int k = 0; k < 3; ++k) light[k] = prepared_light.point.grid[k];
   } else {
-    data_->light = in_scene(light.point.grid);
+    light = in_scene(scene->origin, scene->step, prepared_light.point.grid);
   }
+  for (const Caster& caster : scene->parts) {
+    const mpq_class height =
+        directional ? dot(caster.normal, light) : dot(caster.normal, minus(light, caster.loop[0]));
+    State& state = states.emplace_back();
+    state.receives = height > 0 || (height < 0 && caster.two_sided);
+    state.casts = state.receives && caster.may_cast;
+  }
+}
+
+VisibilityTest::VisibilityTest(const PreparedScene& scene, const PreparedLight& light) {
+  const Geometry& geometry = scene.geometry;
+  auto parts = std::make_shared<Data::Parts>();
+  parts->origin = geometry.origin;
+  parts->step = geometry.step;
   for (const Part& part : scene.parts) {
     Data::Caster caster;
     for (VertexId vertex : scene.loop(part)) {
       caster.loop.push_back(in_scene(
+          geometry.origin, geometry.step,
           {geometry.grid.at(vertex, 0), geometry.grid.at(vertex, 1), geometry.grid.at(vertex, 2)}));
     }
     const std::size_t size = caster.loop.size();
@@ -71,29 +104,37 @@ VisibilityTest::VisibilityTest(const PreparedScene& scene, const PreparedLight& 
       caster.inward.push_back(
           cross(caster.normal, minus(caster.loop[(i + 1) % size], caster.loop[i])));
     }
-    const mpq_class height = data_->directional
-                                 ? dot(caster.normal, data_->light)
-                                 : dot(caster.normal, minus(data_->light, caster.loop[0]));
-    caster.receives = height > 0 || (height < 0 && part.two_sided);
-    caster.casts = caster.receives && part.casts;
-    data_->parts.push_back(std::move(caster));
+    caster.two_sided = part.two_sided;
+    caster.may_cast = part.casts;
+    parts->parts.push_back(std::move(caster));
   }
+  parts->all.resize(parts->parts.size());
+  std::iota(parts->all.begin(), parts->all.end(), 0u);
+  data_ = std::make_unique<Data>(std::move(parts), light);
 }
+
+VisibilityTest::VisibilityTest(const VisibilityTest& other, const PreparedLight& light)
+    : data_(std::make_unique<Data>(other.data_->scene, light)) {}
 
 VisibilityTest::~VisibilityTest() = default;
 VisibilityTest::VisibilityTest(VisibilityTest&&) noexcept = default;
 
 PointVisibility VisibilityTest::at(std::uint32_t receiver, const RationalPoint& point) const {
+  return at(receiver, point, data_->scene->all);
+}
+
+PointVisibility VisibilityTest::at(std::uint32_t receiver, const RationalPoint& point,
+                                   std::span<const std::uint32_t> casters) const {
   PointVisibility result;
-  const Data::Caster& own = data_->parts[receiver];
-  if (!own.receives) {
+  const Data::Caster& own = data_->scene->parts[receiver];
+  if (!data_->states[receiver].receives) {
     result.visibility = Visibility::kShadow;
     return result;
   }
   const Vector to_light = data_->directional ? data_->light : minus(data_->light, point);
-  for (std::uint32_t i = 0; i < data_->parts.size(); ++i) {
-    const Data::Caster& caster = data_->parts[i];
-    if (i == receiver || !caster.casts) continue;
+  for (const std::uint32_t i : casters) {
+    const Data::Caster& caster = data_->scene->parts[i];
+    if (i == receiver || !data_->states[i].casts) continue;
     // point + t to_light meets the plane where height + t rise = 0.
     const mpq_class height = dot(caster.normal, minus(point, caster.loop[0]));
     const mpq_class rise = dot(caster.normal, to_light);  // not 0 unless the point is in the plane
@@ -104,7 +145,7 @@ PointVisibility VisibilityTest::at(std::uint32_t receiver, const RationalPoint& 
       for (const Vector& vertex : own.loop) {
         coplanar = coplanar && dot(caster.normal, minus(vertex, caster.loop[0])) == 0;
       }
-      if (coplanar || data_->place(caster, point) == Place::kOutside) continue;
+      if (coplanar || Data::place(caster, point) == Place::kOutside) continue;
       result = {Visibility::kBoundary, i};
       continue;
     }
@@ -113,7 +154,7 @@ PointVisibility VisibilityTest::at(std::uint32_t receiver, const RationalPoint& 
     if (t <= 0 || (!data_->directional && t >= 1)) continue;
     Vector meeting;
     for (int k = 0; k < 3; ++k) meeting[k] = point[k] + t * to_light[k];
-    switch (data_->place(caster, meeting)) {
+    switch (Data::place(caster, meeting)) {
       case Place::kInside:
         return {Visibility::kShadow, i};
       case Place::kBoundary:

@@ -180,7 +180,7 @@ TEST(WrittenNumberTest, ZerosAtTheEndMayHaveBeenLeftOut) {
     WrittenNumbers numbers;
     for (const std::string& other : others) numbers.add(*parse_written(other));
     numbers.add(*parse_written(text));
-    return numbers.rounding_of(*parse_written(text));
+    return numbers.digits().rounding_of(*parse_written(text));
   };
   EXPECT_DOUBLE_EQ(rounding({}, "0.47"), 0.005);
   EXPECT_DOUBLE_EQ(rounding({"0.47"}, "0.5"), 0.005);

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,9 @@ struct AreaPointVisibility {
   LightState state = LightState::kLit;  // kLit, kPenumbra or kUmbra
   bool behind_light = false;  // umbra because p is not in front of the light, or R sees none of it
   bool on_boundary = false;   // nearby the class may be another
+  /// The visible fraction jumps here: the point lies on a caster that it may be in front of or
+  /// behind, or in the light's own plane. Elsewhere the fraction is continuous.
+  bool jumps = false;
   /// One that hides all of A_R, else one that hides most of it.
   std::optional<std::uint32_t> caster;
   // Fractions of the area of A; they add up to the share of A_R in A. Set only if asked for.
@@ -50,6 +54,9 @@ class AreaVisibility {
   /// for `fractions` the square of those that hide something. Thread-safe.
   AreaPointVisibility at(std::uint32_t receiver, Side side, const RationalPoint& point,
                          bool fractions = true) const;
+  /// The same with some casters alone, in order of parts.
+  AreaPointVisibility at(std::uint32_t receiver, Side side, const RationalPoint& point,
+                         bool fractions, std::span<const std::uint32_t> casters) const;
   /// Whether certainly no part of A_R is visible from any point of a convex polygon on that side:
   /// what each caster hides from all its corners it hides from all of it, and these parts together
   /// cover A_R. False says nothing. A polygon on or behind the light's plane is no answer's concern

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
@@ -31,12 +32,17 @@ class VisibilityTest {
  public:
   /// Requires: a point or directional light. Keeps a reference to the scene.
   VisibilityTest(const PreparedScene& scene, const PreparedLight& light);
+  /// For another light of the same scene, with whose test it shares what is not of the light.
+  VisibilityTest(const VisibilityTest& other, const PreparedLight& light);
   ~VisibilityTest();
   VisibilityTest(VisibilityTest&&) noexcept;
 
   /// `point` in scene units, on `receiver`'s plane. If the receiver has no side that faces the
   /// light and receives: kShadow without a caster. Cost: all casters. Thread-safe.
   PointVisibility at(std::uint32_t receiver, const RationalPoint& point) const;
+  /// The same with some casters alone, in the order that they are given in.
+  PointVisibility at(std::uint32_t receiver, const RationalPoint& point,
+                     std::span<const std::uint32_t> casters) const;
 
  private:
   struct Data;
