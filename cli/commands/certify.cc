@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/commands/certify_corpus.h"
+#include "cli/commands/certify_pixels.h"
 #include "cli/commands/certify_report.h"
 #include "cli/commands/certify_table.h"
 #include "cli/commands/table_options.h"
@@ -16,6 +17,7 @@
 #include "cli/common/jobs.h"
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
+#include "cli/common/pixel_method.h"
 #include "cli/common/progress.h"
 #include "cli/common/scene_options.h"
 #include "comparison/engine_tables/engine_table.h"
@@ -61,6 +63,10 @@ struct CertifyCommandOptions {
   CorpusCommandOptions corpus;  // what certify_corpus.h needs besides
   YearOptions suns;             // of candidates that are tables
   TableOptionRules table_rules;
+  CameraOptions camera;  // for pictures
+  std::vector<std::string> pixel_files;
+
+  bool judges_pictures() const { return camera.given() || !pixel_files.empty(); }
 };
 
 Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& options,
@@ -323,10 +329,68 @@ int run_tables(const CertifyCommandOptions& options) {
                             options.table_rules);
 }
 
+/// Every method that can be sampled, or the one that is named; zbuffer for `auto`.
+Expected<std::vector<MethodSelection>> picture_methods(const CertifyCommandOptions& options) {
+  if (options.algorithm == kAllName) return all_pixel_methods();
+  const auto method =
+      parse_pixel_method(options.algorithm == kAutomaticName ? "zbuffer" : options.algorithm);
+  if (!method) return tl::unexpected(method.error());
+  return std::vector{*method};
+}
+
+/// What says nothing of pictures.
+Expected<void> check_picture_options(const CertifyCommandOptions& options) {
+  for (const auto& [name, given] : {std::pair("--candidate", !options.candidates.empty()),
+                                    std::pair("--explain", options.explain),
+                                    std::pair("--combined", options.combined),
+                                    std::pair("--report", !options.report_directory.empty()),
+                                    std::pair("--leaks", options.leaks.has_value()),
+                                    std::pair("--width", options.width.has_value()),
+                                    std::pair("--tolerance", options.tolerance.has_value())}) {
+    if (!given) continue;
+    return fail(ErrorCode::kUsage, std::string(name) + " says nothing of pictures",
+                "--clearance, or no --eye and no --pixels");
+  }
+  if (!options.camera.given() && !options.kernels.empty()) {
+    return fail(ErrorCode::kUsage, "--kernel without a camera to run it with", "--eye x,y,z");
+  }
+  return {};
+}
+
+int run_pictures(const CertifyCommandOptions& options) {
+  PictureCommandOptions pictures;
+  pictures.camera = options.camera;
+  pictures.files = options.pixel_files;
+  pictures.float_counts = !options.kernels.empty();
+  pictures.thickness = options.thickness;
+  pictures.clearance = options.clearance;
+  pictures.jobs = options.scene.jobs;
+  pictures.json = options.json;
+  pictures.times = options.times;
+  if (options.camera.given()) {
+    auto methods = picture_methods(options);
+    if (!methods) return report_error(methods.error());
+    pictures.methods = *std::move(methods);
+  }
+  const ThreadLimit threads(options.scene.jobs);
+  const auto loaded = load_scene(options.scene, false);
+  if (!loaded) return report_error(loaded.error());
+  auto kernels = chosen_kernels(options, loaded->prepared.parts.size());
+  if (!kernels) return report_error(kernels.error());
+  pictures.kernels = *std::move(kernels);
+  return run_certify_pixels(pictures, *loaded);
+}
+
 int run_certify(const CertifyCommandOptions& options) {
   if (!options.corpus.corpus.empty()) return run_corpus(options);
   if (options.scene.scene.empty()) {
     return report_usage("neither a scene nor a corpus", "SCENE, or --corpus DIR");
+  }
+  if (options.judges_pictures()) {
+    if (auto checked = check_picture_options(options); !checked) {
+      return report_error(checked.error());
+    }
+    return run_pictures(options);
   }
   const auto tables = static_cast<std::size_t>(std::ranges::count_if(
       options.candidates,
@@ -460,6 +524,8 @@ void add_certify_command(CLI::App& app, Action& action) {
       "  gnomon certify room.json --candidate other.result.json --tolerance 1e-6 --report out\n"
       "  gnomon certify house.idf --candidate eplusshading.csv --epw phoenix.epw \\\n"
       "    --sun-model energyplus --average-days 20\n"
+      "  gnomon certify room.json --pixels other.pixels.json\n"
+      "  gnomon certify room.json --eye 9,-7,6 --algorithm zbuffer\n"
       "  gnomon certify --corpus tests/regressions --candidate-command ./my-shadows");
   CLI::Option* scene = add_scene_options(command, options->scene);
   repeatable(command.add_option(
@@ -529,6 +595,10 @@ void add_certify_command(CLI::App& app, Action& action) {
       ->type_name("DIR");
   command.add_option("--json", options->json, "Write the verdicts as JSON; - is standard output")
       ->type_name("FILE");
+  repeatable(command.add_option("--pixels", options->pixel_files,
+                                "A file gnomon-pixels to judge, sample by sample (repeatable)"))
+      ->type_name("FILE");
+  add_camera_options(command, options->camera, "--columns", "--rows");
   command.add_flag("--times", options->times, "CPU times in the JSON, which then is not stable");
   options->table_rules.add(command, options->suns);
   const CorpusOptionRules rules = add_corpus_options(command, *options, scene);

@@ -25,7 +25,8 @@ ImplicitImageSpace<Stats>::ImplicitImageSpace(const Geometry& geometry, const Im
                                               const KernelOptions&)
     : geometry_(&geometry),
       frame_(frame),
-      grid_bits_(geometry.grid.bits()),
+      scale_bits_(geometry.grid.bits()),
+      grid_bits_(scale_bits_),
       sample_bits_(frame.direction_bits()) {
   for (const mpz_class& x : frame.eye.grid) grid_bits_ = std::max(grid_bits_, bits_of(x));
   for (std::size_t k = 0; k < 3; ++k) moves_[0][k] = frame.right[k];
@@ -112,7 +113,7 @@ std::uint32_t ImplicitImageSpace<Stats>::add(std::vector<Plane>& planes, const S
                             : source.kind == Source::Kind::kRay &&
                                   (is_direction(source.from) || is_direction(source.to));
   // All of n is multiplied by one power of two, and values by 2^-b besides.
-  const long shift = 2L * grid_bits_, value_shift = 3L * grid_bits_;
+  const long shift = 2L * scale_bits_, value_shift = 3L * scale_bits_;
   with_width(narrowest_width(value_bits(plane) + 1), [&]<class Int>() {
     const ExactSource<Int> of = exact<Int>(source);
     const Int at_eye = of.value(integers<Int>(frame_.eye.grid));
@@ -168,8 +169,8 @@ Side ImplicitImageSpace<Stats>::side_of_vertex(PlaneRef ref, VertexId vertex) {
   Double3 x;
   for (int k = 0; k < 3; ++k) {
     x[static_cast<std::size_t>(k)] = grid.is_narrow()
-                                         ? to_double_scaled(grid.narrow(vertex, k), grid_bits_)
-                                         : to_double_scaled(grid.wide(vertex, k), grid_bits_);
+                                         ? to_double_scaled(grid.narrow(vertex, k), scale_bits_)
+                                         : to_double_scaled(grid.wide(vertex, k), scale_bits_);
   }
   const double bound = plane.usable ? SceneBounds::value(SceneBounds::kInputError) : kUnknownError;
   return stages_.filtered(dot(plane.guess.n, x) - plane.d, bound, ref.flipped(), [&] {

@@ -119,7 +119,9 @@ class ImplicitImageSpace {
 
   const Geometry* geometry_;
   ImageFrame frame_;
-  unsigned grid_bits_, sample_bits_, direction_bits_ = 0;
+  // Of vertices, to which doubles are scaled; of these, the eye and lights; of samples' directions
+  // and of those to lights.
+  unsigned scale_bits_, grid_bits_, sample_bits_, direction_bits_ = 0;
   std::array<std::array<std::int64_t, 3>, 2> moves_;  // R, U
   std::vector<Plane> planes_, ray_planes_;
   std::vector<LightPoint> lights_;

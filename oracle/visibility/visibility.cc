@@ -76,6 +76,7 @@ VisibilityTest::VisibilityTest(const PreparedScene& scene, const PreparedLight& 
                                  : dot(caster.normal, minus(data_->light, caster.loop[0]));
     caster.receives = height > 0 || (height < 0 && part.two_sided);
     caster.casts = caster.receives && part.casts;
+    all_.push_back(static_cast<std::uint32_t>(data_->parts.size()));
     data_->parts.push_back(std::move(caster));
   }
 }
@@ -84,6 +85,11 @@ VisibilityTest::~VisibilityTest() = default;
 VisibilityTest::VisibilityTest(VisibilityTest&&) noexcept = default;
 
 PointVisibility VisibilityTest::at(std::uint32_t receiver, const RationalPoint& point) const {
+  return among(all_, receiver, point);
+}
+
+PointVisibility VisibilityTest::among(std::span<const std::uint32_t> casters,
+                                      std::uint32_t receiver, const RationalPoint& point) const {
   PointVisibility result;
   const Data::Caster& own = data_->parts[receiver];
   if (!own.receives) {
@@ -91,7 +97,7 @@ PointVisibility VisibilityTest::at(std::uint32_t receiver, const RationalPoint& 
     return result;
   }
   const Vector to_light = data_->directional ? data_->light : minus(data_->light, point);
-  for (std::uint32_t i = 0; i < data_->parts.size(); ++i) {
+  for (const std::uint32_t i : casters) {
     const Data::Caster& caster = data_->parts[i];
     if (i == receiver || !caster.casts) continue;
     // point + t to_light meets the plane where height + t rise = 0.

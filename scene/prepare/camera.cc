@@ -56,7 +56,7 @@ Expected<void> check_raster(std::uint32_t width, std::uint32_t height) {
   return {};
 }
 
-Expected<void> check_frame(const Camera& camera) {
+Expected<void> check_frame(const ExactCamera& camera) {
   if (auto raster = check_raster(camera.width, camera.height); !raster) return raster;
   std::array<std::array<std::int64_t, 3>, 3> rows;
   std::size_t row = 0;
@@ -85,7 +85,7 @@ Expected<void> check_frame(const Camera& camera) {
 
 }  // namespace
 
-Expected<Camera> make_camera(const Position& eye, const CameraView& view) {
+Expected<ExactCamera> make_camera(const Position& eye, const CameraView& view) {
   if (!(view.field_of_view > 0 && view.field_of_view < 180)) {
     return fail(ErrorCode::kUsage, "a field of view of " + std::to_string(view.field_of_view),
                 "degrees, above 0 and below 180");
@@ -111,7 +111,8 @@ Expected<Camera> make_camera(const Position& eye, const CameraView& view) {
     }
     return result;
   };
-  Camera camera{eye, rounded(right), rounded(up), rounded(axes.forward), view.width, view.height};
+  ExactCamera camera{eye,        rounded(right), rounded(up), rounded(axes.forward),
+                     view.width, view.height};
   if (auto checked = check_frame(camera); !checked) {
     return tl::unexpected(std::move(checked.error()));
   }
@@ -133,7 +134,7 @@ double fitting_field_of_view(const PreparedScene& scene, const CameraView& view)
   return std::min(kWidest, 2 * std::atan(slope / kMargin) * 180 / std::numbers::pi);
 }
 
-Expected<PreparedView> prepare_view(Scene scene, const Camera& camera) {
+Expected<PreparedView> prepare_view(Scene scene, const ExactCamera& camera) {
   if (auto checked = check_frame(camera); !checked) {
     return tl::unexpected(std::move(checked.error()));
   }

@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
@@ -37,10 +39,14 @@ class VisibilityTest {
   /// `point` in scene units, on `receiver`'s plane. If the receiver has no side that faces the
   /// light and receives: kShadow without a caster. Cost: all casters. Thread-safe.
   PointVisibility at(std::uint32_t receiver, const RationalPoint& point) const;
+  /// The same among these parts alone. Cost: their number.
+  PointVisibility among(std::span<const std::uint32_t> casters, std::uint32_t receiver,
+                        const RationalPoint& point) const;
 
  private:
   struct Data;
   std::unique_ptr<Data> data_;
+  std::vector<std::uint32_t> all_;
 };
 
 }  // namespace gnomon::oracle

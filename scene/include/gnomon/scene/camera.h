@@ -18,7 +18,7 @@
 
 namespace gnomon {
 
-struct Camera {
+struct ExactCamera {
   Position eye;
   std::array<std::int32_t, 3> right{}, up{}, forward{};
   std::uint32_t width = 0, height = 0;
@@ -35,7 +35,7 @@ struct CameraView {
 /// the exact one. If `up` is along the view, another direction takes its place. Errors: kUsage (no
 /// samples, a field of view outside (0, 180), the eye at look_at, a frame that rounding makes flat:
 /// fields of view below about 0.01 degrees), kLimit (more than ImageFrame::kMostSamples).
-Expected<Camera> make_camera(const Position& eye, const CameraView& view);
+Expected<ExactCamera> make_camera(const Position& eye, const CameraView& view);
 
 /// The field of view, in degrees, that holds all vertices of the scene with a margin; 75 where some
 /// are beside or behind the eye.
@@ -48,7 +48,7 @@ struct PreparedView {
 };
 
 /// Errors: those of prepare(); kUsage and kLimit as make_camera(), for a camera from elsewhere.
-Expected<PreparedView> prepare_view(Scene scene, const Camera& camera);
+Expected<PreparedView> prepare_view(Scene scene, const ExactCamera& camera);
 
 }  // namespace gnomon
 
