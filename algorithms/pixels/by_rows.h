@@ -4,12 +4,13 @@
 #ifndef GNOMON_ALGORITHMS_PIXELS_BY_ROWS_H
 #define GNOMON_ALGORITHMS_PIXELS_BY_ROWS_H
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <mutex>
-#include <thread>
-#include <vector>
 
 #include "algorithms/partition/run_task.h"
 #include "algorithms/pixels/pixel_task.h"
@@ -46,10 +47,9 @@ Expected<PixelWork> by_rows(const PixelTask& task) {
     total.stages += run.stages();
     covered += run.covered();
   };
-  std::vector<std::thread> others;
-  for (std::uint32_t t = 1; t < threads; ++t) others.emplace_back(work, t);
-  work(0);
-  for (std::thread& thread : others) thread.join();
+  tbb::task_arena arena(static_cast<int>(threads));
+  arena.execute(
+      [&] { tbb::parallel_for(std::uint32_t{0}, threads, work, tbb::simple_partitioner()); });
   if (stopped) return stopped_by(RunOutcome::kInterrupted, {});
   constexpr std::uint64_t kMillion = 1'000'000;
   total.work[Counter::kDepthComplexity] =

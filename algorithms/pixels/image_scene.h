@@ -30,7 +30,7 @@ class ImageScene {
     }
     for (const std::uint32_t light : task.lights) {
       const ImageLight added = space_.add_light(scene_.lights[light].point);
-      lights_.push_back({added,
+      lights_.push_back({added, &scene_.lights[light].point,
                          sides([&](PlaneRef front) { return space_.side_of_light(front, added); }),
                          std::vector<std::uint32_t>(scene_.geometry.edges.size(), kNone)});
     }
@@ -40,6 +40,7 @@ class ImageScene {
   const PreparedScene& scene() const { return scene_; }
   std::size_t light_count() const { return lights_.size(); }
   ImageLight light(std::size_t l) const { return lights_[l].light; }
+  const LightPoint& light_point(std::size_t l) const { return *lights_[l].point; }
 
   /// The part's plane, its front where the eye is; not valid() if the eye does not see the part.
   PlaneRef facing_eye(std::uint32_t part) const { return facing_eye_[part]; }
@@ -80,6 +81,7 @@ class ImageScene {
 
   struct LightOf {
     ImageLight light;
+    const LightPoint* point;
     std::vector<PlaneRef> facing;              // a part each
     std::vector<std::uint32_t> shadow_planes;  // an edge each, for the way from its a to its b
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Which parts may shadow a part: those that face the light and are left when the sides of whole
-// loops have been asked. A list is made when its part is first seen.
+// Which parts may shadow a part: those that face the light and are left when balls around parts,
+// and then the sides of whole loops, have been asked. A list is made when its part is first seen.
 #ifndef GNOMON_ALGORITHMS_ZBUFFER_CASTER_LISTS_H
 #define GNOMON_ALGORITHMS_ZBUFFER_CASTER_LISTS_H
 
@@ -10,13 +10,15 @@
 #include <vector>
 
 #include "algorithms/pixels/image_scene.h"
+#include "algorithms/pixels/part_balls.h"
 
 namespace gnomon {
 
 template <ImageSpaceModel Space>
 class CasterLists {
  public:
-  explicit CasterLists(ImageScene<Space>& scene) : scene_(scene), lists_(scene.light_count()) {
+  CasterLists(ImageScene<Space>& scene, const PartBalls& balls)
+      : scene_(scene), balls_(balls), lists_(scene.light_count()) {
     for (std::size_t l = 0; l < lists_.size(); ++l) {
       const std::vector<Part>& parts = scene.scene().parts;
       lists_[l].of_part.resize(parts.size());
@@ -47,8 +49,8 @@ class CasterLists {
   bool may_shadow(std::uint32_t caster, std::uint32_t part, std::size_t l) {
     const PlaneRef own = scene_.facing_light(part, l), other = scene_.facing_light(caster, l);
     // Coplanar parts do not shadow each other.
-    if (own.same_plane(other) || !reaches(caster, own, Side::kFront) ||
-        !reaches(part, other, Side::kBack)) {
+    if (own.same_plane(other) || balls_.are_apart(scene_.light_point(l), caster, part) ||
+        !reaches(caster, own, Side::kFront) || !reaches(part, other, Side::kBack)) {
       return false;
     }
     const std::size_t edges = scene_.scene().parts[caster].count;
@@ -65,6 +67,7 @@ class CasterLists {
   }
 
   ImageScene<Space>& scene_;
+  const PartBalls& balls_;
   std::vector<OfLight> lists_;
 };
 

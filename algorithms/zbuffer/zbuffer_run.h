@@ -16,6 +16,7 @@
 #include "algorithms/partition/insertion_order.h"
 #include "algorithms/pixels/by_rows.h"
 #include "algorithms/pixels/image_scene.h"
+#include "algorithms/pixels/part_balls.h"
 #include "algorithms/pixels/visible_row.h"
 #include "algorithms/zbuffer/by_zbuffer.h"
 #include "algorithms/zbuffer/caster_lists.h"
@@ -26,7 +27,11 @@ template <ImageSpaceModel Space>
 class ZbufferRun {
  public:
   explicit ZbufferRun(const PixelTask& task)
-      : task_(task), scene_(task), casters_(scene_), lit_(task.frame.width) {
+      : task_(task),
+        scene_(task),
+        balls_(task.scene, task.frame),
+        casters_(scene_, balls_),
+        lit_(task.frame.width) {
     std::vector<std::uint32_t> seen;
     for (std::uint32_t p = 0; p < task.scene.parts.size(); ++p) {
       if (scene_.facing_eye(p).valid()) seen.push_back(p);
@@ -37,6 +42,7 @@ class ZbufferRun {
   void fill_row(std::uint32_t row) {
     const PixelSink::Row out = task_.sink.row(row);
     for (const std::uint32_t part : order_) {
+      if (balls_.misses_row(part, row)) continue;
       const Span span = covered_span(scene_, part, row);
       if (span.empty()) continue;
       ++work_[Counter::kSpans];
@@ -91,6 +97,7 @@ class ZbufferRun {
 
   const PixelTask& task_;
   ImageScene<Space> scene_;
+  PartBalls balls_;
   CasterLists<Space> casters_;
   std::vector<std::uint32_t> order_;  // of the parts that the eye sees
   std::vector<std::uint8_t> lit_;     // of the samples of a span

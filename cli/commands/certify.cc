@@ -340,13 +340,13 @@ Expected<std::vector<MethodSelection>> picture_methods(const CertifyCommandOptio
 
 /// What says nothing of pictures.
 Expected<void> check_picture_options(const CertifyCommandOptions& options) {
-  for (const auto& [name, given] : {std::pair("--candidate", !options.candidates.empty()),
-                                    std::pair("--explain", options.explain),
-                                    std::pair("--combined", options.combined),
-                                    std::pair("--report", !options.report_directory.empty()),
-                                    std::pair("--leaks", options.leaks.has_value()),
-                                    std::pair("--width", options.width.has_value()),
-                                    std::pair("--tolerance", options.tolerance.has_value())}) {
+  for (const auto& [name, given] :
+       {std::pair("--candidate", !options.candidates.empty()),
+        std::pair("--explain", options.explain), std::pair("--combined", options.combined),
+        std::pair("--report", !options.report_directory.empty()),
+        std::pair("--leaks", options.leaks.has_value()),
+        std::pair("--width", options.width.has_value()),
+        std::pair("--tolerance", options.tolerance.has_value())}) {
     if (!given) continue;
     return fail(ErrorCode::kUsage, std::string(name) + " says nothing of pictures",
                 "--clearance, or no --eye and no --pixels");

@@ -30,8 +30,8 @@ class PixelsCommand : public testing::Test {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
   RunResult pixels(std::vector<std::string> options) {
-    std::vector<std::string> words{"pixels", scene_,   "--eye",   "21,-17,19", "--width", "32",
-                                   "--height", "24"};
+    std::vector<std::string> words{"pixels",  scene_, "--eye",    "21,-17,19",
+                                   "--width", "32",   "--height", "24"};
     words.insert(words.end(), options.begin(), options.end());
     return run_gnomon(words);
   }
@@ -102,8 +102,8 @@ TEST_F(PixelsCommand, CertifyJudgesOurOwnPictures) {
       run_gnomon({"certify", scene_, "--eye", "21,-17,19", "--columns", "24", "--rows", "24",
                   "--algorithm", "all", "--kernel", "plane", "--kernel", "double"});
   EXPECT_EQ(judged.status, 0) << judged.out << judged.err;
-  EXPECT_THAT(judged.out, AllOf(HasSubstr("plane/zbuffer"), HasSubstr("double/svbsp"),
-                                HasSubstr("identical")));
+  EXPECT_THAT(judged.out,
+              AllOf(HasSubstr("plane/zbuffer"), HasSubstr("double/svbsp"), HasSubstr("identical")));
 }
 
 TEST_F(PixelsCommand, ErrorsSayWhatIsExpected) {

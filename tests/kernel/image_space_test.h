@@ -185,6 +185,12 @@ TYPED_TEST_P(ExactImageSpaceOf, AnswersAsTheMovedSampleDoes) {
       return Big3{geometry.grid.at(v, 0), geometry.grid.at(v, 1), geometry.grid.at(v, 2)};
     };
     const Big3& eye = view.frame.eye.grid;
+    // Far beyond the vertices, so that the grid of all has more bits than theirs; and a sun.
+    std::array<LightPoint, 2> lights;
+    lights[0].grid = {100, 37, 900};
+    lights[1].directional = true;
+    lights[1].grid = {2, -1, 3};
+    std::array<ImageLight, 2> added{space.add_light(lights[0]), space.add_light(lights[1])};
     const auto normal = [&](PlaneId id) {
       const SupportTriple& t = geometry.planes[id];
       return cross_of(minus(grid(t.b), grid(t.a)), minus(grid(t.c), grid(t.a)));
@@ -220,6 +226,30 @@ TYPED_TEST_P(ExactImageSpaceOf, AnswersAsTheMovedSampleDoes) {
           const RayPlaneRef plane = space.add_ray_plane(ImagePoint::at(a), ImagePoint::at(b));
           const Big3 n = cross_of(minus(grid(b), eye), minus(grid(a), eye));
           ASSERT_EQ(static_cast<int>(space.covers(plane, sample)), sgn(dot_of(n, d)));
+          for (std::size_t l = 0; l < 2; ++l) {
+            const PlaneRef shadow = space.add_shadow_plane(added[l], a, b);
+            const Big3 to_light =
+                lights[l].directional ? Big3(lights[l].grid) : minus(lights[l].grid, grid(a));
+            const Big3 m = cross_of(to_light, minus(grid(b), grid(a)));
+            const mpz_class m_eye = dot_of(m, minus(eye, grid(a)));
+            for (PlaneId p = 0; p < geometry.planes.size(); ++p) {
+              if (sgn(dot_of(normal(p), plain)) * sgn(at_eye(p)) >= 0) continue;
+              const mpz_class bracket = dot_of(normal(p), d) * m_eye - dot_of(m, d) * at_eye(p);
+              ASSERT_EQ(static_cast<int>(space.side_at_sample(shadow, PlaneRef(p), sample)),
+                        sgn(bracket) * sgn(dot_of(normal(p), plain)))
+                  << "light " << l;
+            }
+            for (const VertexId v : view.scene.loop_vertices) {
+              ASSERT_EQ(static_cast<int>(space.side_of_vertex(shadow, v)),
+                        sgn(dot_of(m, minus(grid(v), grid(a)))));
+            }
+            const ImagePoint of = ImagePoint::of(added[l]);
+            const Big3 seen =
+                lights[l].directional ? Big3(lights[l].grid) : minus(lights[l].grid, eye);
+            const RayPlaneRef wedge = space.add_ray_plane(of, ImagePoint::at(a));
+            ASSERT_EQ(static_cast<int>(space.covers(wedge, sample)),
+                      sgn(dot_of(cross_of(minus(grid(a), eye), seen), d)));
+          }
         }
       }
     }
