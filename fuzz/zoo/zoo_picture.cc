@@ -100,14 +100,22 @@ std::string paint_samples(const std::string& title, const PixelClaims& shown,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
       "{1}\">\n<text x=\"4\" y=\"18\" font-family=\"sans-serif\" font-size=\"12\">{2}</text>\n",
       width * kSquare, height * kSquare + kTop, title);
-  for (std::size_t s = 0; s < shown.polygon.size(); ++s) {
-    const bool wrong = shown.polygon[s] != truth.polygon[s] || shown.lit_by[s] != truth.lit_by[s];
+  const auto colour = [&](std::size_t s) {
+    if (shown.polygon[s] != truth.polygon[s] || shown.lit_by[s] != truth.lit_by[s]) {
+      return std::string("#d6246e");
+    }
     const double lit = std::popcount(shown.lit_by[s]) / static_cast<double>(shown.lights.size());
-    const int grey =
-        shown.polygon[s] == PixelClaims::kNothing ? 245 : 90 + static_cast<int>(120 * lit);
+    return fmt::format("rgb({0},{0},{0})", shown.polygon[s] == PixelClaims::kNothing
+                                               ? 245
+                                               : 90 + static_cast<int>(120 * lit));
+  };
+  for (std::size_t s = 0, end = 0; s < shown.polygon.size(); s = end) {
+    const std::size_t row_end = (s / width + 1) * width;
+    for (end = s + 1; end < row_end && colour(end) == colour(s); ++end) {
+    }
     svg += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
-                       s % width * kSquare, s / width * kSquare + kTop, kSquare, kSquare,
-                       wrong ? "#d6246e" : fmt::format("rgb({0},{0},{0})", grey));
+                       s % width * kSquare, s / width * kSquare + kTop, (end - s) * kSquare,
+                       kSquare, colour(s));
   }
   return svg + "</svg>\n";
 }
