@@ -81,9 +81,10 @@ void add_notes(const Scene& scene, const JudgedPicture& picture, TextTable& tabl
     table.add_note("why: " + report.reason);
   }
   if (report.step > 1) {
-    table.add_note("of " + grouped(report.samples) + " samples every " + grouped(report.step) +
-                   "th was judged: all of them are more pairs of a sample and a polygon than the "
-                   "limit");
+    table.add_note(
+        "one in " + grouped(report.step) + " of its " + grouped(report.samples) +
+        " samples was judged: all of them make more pairs of a sample and a polygon than "
+        "the limit");
   }
 }
 
