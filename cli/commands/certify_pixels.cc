@@ -67,6 +67,7 @@ class PictureRun {
           if (interrupted()) certificate_.interrupted = true;
           if (certificate_.interrupted || moves) break;
           if (auto done = run_method(method, kernel, *view, *camera); !done) return done;
+          if (certificate_.interrupted) break;
           const auto& report = certificate_.pictures.back().report;
           // Where samples lie depends on the camera alone.
           moves = seed < kMostMoves && report && !report->interrupted &&
