@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gnomon_bench [--short | --long] [--against COMMAND] [--json] [PART...] [--benchmark_...]
 //
-// Parts: targets point kernels area papers scene-bsp pitfalls thickness systems; all but the last
-// three by default.
+// Parts: targets point kernels area papers scene-bsp pitfalls thickness systems pictures; all but
+// the last four by default.
 // Exit status: 0; 1 if exact kernels, algorithms or peers gave different answers, or fractions that
 // do not add up to 1; 2 bad usage. (`child` and `measure` with their arguments are for the program
 // itself: child.h, comparison/run_measurement.h.)
@@ -41,9 +41,11 @@ constexpr const char* kUsage =
     "  pitfalls   scenes that are known to hurt\n"
     "  thickness  plane thickness of the rounded kernels against wrong answers\n"
     "  systems    every system on every kernel, on all scenes, by size: the table of `gnomon\n"
-    "             compare`\n"
+    "             compare`, and pictures\n"
+    "  pictures   samples a second of pictures, plane against double, and the oracle's time\n"
     "\n"
-    "Without PART: all but pitfalls, thickness and systems. --short takes seconds; --long adds a\n"
+    "Without PART: all but pitfalls, thickness, systems and pictures. --short takes seconds; "
+    "--long adds a\n"
     "million polygons to the targets and the scene BSP, full sizes for the slow exact kernels, "
     "and\n"
     "repetitions. --against names the gnomon command that the targets are ratios to; --json "
@@ -66,7 +68,7 @@ bool targets(const Arguments& arguments) {
 }
 
 // The targets come first: the peak memory of a program is never below that of who started it.
-constexpr std::array<NamedPart, 9> kParts{
+constexpr std::array<NamedPart, 10> kParts{
     {{"targets", targets, true},
      {"point", by_extent<gnomon::bench::run_point>, true},
      {"kernels", by_extent<gnomon::bench::run_kernels>, true},
@@ -75,7 +77,8 @@ constexpr std::array<NamedPart, 9> kParts{
      {"scene-bsp", by_extent<gnomon::bench::run_scene_bsp>, true},
      {"pitfalls", by_extent<gnomon::bench::run_pitfalls>, false},
      {"thickness", by_extent<gnomon::bench::run_thickness>, false},
-     {"systems", by_extent<gnomon::bench::run_systems>, false}}};
+     {"systems", by_extent<gnomon::bench::run_systems>, false},
+     {"pictures", by_extent<gnomon::bench::run_pictures>, false}}};
 
 }  // namespace
 

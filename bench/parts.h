@@ -35,6 +35,9 @@ bool run_pitfalls(Extent extent);
 /// Every system on every kernel, on the papers' scenes and families of hard ones, in one table.
 /// False if an exact kernel is not confirmed, or exact answers differ.
 bool run_systems(Extent extent);
+/// Samples a second of pictures, and the oracle's time; run_systems() ends with it. False if an
+/// exact sample is wrong.
+bool run_pictures(Extent extent);
 /// Pieces of the scene BSP of all polygons.
 std::uint64_t scene_bsp_pieces(const PreparedScene& scene);
 

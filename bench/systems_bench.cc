@@ -85,7 +85,7 @@ bool run_systems(Extent extent) {
     return false;
   }
   fmt::print("{}", comparison::comparison_text(*done));
-  return done->contradictions.empty();
+  return run_pictures(extent) && done->contradictions.empty();
 }
 
 }  // namespace gnomon::bench

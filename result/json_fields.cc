@@ -7,7 +7,10 @@
 #include <rapidjson/reader.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
+#include <cstring>
+#include <fstream>
 #include <numeric>
 #include <utility>
 
@@ -124,6 +127,26 @@ Expected<void> JsonFields::parse(std::string_view text, rapidjson::Document& doc
   if (!generator.result.IsError()) return {};
   return wrong_place(text, generator.result.Offset(),
                      rapidjson::GetParseError_En(generator.result.Code()));
+}
+
+Expected<std::string> JsonFields::read_file(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) {
+    return fail(ErrorCode::kFile, fmt::format("cannot be opened: {}", std::strerror(errno)), {},
+                ErrorPlace{path, 0, 0, {}});
+  }
+  std::string text;
+  constexpr std::size_t kBlock = std::size_t{1} << 20;
+  do {
+    const std::size_t size = text.size();
+    text.resize(size + kBlock);
+    stream.read(text.data() + size, static_cast<std::streamsize>(kBlock));
+    text.resize(size + static_cast<std::size_t>(stream.gcount()));
+  } while (stream);
+  if (stream.bad()) {
+    return fail(ErrorCode::kFile, "cannot be read", {}, ErrorPlace{path, 0, 0, {}});
+  }
+  return text;
 }
 
 tl::unexpected<Error> JsonFields::wrong_place(std::string_view text, std::size_t offset,

@@ -28,6 +28,8 @@ class JsonFields {
  public:
   JsonFields(std::string file, NumberMeaning numbers) : file_(std::move(file)), numbers_(numbers) {}
 
+  /// The text of a file. Errors: kFile.
+  static Expected<std::string> read_file(const std::string& path);
   /// Errors: kSyntax, with line and column.
   Expected<void> parse(std::string_view text, rapidjson::Document& document) const;
 

@@ -4,9 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 
 #include "result/json_fields.h"
 #include "result/told_shares.h"
@@ -330,23 +327,9 @@ Expected<Claims> parse_claims(std::string_view text, const std::string& file, co
 }
 
 Expected<Claims> read_claims(const std::string& path, const Scene& scene, SharesAlone shares) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    return fail(ErrorCode::kFile, fmt::format("cannot be opened: {}", std::strerror(errno)), {},
-                ErrorPlace{path, 0, 0, {}});
-  }
-  std::string text;
-  constexpr std::size_t kBlock = std::size_t{1} << 20;
-  do {
-    const std::size_t size = text.size();
-    text.resize(size + kBlock);
-    stream.read(text.data() + size, static_cast<std::streamsize>(kBlock));
-    text.resize(size + static_cast<std::size_t>(stream.gcount()));
-  } while (stream);
-  if (stream.bad()) {
-    return fail(ErrorCode::kFile, "cannot be read", {}, ErrorPlace{path, 0, 0, {}});
-  }
-  return parse_claims(text, path, scene, shares);
+  const auto text = JsonFields::read_file(path);
+  if (!text) return tl::unexpected(text.error());
+  return parse_claims(*text, path, scene, shares);
 }
 
 }  // namespace gnomon

@@ -48,6 +48,12 @@ struct Rules {
   bool casters_are_the_same_in_each_step = true;
   /// Of a polygon whose plane holds an edge, the two planes tell which is nearer beside the edge.
   bool equal_depth_by_its_planes = true;
+  /// One-sided polygons are seen from their front alone, as they receive and cast with it alone
+  /// ("Scene"); an eye sees through their backs.
+  bool backs_are_transparent = true;
+  /// A sample in a plane is moved a little along the picture's frame, and the plane that it lies on
+  /// keeps its side of the ray (docs/image-space.md, "Ties").
+  bool planes_stay_at_ties = true;
   /// A vertex on the edge of a neighbouring face is a vertex of that face, too: its illumination
   /// is the same from both sides (shading_mesh.h, "no T-vertices").
   bool neighbour_vertices_are_in_the_face = true;

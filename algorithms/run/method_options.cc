@@ -14,10 +14,9 @@ namespace {
 
 constexpr std::uint32_t kMostTiles = 1024;
 
-/// Reads one of two words into `value`.
-template <class T>
-bool read_word(T& value, std::string_view text,
-               const std::array<std::pair<std::string_view, T>, 2>& words) {
+/// Reads one of the words into `value`.
+template <class T, std::size_t N>
+bool read_word(T& value, std::string_view text, const std::pair<std::string_view, T> (&words)[N]) {
   for (const auto& [word, meaning] : words) {
     if (word != text) continue;
     value = meaning;
@@ -28,7 +27,7 @@ bool read_word(T& value, std::string_view text,
 
 std::string on_or_off(bool value) { return value ? "on" : "off"; }
 bool read_switch(bool& value, std::string_view text) {
-  return read_word<bool>(value, text, {{{"on", true}, {"off", false}}});
+  return read_word<bool>(value, text, {{"on", true}, {"off", false}});
 }
 
 constexpr std::array kOptions = {
@@ -49,17 +48,20 @@ constexpr std::array kOptions = {
                      },
                  .text = [](const MethodOptionValues& v) { return std::string(name_of(v.cover)); }},
     MethodOption{.name = "order",
-                 .values = "near|file",
+                 .values = "near|file|far",
                  .summary = "which polygons are inserted first: a heuristic",
                  .read =
                      [](MethodOptionValues& v, std::string_view t) {
                        return read_word<InsertionOrder>(v.order, t,
-                                                        {{{"near", InsertionOrder::kNearFirst},
-                                                          {"file", InsertionOrder::kFile}}});
+                                                        {{"near", InsertionOrder::kNearFirst},
+                                                         {"file", InsertionOrder::kFile},
+                                                         {"far", InsertionOrder::kFarFirst}});
                      },
                  .text =
                      [](const MethodOptionValues& v) {
-                       return std::string(v.order == InsertionOrder::kFile ? "file" : "near");
+                       return std::string(v.order == InsertionOrder::kNearFirst ? "near"
+                                          : v.order == InsertionOrder::kFile    ? "file"
+                                                                                : "far");
                      }},
     MethodOption{
         .name = "prune",
@@ -98,13 +100,22 @@ const MethodOption* method_option(std::string_view name) {
   return found == kOptions.end() ? nullptr : &*found;
 }
 
-Expected<MethodSelection> parse_method(std::string_view text) {
+Expected<MethodSelection> parse_method(std::string_view text, Domain domain) {
   const std::size_t colon = text.find(':');
   const std::string name(text.substr(0, colon));
-  const std::optional<MethodId> id = method_by_name(name);
+  const std::optional<MethodId> id = method_by_name(name, domain);
   if (!id) {
+    const Domain other =
+        domain == Domain::kObjectSpace ? Domain::kImageSpace : Domain::kObjectSpace;
+    if (method_by_name(name, other)) {
+      return fail(ErrorCode::kUsage, name + " works in " + std::string(name_of(other)),
+                  domain == Domain::kObjectSpace ? "gnomon pixels, which samples a picture; here "
+                                                   "one of: " +
+                                                       method_names({true, true})
+                                                 : "one of: " + method_names({true, true}, domain));
+    }
     return fail(ErrorCode::kUsage, name + ": no such algorithm",
-                "one of: " + method_names({.point = true, .area = true}));
+                "one of: " + method_names({.point = true, .area = true}, domain));
   }
   MethodSelection selection;
   selection.id = *id;

@@ -15,6 +15,7 @@
 #include "algorithms/svbsp/by_svbsp.h"
 #include "algorithms/svbsp_full/by_svbsp_full.h"
 #include "algorithms/tiling/by_volumes.h"
+#include "algorithms/zbuffer/by_zbuffer.h"
 
 namespace gnomon {
 
@@ -36,11 +37,14 @@ constexpr std::array kTilingCounters = {
     kFirstQuartileMet, kMedianMet,      kThirdQuartileMet};
 constexpr std::array kSvbspFullCounters = {kVolumes, kShadowPolygons, kNodes, kDepth};
 constexpr std::array kContourCounters = {kIntervals, kSegments, kDarkPolygons, kOpenPolygons};
+constexpr std::array<std::string_view, 1> kZbufferOptions = {"order"};
+constexpr std::array kZbufferCounters = {kSamples, kSpans, kDepthTests, kCasterTests,
+                                         kDepthComplexity};
 constexpr std::array kTwoPassCounters = {kClips, kShadowPolygons, kLists, kLongestList,
                                          kDeepestStack};
 
 /// The first of the rows that can do what is asked is what the command line's `auto` takes.
-constexpr std::array kMethods = {
+constexpr std::array kObjectMethods = {
     Method{.id = MethodId::kSectors,
            .name = "sectors",
            .summary = "needs no order",
@@ -127,17 +131,39 @@ constexpr std::array kMethods = {
            .counters = kTwoPassCounters},
 };
 
+constexpr std::array kImageMethods = {
+    Method{.id = MethodId::kZbuffer,
+           .name = "zbuffer",
+           .summary = "the nearest polygon at each sample, each caster tested there",
+           .source = "Catmull 1974; exact samples: docs/image-space.md",
+           .lights = {.point = true},
+           .domain = Domain::kImageSpace,
+           .needs = {.camera = true},
+           .threads = true,
+           .names_casters = false,
+           .makes_fragments = false,
+           .options = kZbufferOptions,
+           .counters = kZbufferCounters},
+};
+
 template <template <class> class Run>
-MethodFunction on_kernel(KernelId kernel) {
+auto on_kernel(KernelId kernel) {
   static constexpr std::array kFunctions = on_every_kernel<Run>();
   return kFunctions[static_cast<std::size_t>(kernel)];
 }
 
 }  // namespace
 
-std::span<const Method> methods() { return kMethods; }
+std::span<const Method> methods(Domain domain) {
+  if (domain == Domain::kObjectSpace) return kObjectMethods;
+  return kImageMethods;
+}
 
-const Method& method_info(MethodId id) { return *std::ranges::find(kMethods, id, &Method::id); }
+const Method& method_info(MethodId id) {
+  const auto found = std::ranges::find(kObjectMethods, id, &Method::id);
+  return found != kObjectMethods.end() ? *found
+                                       : *std::ranges::find(kImageMethods, id, &Method::id);
+}
 
 std::string_view name_of(Domain domain) {
   return domain == Domain::kObjectSpace ? "object space" : "image space";
@@ -167,16 +193,16 @@ std::vector<std::string_view> abilities(const Method& method) {
   return names;
 }
 
-std::optional<MethodId> method_by_name(std::string_view name) {
-  for (const Method& method : kMethods) {
+std::optional<MethodId> method_by_name(std::string_view name, Domain domain) {
+  for (const Method& method : methods(domain)) {
     if (method.chosen_by_name && method.name == name) return method.id;
   }
   return std::nullopt;
 }
 
-std::string method_names(LightKinds lights) {
+std::string method_names(LightKinds lights, Domain domain) {
   std::string names;
-  for (const Method& method : kMethods) {
+  for (const Method& method : methods(domain)) {
     const bool takes = (lights.point && method.lights.point) || (lights.area && method.lights.area);
     if (!method.chosen_by_name || !takes) continue;
     names += (names.empty() ? "" : ", ") + std::string(method.name);
@@ -207,6 +233,8 @@ MethodFunction run_of(MethodId method, const Pick& pick) {
     case MethodId::kPieces:
       return pick.template operator()<ByReceiver>();
     case MethodId::kAutomatic:
+    case MethodId::kZbuffer:  // pixel_function() has those of image space
+    case MethodId::kShadowPolygons:
       break;
   }
   return nullptr;
@@ -216,6 +244,15 @@ MethodFunction run_of(MethodId method, const Pick& pick) {
 
 MethodFunction method_function(MethodId method, KernelId kernel) {
   return run_of(method, [&]<template <class> class Run>() { return on_kernel<Run>(kernel); });
+}
+
+PixelFunction pixel_function(MethodId method, KernelId kernel) {
+  switch (method) {
+    case MethodId::kZbuffer:
+      return on_kernel<ByZbuffer>(kernel);
+    default:
+      return nullptr;
+  }
 }
 
 MethodFunction watched_function(MethodId method, KernelId) {

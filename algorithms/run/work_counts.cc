@@ -37,6 +37,13 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kDarkPolygons, "dark polygons", "proven to be so before they are met", kSum},
     {Counter::kOpenPolygons, "open polygons", "left open by bounds, found by exact subtraction",
      kSum},
+    {Counter::kSamples, "samples", "of the picture, on some polygon", kSum},
+    {Counter::kSpans, "spans", "of samples of a row that a polygon covers", kSum},
+    {Counter::kDepthTests, "depth tests", "comparisons of two polygons along a span", kSum},
+    {Counter::kCasterTests, "caster tests", "pairs of a span and a polygon that may shadow it",
+     kSum},
+    {Counter::kDepthComplexity, "depth complexity", "polygons that cover a sample, on average",
+     kMost, kMillion},
 }};
 
 }  // namespace

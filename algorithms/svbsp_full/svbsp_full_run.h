@@ -12,9 +12,9 @@
 
 #include "algorithms/lights/light_groups.h"
 #include "algorithms/lights/light_sink.h"
+#include "algorithms/partition/insertion_order.h"
 #include "algorithms/svbsp_full/by_svbsp_full.h"
 #include "algorithms/svbsp_full/full_volume_tree.h"
-#include "algorithms/svbsp_full/insertion_order.h"
 #include "kernel/concept/kernel_model.h"
 
 namespace gnomon {
@@ -34,10 +34,8 @@ class SvbspFullRun {
     if (light_.options.prefix) {
       tree_.plant(plan_prefix(light_.scene, light_.light_point(), light_.facing.parts));
     }
-    std::vector<std::uint32_t> order = light_.facing.parts;
-    if (order_ == InsertionOrder::kNearFirst) {
-      order = nearest_first(light_.scene, light_.light_point(), order);
-    }
+    const std::vector<std::uint32_t> order =
+        in_order(order_, light_.scene, light_.light_point(), light_.facing.parts);
     const std::uint32_t mark = light_.space.plane_mark();
     std::size_t done = 0;
     for (const std::uint32_t part : order) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/commands/certify_corpus.h"
+#include "cli/commands/certify_pixels.h"
 #include "cli/commands/certify_report.h"
 #include "cli/commands/certify_samples.h"
 #include "cli/commands/certify_table.h"
@@ -19,6 +20,7 @@
 #include "cli/common/jobs.h"
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
+#include "cli/common/pixel_method.h"
 #include "cli/common/progress.h"
 #include "cli/common/report_output.h"
 #include "cli/common/scene_options.h"
@@ -71,6 +73,10 @@ struct CertifyCommandOptions {
   std::vector<std::string> samples;
   std::size_t misses = 10;  // of samples
   SampleOptionRules sample_rules;
+  CameraOptions camera;  // for pictures
+  std::vector<std::string> pixel_files;
+
+  bool judges_pictures() const { return camera.given() || !pixel_files.empty(); }
 };
 
 Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& options,
@@ -377,6 +383,58 @@ std::vector<std::string> sample_files(const CertifyCommandOptions& options) {
   return files;
 }
 
+/// Every method that can be sampled, or the one that is named; zbuffer for `auto`.
+Expected<std::vector<MethodSelection>> picture_methods(const CertifyCommandOptions& options) {
+  if (options.algorithm == kAllName) return all_pixel_methods();
+  const auto method =
+      parse_pixel_method(options.algorithm == kAutomaticName ? "zbuffer" : options.algorithm);
+  if (!method) return tl::unexpected(method.error());
+  return std::vector{*method};
+}
+
+/// What says nothing of pictures.
+Expected<void> check_picture_options(const CertifyCommandOptions& options) {
+  for (const auto& [name, given] :
+       {std::pair("--candidate", !options.candidates.empty()),
+        std::pair("--explain", options.explain), std::pair("--combined", options.combined),
+        std::pair("--report or --junit", options.report.asked()),
+        std::pair("--leaks", options.leaks.has_value()),
+        std::pair("--width", options.width.has_value()),
+        std::pair("--tolerance", options.tolerance.has_value())}) {
+    if (!given) continue;
+    return fail(ErrorCode::kUsage, std::string(name) + " says nothing of pictures",
+                "--clearance, or no --eye and no --pixels");
+  }
+  if (!options.camera.given() && !options.kernels.empty()) {
+    return fail(ErrorCode::kUsage, "--kernel without a camera to run it with", "--eye x,y,z");
+  }
+  return {};
+}
+
+int run_pictures(const CertifyCommandOptions& options) {
+  PictureCommandOptions pictures;
+  pictures.camera = options.camera;
+  pictures.files = options.pixel_files;
+  pictures.float_counts = !options.kernels.empty();
+  pictures.thickness = options.thickness;
+  pictures.clearance = options.clearance;
+  pictures.jobs = options.scene.jobs;
+  pictures.json = options.json;
+  pictures.times = options.times;
+  if (options.camera.given()) {
+    auto methods = picture_methods(options);
+    if (!methods) return report_error(methods.error());
+    pictures.methods = *std::move(methods);
+  }
+  const ThreadLimit threads(options.scene.jobs);
+  const auto loaded = load_scene(options.scene, false);
+  if (!loaded) return report_error(loaded.error());
+  auto kernels = chosen_kernels(options, loaded->prepared.parts.size());
+  if (!kernels) return report_error(kernels.error());
+  pictures.kernels = *std::move(kernels);
+  return run_certify_pixels(pictures, *loaded);
+}
+
 int run_certify(const CertifyCommandOptions& options) {
   if (!options.corpus.corpus.empty()) return run_corpus(options);
   if (options.scene.scene.empty()) {
@@ -387,6 +445,12 @@ int run_certify(const CertifyCommandOptions& options) {
       samples.size(), options.samples.size() + options.candidates.size());
   if (!checked_samples) return report_error(checked_samples.error());
   if (!samples.empty()) return run_samples(options, samples);
+  if (options.judges_pictures()) {
+    if (auto checked = check_picture_options(options); !checked) {
+      return report_error(checked.error());
+    }
+    return run_pictures(options);
+  }
   const auto tables = static_cast<std::size_t>(std::ranges::count_if(
       options.candidates,
       [](const std::string& file) { return comparison::is_engine_table(file); }));
@@ -521,6 +585,8 @@ void add_certify_command(CLI::App& app, Action& action) {
       "  gnomon certify house.idf --candidate eplusshading.csv --epw phoenix.epw \\\n"
       "    --sun-model energyplus --average-days 20\n"
       "  gnomon certify room.json --samples rays.csv --tolerance 0.02\n"
+      "  gnomon certify room.json --pixels other.pixels.json\n"
+      "  gnomon certify room.json --eye 9,-7,6 --algorithm zbuffer\n"
       "  gnomon certify --corpus tests/regressions --candidate-command ./my-shadows");
   CLI::Option* scene = add_scene_options(command, options->scene);
   repeatable(command.add_option(
@@ -587,6 +653,10 @@ void add_certify_command(CLI::App& app, Action& action) {
   add_report_options(command, options->report);
   command.add_option("--json", options->json, "Write the verdicts as JSON; - is standard output")
       ->type_name("FILE");
+  repeatable(command.add_option("--pixels", options->pixel_files,
+                                "A file gnomon-pixels to judge, sample by sample (repeatable)"))
+      ->type_name("FILE");
+  add_camera_options(command, options->camera, "--columns", "--rows");
   command.add_flag("--times", options->times, "CPU times in the JSON, which then is not stable");
   options->sample_rules.add(command, options->samples, options->misses);
   options->table_rules.add(command, options->suns);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gnomon systems: the table of methods, for people and for programs.
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <string>
@@ -51,7 +52,11 @@ class Listing {
                         std::string(name_of(method.domain)) +
                         "; needs: " + joined(names_of(method.needs), "nothing") +
                         "; can: " + joined(abilities(method), "nothing more");
-    if (!method.makes_fragments) facts += "; tells classes and shares alone";
+    if (method.domain == Domain::kImageSpace) {
+      facts += "; run by gnomon pixels";
+    } else if (!method.makes_fragments) {
+      facts += "; tells classes and shares alone";
+    }
     if (kernels_of(method) != "all") facts += "; kernels: " + kernels_of(method);
     if (!method.chosen_by_name) facts += "; chosen by an option, as --pieces";
     line(facts, 6);
@@ -167,16 +172,18 @@ std::string json_text(std::span<const Method> listed) {
 }
 
 int run_systems(const SystemsOptions& options) {
-  std::span<const Method> listed = methods();
+  std::vector<Method> listed;
+  for (const Domain domain : {Domain::kObjectSpace, Domain::kImageSpace}) {
+    std::ranges::copy(methods(domain), std::back_inserter(listed));
+  }
   if (!options.name.empty()) {
-    const auto found = std::ranges::find(listed, options.name, &Method::name);
-    if (found == listed.end()) {
-      std::vector<std::string_view> names;
-      for (const Method& method : listed) names.push_back(method.name);
+    std::vector<std::string_view> names;
+    for (const Method& method : listed) names.push_back(method.name);
+    std::erase_if(listed, [&](const Method& method) { return method.name != options.name; });
+    if (listed.empty()) {
       return report_usage("systems: there is no system '" + options.name + "'",
                           "one of: " + joined(names, ""));
     }
-    listed = listed.subspan(static_cast<std::size_t>(found - listed.begin()), 1);
   }
   if (options.json != "-") {
     Listing listing;

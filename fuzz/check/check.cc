@@ -16,6 +16,7 @@
 #include "fuzz/check/border_check.h"
 #include "fuzz/check/cause.h"
 #include "fuzz/check/judged_scene.h"
+#include "fuzz/check/pictures.h"
 #include "fuzz/mistakes/compute.h"
 #include "fuzz/moves/metamorphic.h"
 #include "fuzz/process/command.h"
@@ -201,6 +202,7 @@ class SceneCheck {
 
   void check_subject(const Subject& subject, const std::string& name) {
     if (subject.foreign()) return check_foreign(subject, name);
+    if (makes_pictures(subject)) return check_pictures(subject, name);
     ShadowOptions options = shadow_options(subject);
     options.limits.fragments = options_.max_fragments;
     options.output.points = subject.exact() && wanted(Property::kWritten);
@@ -234,6 +236,19 @@ class SceneCheck {
       check_borders(classified, name);
     }
     if (is_first) first_ = std::move(classified.result);
+  }
+
+  void check_pictures(const Subject& subject, const std::string& name) {
+    if (!wanted(Property::kOracle)) return;
+    const auto wrong = wrong_picture(scene_, *prepared_, subject, subject.mistake);
+    if (!wrong) return add_error(wrong.error(), name);
+    if (!*wrong) return;
+    const oracle::WrongSample worst = (*wrong)->report.worst.value_or(oracle::WrongSample{});
+    const std::string light = worst.light ? scene_.lights[*worst.light].id : "";
+    const std::string polygon =
+        worst.seen == PixelClaims::kNothing ? "" : scene_.polygons[worst.seen].id;
+    add({Property::kOracle, name, (*wrong)->disagreement(), light, polygon,
+         (*wrong)->text(scene_)});
   }
 
   /// A method without fragments finds bounds of shares in other numbers than exact shares: they

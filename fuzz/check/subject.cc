@@ -14,14 +14,18 @@ constexpr std::string_view kCommandPrefix = "command:";
 Expected<void> add_method(Subject& subject, LightKinds lights, std::string_view text,
                           const std::string& whole, std::string_view kind) {
   const std::string_view name = text.substr(0, text.find(':'));
-  const std::optional<MethodId> id = method_by_name(name);
+  const Domain domain = lights.point && method_by_name(name, Domain::kImageSpace)
+                            ? Domain::kImageSpace
+                            : Domain::kObjectSpace;
+  const std::optional<MethodId> id = method_by_name(name, domain);
   const LightKinds takes = id ? method_info(*id).lights : LightKinds{};
   if (!(lights.point && takes.point) && !(lights.area && takes.area)) {
     return fail(ErrorCode::kUsage,
                 "'" + whole + "': no such algorithm for " + std::string(kind) + " lights",
-                "one of: " + method_names(lights));
+                "one of: " + method_names(lights) +
+                    (lights.point ? ", " + method_names(lights, Domain::kImageSpace) : ""));
   }
-  const auto selection = parse_method(text);
+  const auto selection = parse_method(text, domain);
   if (!selection) return tl::unexpected(selection.error());
   (lights.area ? subject.area_algorithm : subject.algorithm) = *id;
   if (name.size() != text.size()) subject.options = selection->values;

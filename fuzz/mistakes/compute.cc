@@ -5,6 +5,7 @@
 #include <string>
 
 #include "algorithms/run/compute.h"
+#include "algorithms/run/compute_pixels.h"
 #include "algorithms/shading_mesh/mesh_by_rules.h"
 #include "fuzz/mistakes/mutant_kernels.h"
 
@@ -60,6 +61,15 @@ Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowO
   if (mistake == Mistake::kThicknessTooLarge) own.kernel.thickness = kTooThick;
   if (mistake == Mistake::kThicknessTooSmall) own.kernel.thickness = 0;
   return compute_with(scene, own, rules_of(mistake), kernels_of(mistake));
+}
+
+Expected<Pixels> compute_pixels(const PreparedScene& scene, const ImageFrame& frame,
+                                const PixelOptions& options, Mistake mistake) {
+  if (!applies_to(mistake, options.kernel.id, options.method)) {
+    return fail(ErrorCode::kUsage, "mutation " + std::string(name_of(mistake)) + " changes nothing",
+                "a method that it applies to (docs/bug-zoo.md)");
+  }
+  return compute_pixels_with(scene, frame, options, rules_of(mistake));
 }
 
 Expected<ShadingMesh> make_shading_mesh(const PreparedScene& scene, const ShadowResult& result,

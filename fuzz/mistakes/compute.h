@@ -4,6 +4,7 @@
 #define GNOMON_FUZZ_MISTAKES_COMPUTE_H
 
 #include "fuzz/mistakes/mistake.h"
+#include "gnomon/algorithms/pixels.h"
 #include "gnomon/algorithms/shading_mesh.h"
 #include "gnomon/algorithms/shadows.h"
 
@@ -13,6 +14,10 @@ namespace gnomon::fuzz {
 /// changes nothing for any of the lights, or of lights together).
 Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options,
                                        Mistake mistake);
+
+/// As compute_pixels() of the product. Errors: kUsage besides (a mistake that changes nothing).
+Expected<Pixels> compute_pixels(const PreparedScene& scene, const ImageFrame& frame,
+                                const PixelOptions& options, Mistake mistake);
 
 /// As make_shading_mesh() of the product.
 Expected<ShadingMesh> make_shading_mesh(const PreparedScene& scene, const ShadowResult& result,

@@ -11,6 +11,7 @@ constexpr std::string_view kChin1989 = "Chin & Feiner 1989";
 constexpr std::string_view kChin1992 = "Chin & Feiner 1992";
 constexpr std::string_view kSlater1992 = "Slater 1992";
 constexpr std::string_view kAppel1967 = "Appel 1967";
+constexpr std::string_view kCrow1977 = "Crow 1977";
 
 constexpr std::array kMistakes = {
     MistakeInfo{Mistake::kPlanesFromFragments, "planes-from-fragments",
@@ -57,6 +58,11 @@ constexpr std::array kMistakes = {
     MistakeInfo{Mistake::kFarCornerDecides, "far-corner-decides",
                 "which of two is nearer beside an edge, a corner on any side of it decides",
                 kAppel1967},
+    MistakeInfo{Mistake::kTieTurnsPlane, "tie-turns-plane",
+                "a sample in a plane is moved in all of the formula, so that its own plane turns",
+                kCrow1977},
+    MistakeInfo{Mistake::kBacksHide, "backs-hide",
+                "one-sided polygons hide what is behind them from an eye at their back", kCrow1977},
 };
 
 }  // namespace
@@ -81,6 +87,12 @@ namespace {
 
 bool has_thickness(KernelId kernel) { return kernel_info(kernel).has_thickness; }
 
+/// Those of samples.
+bool applies_to_pictures(Mistake mistake) {
+  return mistake == Mistake::kNone || mistake == Mistake::kTieTurnsPlane ||
+         mistake == Mistake::kBacksHide;
+}
+
 /// Kernels that can go on with a polygon that the light sees edge-on, where light space has no area
 /// for it: those that keep the coordinates of their vertices.
 bool keeps_coordinates(KernelId kernel) {
@@ -95,6 +107,7 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
   const bool by_order = svbsp || by_volumes;
   // It makes no fragments, and where polygons are it asks of input corners alone.
   const bool contour = method == MethodId::kContour;
+  if (method_info(method).domain == Domain::kImageSpace) return applies_to_pictures(mistake);
   switch (mistake) {
     case Mistake::kNone:
       return true;
@@ -128,6 +141,8 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kUnionWithoutContinuedPlanes:
     case Mistake::kTVerticesLeftIn:
     case Mistake::kStraddlingLightFaces:
+    case Mistake::kTieTurnsPlane:
+    case Mistake::kBacksHide:
       return false;
   }
   return false;
@@ -162,6 +177,8 @@ bool applies_to_area(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kCollinearLeftOut:
     case Mistake::kCasterSetsDiffer:
     case Mistake::kFarCornerDecides:
+    case Mistake::kTieTurnsPlane:
+    case Mistake::kBacksHide:
       return false;
   }
   return false;

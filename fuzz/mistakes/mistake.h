@@ -37,6 +37,8 @@ enum class Mistake : std::uint8_t {
   kCollinearLeftOut,     // a polygon with an edge on the line of another's counts as nothing there
   kCasterSetsDiffer,     // backs cast where edges act, and hide nothing
   kFarCornerDecides,     // equal depth along an edge decided by a corner on either side of it
+  kTieTurnsPlane,  // a sample in a plane moved in all of the formula, which turns its own plane
+  kBacksHide,      // one-sided polygons hide what is behind them from an eye at their back
 };
 
 struct MistakeInfo {

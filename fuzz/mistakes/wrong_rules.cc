@@ -83,6 +83,12 @@ Rules rules_of(Mistake mistake) {
     case Mistake::kFarCornerDecides:
       rules.equal_depth_by_its_planes = false;
       break;
+    case Mistake::kTieTurnsPlane:
+      rules.planes_stay_at_ties = false;
+      break;
+    case Mistake::kBacksHide:
+      rules.backs_are_transparent = false;
+      break;
     case Mistake::kOnSwapped:
       rules.on_goes_to_its_own_side = false;
       break;

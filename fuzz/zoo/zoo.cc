@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::string_view kPointScenes = "mix", kAreaScenes = "area-mix";
 constexpr std::string_view kTVertex = "t-vertex";
+constexpr std::string_view kWrongLight = "wrong light", kWrongPolygon = "wrong polygon seen";
 
 constexpr std::array kZoo = {
     ZooEntry{"planes-from-fragments", Mistake::kPlanesFromFragments, "double+identity+thin/svbsp",
@@ -54,6 +55,9 @@ constexpr std::array kZoo = {
              "misclassified"},
     ZooEntry{"far-corner-decides", Mistake::kFarCornerDecides, "plane/contour", kPointScenes,
              "misclassified"},
+    ZooEntry{"tie-turns-plane", Mistake::kTieTurnsPlane, "plane/zbuffer", "family-small-lattice",
+             kWrongLight},
+    ZooEntry{"backs-hide", Mistake::kBacksHide, "plane/zbuffer", kPointScenes, kWrongPolygon},
     ZooEntry{"area-on-swapped", Mistake::kOnSwapped, "plane", kAreaScenes, "misclassified"},
 };
 
@@ -121,6 +125,20 @@ Expected<ZooVerdict> judge_meshes(const ZooEntry& entry, const ZooCase& zoo_case
   return verdict;
 }
 
+Expected<ZooVerdict> judge_pictures(const ZooEntry& entry, const ZooCase& zoo_case) {
+  ZooVerdict verdict;
+  const auto wrong = zoo_case.picture(entry.mistake);
+  if (!wrong) return tl::unexpected(wrong.error());
+  if (!*wrong) return verdict;
+  verdict.mutant.samples = true;
+  verdict.disagreement = (*wrong)->disagreement();
+  verdict.text = (*wrong)->text(zoo_case.scene());
+  const auto right = zoo_case.picture(Mistake::kNone);
+  if (!right) return tl::unexpected(right.error());
+  verdict.sound_fails = right->has_value();
+  return verdict;
+}
+
 }  // namespace
 
 std::string ZooEntry::mutant() const {
@@ -138,6 +156,7 @@ Expected<ZooVerdict> judge_mutant(const ZooEntry& entry, const Scene& scene) {
   Expected<PreparedScene> prepared = prepare(scene);
   if (!prepared) return tl::unexpected(prepared.error());
   const ZooCase zoo_case(entry, scene, std::move(*prepared));
+  if (zoo_case.makes_pictures()) return judge_pictures(entry, zoo_case);
   return entry.mistake == Mistake::kTVerticesLeftIn ? judge_meshes(entry, zoo_case)
                                                     : judge_shadows(entry, zoo_case);
 }
@@ -182,6 +201,7 @@ Expected<ZooTally> hunt_often(const ZooEntry& entry, std::uint64_t hunts,
     tally.points += row->verdict.mutant.points ? 1 : 0;
     tally.claims += row->verdict.mutant.claims ? 1 : 0;
     tally.mesh += row->verdict.mutant.mesh ? 1 : 0;
+    tally.samples += row->verdict.mutant.samples ? 1 : 0;
   }
   if (scenes.empty()) return tally;
   std::ranges::sort(scenes);
@@ -204,7 +224,8 @@ std::string zoo_table(std::span<const ZooTally> tallies) {
          {std::pair<std::string_view, std::uint64_t>{"regions", tally.regions},
           {"points", tally.points},
           {"claims", tally.claims},
-          {"mesh", tally.mesh}}) {
+          {"mesh", tally.mesh},
+          {"samples", tally.samples}}) {
       if (count == 0) continue;
       ways += (ways.empty() ? "" : ", ") + std::string(name);
       if (count < tally.found) ways += ' ' + std::to_string(count);

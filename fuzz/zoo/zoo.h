@@ -42,6 +42,7 @@ struct OracleWays {
   bool points = false;   // so does the visibility of single points
   bool claims = false;   // what the result claims does not hold
   bool mesh = false;     // the mesh made of it has T-vertices
+  bool samples = false;  // a picture from one of seven eyes has wrong samples
 };
 
 struct ZooVerdict {
@@ -51,7 +52,7 @@ struct ZooVerdict {
   std::string text;          // one sentence
   double jump = 0;           // of the shade at a T-vertex: the largest, in the light's intensity
 
-  bool shows() const { return (mutant.regions || mutant.mesh) && !sound_fails; }
+  bool shows() const { return (mutant.regions || mutant.mesh || mutant.samples) && !sound_fails; }
 };
 
 /// Runs both on one scene. Errors: those of prepare(); kUsage for a scene without a light that the
@@ -83,8 +84,8 @@ struct ZooTally {
   const ZooEntry* entry = nullptr;
   std::uint64_t hunts = 0, found = 0;
   std::uint64_t median = 0, most = 0;  // scenes; of hunts that found nothing, those made in vain
-  std::uint64_t regions = 0, points = 0, claims = 0,
-                mesh = 0;  // hunts whose scene each way noticed
+  std::uint64_t regions = 0, points = 0, claims = 0, mesh = 0,
+                samples = 0;  // hunts whose scene each way noticed
 };
 Expected<ZooTally> hunt_often(const ZooEntry& entry, std::uint64_t hunts,
                               std::uint64_t most_scenes);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fuzz/check/judged_scene.h"
+#include "fuzz/check/pictures.h"
 #include "fuzz/check/subject.h"
 #include "fuzz/zoo/zoo.h"
 #include "gnomon/algorithms/shading_mesh.h"
@@ -35,6 +36,18 @@ class ZooCase {
   /// The same by the visibility of points alone.
   oracle::Report certified_by_points(const Claims& candidate) const;
   bool claims_hold(const Claims& candidate) const;
+
+  const Scene& scene() const { return scene_; }
+  bool makes_pictures() const { return fuzz::makes_pictures(sound_); }
+  /// A picture with wrong samples that the subject makes with that mistake, if it makes one.
+  Expected<std::optional<WrongPicture>> picture(Mistake mistake) const {
+    return wrong_picture(scene_, prepared_, sound_, mistake);
+  }
+
+  /// What the subject shows of the scene from a camera.
+  Expected<TakenPicture> picture_from(const ExactCamera& camera, Mistake mistake) const {
+    return take_picture(scene_, sound_, mistake, camera);
+  }
 
   /// The illuminated mesh of the sound fragments of one light, made with that mistake.
   Expected<ShadingMesh> mesh(std::uint32_t light, Mistake mistake) const;

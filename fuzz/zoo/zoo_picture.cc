@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <bit>
 #include <cstdlib>
 #include <optional>
 #include <utility>
@@ -89,12 +90,54 @@ Expected<std::string> mesh_picture(const ZooEntry& entry, const Scene& scene,
   return shows_nothing(entry);
 }
 
+/// Samples as squares: the background, then darker the fewer lights reach a sample; what differs
+/// from the other picture is in a signal colour.
+std::string paint_samples(const std::string& title, const PixelClaims& shown,
+                          const PixelClaims& truth) {
+  constexpr std::uint32_t kSquare = 18, kTop = 28;
+  const std::uint32_t width = shown.camera.width, height = shown.camera.height;
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
+      "{1}\">\n<text x=\"4\" y=\"18\" font-family=\"sans-serif\" font-size=\"12\">{2}</text>\n",
+      width * kSquare, height * kSquare + kTop, title);
+  const auto colour = [&](std::size_t s) {
+    if (shown.polygon[s] != truth.polygon[s] || shown.lit_by[s] != truth.lit_by[s]) {
+      return std::string("#d6246e");
+    }
+    const double lit = std::popcount(shown.lit_by[s]) / static_cast<double>(shown.lights.size());
+    return fmt::format("rgb({0},{0},{0})", shown.polygon[s] == PixelClaims::kNothing
+                                               ? 245
+                                               : 90 + static_cast<int>(120 * lit));
+  };
+  for (std::size_t s = 0, end = 0; s < shown.polygon.size(); s = end) {
+    const std::size_t row_end = (s / width + 1) * width;
+    for (end = s + 1; end < row_end && colour(end) == colour(s); ++end) {
+    }
+    svg += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
+                       s % width * kSquare, s / width * kSquare + kTop, (end - s) * kSquare,
+                       kSquare, colour(s));
+  }
+  return svg + "</svg>\n";
+}
+
+Expected<std::string> sample_picture(const ZooEntry& entry, const ZooCase& zoo_case) {
+  const auto wrong = zoo_case.picture(entry.mistake);
+  if (!wrong) return tl::unexpected(wrong.error());
+  if (!*wrong) return shows_nothing(entry);
+  const PixelClaims& shown = (*wrong)->claims;
+  const auto right = zoo_case.picture_from(shown.camera, Mistake::kNone);
+  if (!right) return tl::unexpected(right.error());
+  return side_by_side(paint_samples("exact", right->claims, right->claims),
+                      paint_samples(entry.mutant(), shown, right->claims));
+}
+
 }  // namespace
 
 Expected<std::string> zoo_picture(const ZooEntry& entry, const Scene& scene) {
   Expected<PreparedScene> prepared = prepare(scene);
   if (!prepared) return tl::unexpected(prepared.error());
   const ZooCase zoo_case(entry, scene, std::move(*prepared));
+  if (zoo_case.makes_pictures()) return sample_picture(entry, zoo_case);
   return entry.mistake == Mistake::kTVerticesLeftIn ? mesh_picture(entry, scene, zoo_case)
                                                     : shadow_picture(entry, scene, zoo_case);
 }

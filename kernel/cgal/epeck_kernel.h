@@ -3,6 +3,7 @@
 #ifndef GNOMON_KERNEL_CGAL_EPECK_KERNEL_H
 #define GNOMON_KERNEL_CGAL_EPECK_KERNEL_H
 
+#include "kernel/cgal/epeck_image_space.h"
 #include "kernel/cgal/epeck_space.h"
 #include "kernel/cgal/epeck_volume_space.h"
 
@@ -11,6 +12,7 @@ namespace gnomon {
 struct EpeckKernel {
   using LightSpace = EpeckLightSpace;
   using VolumeSpace = EpeckVolumeSpace;
+  using ImageSpace = EpeckImageSpace;
 };
 
 }  // namespace gnomon

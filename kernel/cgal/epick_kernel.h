@@ -3,6 +3,7 @@
 #ifndef GNOMON_KERNEL_CGAL_EPICK_KERNEL_H
 #define GNOMON_KERNEL_CGAL_EPICK_KERNEL_H
 
+#include "kernel/cgal/epick_image_space.h"
 #include "kernel/cgal/epick_space.h"
 #include "kernel/cgal/epick_volume_space.h"
 
@@ -11,6 +12,7 @@ namespace gnomon {
 struct EpickKernel {
   using LightSpace = EpickLightSpace;
   using VolumeSpace = EpickVolumeSpace;
+  using ImageSpace = EpickImageSpace;
 };
 
 }  // namespace gnomon

@@ -5,6 +5,7 @@
 
 #include <gmpxx.h>
 
+#include "kernel/coordinate/coordinate_image_space.h"
 #include "kernel/coordinate/coordinate_space.h"
 #include "kernel/coordinate/coordinate_volume_space.h"
 
@@ -14,6 +15,7 @@ template <class T>
 struct CoordinateKernel {
   using LightSpace = CoordinateLightSpace<T>;
   using VolumeSpace = CoordinateVolumeSpace<T>;
+  using ImageSpace = CoordinateImageSpace<T>;
 };
 
 struct FloatKernel : CoordinateKernel<float> {};

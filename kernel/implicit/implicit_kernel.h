@@ -3,6 +3,7 @@
 #ifndef GNOMON_KERNEL_IMPLICIT_IMPLICIT_KERNEL_H
 #define GNOMON_KERNEL_IMPLICIT_IMPLICIT_KERNEL_H
 
+#include "kernel/implicit/implicit_image_space.h"
 #include "kernel/implicit/implicit_light_space.h"
 #include "kernel/implicit/implicit_volume_space.h"
 
@@ -11,8 +12,10 @@ namespace gnomon {
 struct ImplicitKernel {
   using LightSpace = ImplicitLightSpace<NoStats>;
   using VolumeSpace = ImplicitVolumeSpace<NoStats>;
+  using ImageSpace = ImplicitImageSpace<NoStats>;
   using CountedLightSpace = ImplicitLightSpace<CountStats>;
   using CountedVolumeSpace = ImplicitVolumeSpace<CountStats>;
+  using CountedImageSpace = ImplicitImageSpace<CountStats>;
 };
 
 }  // namespace gnomon

@@ -24,6 +24,21 @@ TEST(Methods, EachRunsOnEachKernel) {
   }
 }
 
+TEST(Methods, ThoseOfImageSpaceAreRunByThemselves) {
+  for (const Method& method : methods(Domain::kImageSpace)) {
+    EXPECT_EQ(method.domain, Domain::kImageSpace);
+    EXPECT_EQ(&method_info(method.id), &method);
+    EXPECT_TRUE(method.needs.camera) << method.name;
+    EXPECT_FALSE(method_by_name(method.name)) << method.name;
+    EXPECT_TRUE(method_by_name(method.name, Domain::kImageSpace)) << method.name;
+    EXPECT_EQ(method_function(method.id, KernelId::kPlane), nullptr) << method.name;
+    for (const KernelInfo& kernel : kernel_list()) {
+      EXPECT_NE(pixel_function(method.id, kernel.id), nullptr) << method.name << ' ' << kernel.name;
+    }
+  }
+  EXPECT_EQ(pixel_function(MethodId::kSectors, KernelId::kPlane), nullptr);
+}
+
 TEST(Methods, HaveOneNameEach) {
   std::set<std::string_view> names;
   for (const Method& method : methods()) {

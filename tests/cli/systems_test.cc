@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <rapidjson/document.h>
 
+#include <algorithm>
+#include <iterator>
 #include <regex>
 #include <string>
 #include <vector>
@@ -58,10 +60,12 @@ TEST(Systems, JsonHasTheWholeTable) {
   document.Parse(done.out.c_str());
   ASSERT_FALSE(document.HasParseError()) << done.out.substr(0, 200);
   EXPECT_STREQ(document["format"].GetString(), "gnomon-systems");
-  ASSERT_EQ(document["systems"].Size(), methods().size());
+  std::vector<Method> all(methods().begin(), methods().end());
+  std::ranges::copy(methods(Domain::kImageSpace), std::back_inserter(all));
+  ASSERT_EQ(document["systems"].Size(), all.size());
   for (rapidjson::SizeType i = 0; i < document["systems"].Size(); ++i) {
     const auto& listed = document["systems"][i];
-    const Method& method = methods()[i];
+    const Method& method = all[i];
     EXPECT_EQ(listed["name"].GetString(), method.name);
     EXPECT_EQ(listed["options"].Size(), method.options.size());
     EXPECT_EQ(listed["counters"].Size(), method.counters.size());

@@ -137,6 +137,9 @@ TEST(Mistakes, ApplySomewhere) {
   for (const MistakeInfo& info : mistakes()) {
     bool applies = info.mistake == Mistake::kTVerticesLeftIn;
     for (const KernelInfo& kernel : kernel_list()) {
+      for (const Method& method : methods(Domain::kImageSpace)) {
+        applies = applies || applies_to(info.mistake, kernel.id, method.id);
+      }
       for (const Method& method : methods()) {
         if (!method.lights.point) continue;
         const MethodId algorithm = method.id;

@@ -31,6 +31,9 @@ enum class MethodId : std::uint8_t {
   kSvbspFull,
   kTwoPass,
   kContour,
+  // Of image space:
+  kZbuffer,
+  kShadowPolygons,
 };
 
 /// Where a method finds its regions: on the polygons themselves, or in a picture of them.
@@ -68,8 +71,9 @@ struct Method {
   std::span<const Counter> counters = {};          // those that it fills
 };
 
-/// In the order of the documents; kAutomatic is no row.
-std::span<const Method> methods();
+/// The rows of one domain, in the order of the documents; kAutomatic is no row. Methods of image
+/// space are run by compute_pixels(), not by compute_shadows().
+std::span<const Method> methods(Domain domain = Domain::kObjectSpace);
 /// Where a method finds its regions, in words: "object space".
 std::string_view name_of(Domain domain);
 /// What a scene must be, in words: "closed meshes", ...; none if any scene will do.
@@ -82,11 +86,11 @@ std::vector<std::string_view> abilities(const Method& method);
 
 /// Requires: not kAutomatic.
 const Method& method_info(MethodId id);
-/// The method that is chosen by this name; none for "auto".
-std::optional<MethodId> method_by_name(std::string_view name);
-/// Names of the methods that take lights of one of these kinds and are chosen by name, joined by
-/// ", ".
-std::string method_names(LightKinds lights);
+/// The method of this domain that is chosen by this name; none for "auto".
+std::optional<MethodId> method_by_name(std::string_view name, Domain domain = Domain::kObjectSpace);
+/// Names of the methods of this domain that take lights of one of these kinds and are chosen by
+/// name, joined by ", ".
+std::string method_names(LightKinds lights, Domain domain = Domain::kObjectSpace);
 
 }  // namespace gnomon
 

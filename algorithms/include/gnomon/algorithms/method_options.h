@@ -15,14 +15,14 @@
 namespace gnomon {
 
 /// The order in which polygons are inserted where no answer depends on it.
-enum class InsertionOrder : std::uint8_t { kNearFirst, kFile };
+enum class InsertionOrder : std::uint8_t { kNearFirst, kFile, kFarFirst };
 
 /// Each method reads its own of them (Method::options).
 struct MethodOptionValues {
   Cover cover = Cover::kPartition;
   bool prune = true;          // basic, tiling: covered targets cast nothing, volumes may die
   std::uint32_t tiles = 128;  // tiling: so many rows and columns on each face
-  InsertionOrder order = InsertionOrder::kNearFirst;  // svbsp-full
+  InsertionOrder order = InsertionOrder::kNearFirst;  // svbsp-full, zbuffer
   bool cells = true;                                  // two-pass: in cells of light space
   friend bool operator==(const MethodOptionValues&, const MethodOptionValues&) = default;
 };
@@ -45,9 +45,9 @@ struct MethodSelection {
   friend bool operator==(const MethodSelection&, const MethodSelection&) = default;
 };
 
-/// NAME[:option=value,...]. Errors: kUsage: no such method (the names that there are), no such
-/// option of it, a value that it does not take.
-Expected<MethodSelection> parse_method(std::string_view text);
+/// NAME[:option=value,...], a method of this domain. Errors: kUsage: no such method (the names that
+/// there are), one of the other domain, no such option of it, a value that it does not take.
+Expected<MethodSelection> parse_method(std::string_view text, Domain domain = Domain::kObjectSpace);
 /// The name, with the options that are not at their defaults.
 std::string method_text(MethodId id, const MethodOptionValues& values);
 

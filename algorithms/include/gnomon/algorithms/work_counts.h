@@ -31,15 +31,21 @@ enum class Counter : std::uint8_t {
   kFirstQuartileMet,
   kMedianMet,
   kThirdQuartileMet,
-  kLists,         // lists of polygons that were clipped by one of them
-  kLongestList,   // polygons in the longest of them
-  kDeepestStack,  // lists that waited at the same time
-  kIntervals,     // of edges inside other polygons
-  kSegments,      // of edges that take light from what is behind them
-  kDarkPolygons,  // proven to be so before they are met
-  kOpenPolygons,  // that bounds left open, and exact subtraction found
+  kLists,            // lists of polygons that were clipped by one of them
+  kLongestList,      // polygons in the longest of them
+  kDeepestStack,     // lists that waited at the same time
+  kIntervals,        // of edges inside other polygons
+  kSegments,         // of edges that take light from what is behind them
+  kDarkPolygons,     // proven to be so before they are met
+  kOpenPolygons,     // that bounds left open, and exact subtraction found
+  kSamples,          // of a picture, on some polygon
+  kSpans,            // of samples of a row that a polygon covers
+  kDepthTests,       // comparisons of two polygons along a span
+  kCasterTests,      // pairs of a span and a polygon that may shadow it
+  kDepthComplexity,  // polygons that face the eye and cover a sample, of all samples
 };
-inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kOpenPolygons) + 1;
+inline constexpr std::size_t kCounterCount =
+    static_cast<std::size_t>(Counter::kDepthComplexity) + 1;
 
 /// How the counts of two lights, or of two parts of one run, make one.
 enum class CountKind : std::uint8_t { kSum, kMost };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "algorithms/svbsp_full/insertion_order.h"
+#include "algorithms/partition/insertion_order.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,8 +7,10 @@
 
 namespace gnomon {
 
-std::vector<std::uint32_t> nearest_first(const PreparedScene& scene, const LightPoint& light,
-                                         std::span<const std::uint32_t> parts) {
+std::vector<std::uint32_t> in_order(InsertionOrder order, const PreparedScene& scene,
+                                    const LightPoint& light, std::span<const std::uint32_t> parts) {
+  if (order == InsertionOrder::kFile) return {parts.begin(), parts.end()};
+  const double sense = order == InsertionOrder::kNearFirst ? 1 : -1;
   const auto distance = [&](VertexId v) {
     const std::array<double, 3>& x = scene.geometry.positions[v];
     double sum = 0;
@@ -25,13 +27,13 @@ std::vector<std::uint32_t> nearest_first(const PreparedScene& scene, const Light
     for (const VertexId v : scene.loop(scene.parts[part])) {
       nearest = std::min(nearest, distance(v));
     }
-    sorted.emplace_back(nearest, part);
+    sorted.emplace_back(sense * nearest, part);
   }
   std::ranges::stable_sort(sorted, {}, &std::pair<double, std::uint32_t>::first);
-  std::vector<std::uint32_t> order;
-  order.reserve(parts.size());
-  for (const auto& [nearest, part] : sorted) order.push_back(part);
-  return order;
+  std::vector<std::uint32_t> result;
+  result.reserve(parts.size());
+  for (const auto& [nearest, part] : sorted) result.push_back(part);
+  return result;
 }
 
 }  // namespace gnomon

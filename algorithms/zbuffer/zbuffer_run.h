@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// zbuffer, the reference renderer: row by row, the nearest part at each sample, and of each span of
+// a part the samples that every one of its possible casters shadows. A caster O shadows the samples
+// that are behind its plane and inside all planes of its edges through the light; each of these
+// half-spaces takes a prefix or a suffix of the span.
+//
+// Rows are independent, and threads take them in turns. Exactness: that of the kernel.
+#ifndef GNOMON_ALGORITHMS_ZBUFFER_ZBUFFER_RUN_H
+#define GNOMON_ALGORITHMS_ZBUFFER_ZBUFFER_RUN_H
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/partition/insertion_order.h"
+#include "algorithms/pixels/by_rows.h"
+#include "algorithms/pixels/image_scene.h"
+#include "algorithms/pixels/part_balls.h"
+#include "algorithms/pixels/visible_row.h"
+#include "algorithms/zbuffer/by_zbuffer.h"
+#include "algorithms/zbuffer/caster_lists.h"
+
+namespace gnomon {
+
+template <ImageSpaceModel Space>
+class ZbufferRun {
+ public:
+  explicit ZbufferRun(const PixelTask& task)
+      : task_(task),
+        scene_(task),
+        balls_(task.scene, task.frame),
+        casters_(scene_, balls_),
+        lit_(task.frame.width) {
+    std::vector<std::uint32_t> seen;
+    for (std::uint32_t p = 0; p < task.scene.parts.size(); ++p) {
+      if (scene_.facing_eye(p).valid()) seen.push_back(p);
+    }
+    order_ = in_order(task.options.options.order, task.scene, task.frame.eye, seen);
+  }
+
+  void fill_row(std::uint32_t row) {
+    const PixelSink::Row out = task_.sink.row(row);
+    for (const std::uint32_t part : order_) {
+      if (balls_.misses_row(part, row)) continue;
+      const Span span = covered_span(scene_, part, row);
+      if (span.empty()) continue;
+      ++work_[Counter::kSpans];
+      covered_ += span.size();
+      draw_span(scene_, part, span, row, out.part, work_);
+    }
+    for (Span run; run.begin < out.part.size(); run.begin = run.end) {
+      const std::uint32_t part = out.part[run.begin];
+      while (run.end < out.part.size() && out.part[run.end] == part) ++run.end;
+      if (part == Pixels::kNoPart) continue;
+      work_[Counter::kSamples] += run.size();
+      for (std::size_t l = 0; l < scene_.light_count(); ++l) {
+        if (scene_.seen_side_faces(part, l)) light_span(part, run, row, l, out.lit_by);
+      }
+    }
+  }
+
+  PixelWork work() const { return {work_, {}}; }
+  StageCounts stages() { return scene_.space().stage_counts(); }
+  std::uint64_t covered() const { return covered_; }
+
+ private:
+  void light_span(std::uint32_t part, Span run, std::uint32_t row, std::size_t l,
+                  std::span<std::uint64_t> lit_by) {
+    std::fill(lit_.begin() + run.begin, lit_.begin() + run.end, std::uint8_t{1});
+    std::uint32_t left = run.size();
+    for (const std::uint32_t caster : casters_.of(part, l)) {
+      ++work_[Counter::kCasterTests];
+      const Span dark = shadowed(caster, part, run, row, l);
+      for (std::uint32_t i = dark.begin; i < dark.end; ++i) {
+        left -= lit_[i];
+        lit_[i] = 0;
+      }
+      if (left == 0) return;
+    }
+    for (std::uint32_t i = run.begin; i < run.end; ++i) {
+      if (lit_[i] != 0) lit_by[i] |= std::uint64_t{1} << l;
+    }
+  }
+  Span shadowed(std::uint32_t caster, std::uint32_t part, Span span, std::uint32_t row,
+                std::size_t l) {
+    const PlaneRef on = scene_.facing_eye(part);
+    span = part_on_side(scene_.space(), span, scene_.facing_light(caster, l), on, row,
+                        Sign::kNegative);
+    const std::size_t edges = task_.scene.parts[caster].count;
+    for (std::size_t k = 0; k < edges && !span.empty(); ++k) {
+      span = part_on_side(scene_.space(), span, scene_.shadow_plane(caster, k, l), on, row,
+                          Sign::kPositive);
+    }
+    return span;
+  }
+
+  const PixelTask& task_;
+  ImageScene<Space> scene_;
+  PartBalls balls_;
+  CasterLists<Space> casters_;
+  std::vector<std::uint32_t> order_;  // of the parts that the eye sees
+  std::vector<std::uint8_t> lit_;     // of the samples of a span
+  WorkCounts work_;
+  std::uint64_t covered_ = 0;  // pairs of a sample and a part
+};
+
+template <class Kernel>
+Expected<PixelWork> ByZbuffer<Kernel>::run(const PixelTask& task) {
+  static_assert(ImageKernelModel<Kernel>);
+  return with_image_space<Kernel>(task.options.stage_counts,
+                                  [&]<class Space>() { return by_rows<ZbufferRun<Space>>(task); });
+}
+
+}  // namespace gnomon
+
+#endif  // GNOMON_ALGORITHMS_ZBUFFER_ZBUFFER_RUN_H
