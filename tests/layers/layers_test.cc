@@ -80,6 +80,7 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"generate", {"base"}}}},
       {"algorithms",
        {{"partition", {}},
+        {"facing_chain", {"partition"}},
         {"scene_bsp", {"partition"}},
         {"lights", {"partition", "scene_bsp"}},
         {"svbsp", {"partition", "scene_bsp", "lights"}},
