@@ -73,8 +73,10 @@ class ShadowPolygonsRun {
  private:
   static std::optional<ClippedScene> clipped(const PixelTask& task) {
     const MethodOptionValues& options = task.options.options;
-    if (options.near <= 0 && options.far <= 0) return std::nullopt;
-    return with_clip_planes(task.scene, task.frame, options.near, options.far);
+    const double near = options.count == WallCount::kZPass ? options.near : 0;
+    const double far = options.count == WallCount::kZFail ? options.far : 0;
+    if (near <= 0 && far <= 0) return std::nullopt;
+    return with_clip_planes(task.scene, task.frame, near, far);
   }
 
   void light_run(std::uint32_t part, Span run, std::uint32_t row, std::size_t l,

@@ -89,7 +89,7 @@ class WallCounter {
       }
       add_crossed(cap.surface, span);
     }
-    std::ranges::sort(crossed_, {}, [](const Crossed& c) { return c.span.begin; });
+    std::ranges::stable_sort(crossed_, {}, [](const Crossed& c) { return c.span.begin; });
     for (const Holding& caster : holding_) {
       Span span = whole_row();
       for (const auto& [plane, side] : caster) {
