@@ -142,7 +142,6 @@ TEST(Components, FacesInOnePlaneStayConvex) {
 }
 
 TEST(Components, ConvexIsDecidedExactlyFarOut) {
-  // A vertex of a tetrahedron's neighbour by one unit of a grid of 62 bits in front of a plane.
   const std::int64_t far = std::int64_t{1} << 52;
   for (const std::int64_t lift : {-1, 0, 1}) {
     ScenePen pen;
@@ -152,6 +151,21 @@ TEST(Components, ConvexIsDecidedExactlyFarOut) {
     pen.polygon({a, b, c}).polygon({a, c, d});
     pen.polygon({b, a, low}).polygon({c, b, low}).polygon({d, c, low}).polygon({a, d, low});
     EXPECT_THAT(told(pen.take()), ElementsAre(lift < 0 ? "6 closed" : "6 convex")) << lift;
+  }
+}
+
+TEST(Components, ConvexIsDecidedExactlyInThinTetrahedra) {
+  // Of three Fibonacci numbers in a row F(n-1) F(n+1) - F(n)^2 is 1 or -1 in turns: the fourth
+  // vertex is a unit behind the first face or before it, where the terms are of a hundred bits.
+  std::int64_t low = 308061521170129, middle = 498454011879264;  // F(71), F(72)
+  for (const char* expected : {"4 convex", "4 closed", "4 convex", "4 closed"}) {
+    const std::int64_t high = low + middle;
+    const Triple a{0, 0, 0}, b{high, middle, 0}, c{0, 0, 1}, d{middle, low, 0};
+    ScenePen pen;
+    pen.polygon({a, b, c}).polygon({a, c, d}).polygon({a, d, b}).polygon({b, d, c});
+    EXPECT_THAT(told(pen.take()), ElementsAre(expected));
+    low = middle;
+    middle = high;
   }
 }
 

@@ -197,14 +197,22 @@ TEST(FacingChain, LeavesOutWhatCastsNothing) {
 }
 
 TEST(FacingChain, TurnsThroughTheFacingSideWhereLoopsMeet) {
-  // Two squares that touch in a vertex are two loops of four, and four of them around a hole are an
-  // outer loop and an inner one only if the turn is right: eight outer edges, or four loops.
+  // Two squares that touch in a vertex are two loops, and with a third beside both one loop.
   const FacingChain two = chain_of(ScenePen()
                                        .polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}})
                                        .polygon({{1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}})
                                        .sun({0, 0, 1})
                                        .take());
   EXPECT_THAT(loop_sizes(two), ElementsAre(4, 4));
+  // The same of two triangles each, in an order in which the other square's edge comes first.
+  const FacingChain halves = chain_of(ScenePen()
+                                          .polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}})
+                                          .polygon({{1, 1, 0}, {2, 1, 0}, {2, 2, 0}})
+                                          .polygon({{1, 1, 0}, {2, 2, 0}, {1, 2, 0}})
+                                          .polygon({{0, 0, 0}, {1, 1, 0}, {0, 1, 0}})
+                                          .sun({0, 0, 1})
+                                          .take());
+  EXPECT_THAT(loop_sizes(halves), ElementsAre(4, 4));
   const FacingChain joined = chain_of(ScenePen()
                                           .polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}})
                                           .polygon({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}})
