@@ -242,6 +242,20 @@ TEST(ShadowPolygons, OptionsChangeNoCount) {
   }
 }
 
+TEST(ShadowPolygons, OptionsAreReadAndTold) {
+  for (const std::string text :
+       {"shadow-polygons", "shadow-polygons:volumes=polygons,count=z-pass,near=0.25",
+        "shadow-polygons:count=z-fail,far=40", "shadow-polygons:neighbours=on,order=far"}) {
+    const auto selection = parse_method(text, Domain::kImageSpace);
+    ASSERT_TRUE(selection) << text;
+    EXPECT_EQ(method_text(selection->id, selection->values), text);
+  }
+  for (const char* text :
+       {"count=both", "near=-1", "near=nan", "far=1e16", "far=x", "volumes=on"}) {
+    EXPECT_FALSE(parse_method("shadow-polygons:" + std::string(text), Domain::kImageSpace)) << text;
+  }
+}
+
 // --- By hand ---
 
 PreparedView view_of(const Scene& scene, const std::array<double, 3>& eye,
