@@ -54,6 +54,14 @@ struct Rules {
   /// A sample in a plane is moved a little along the picture's frame, and the plane that it lies on
   /// keeps its side of the ray (docs/image-space.md, "Ties").
   bool planes_stay_at_ties = true;
+  /// Shadow volumes that hold the eye are counted, all of them; where the eye is on a plane of one,
+  /// each sample decides by where its ray begins (docs/shadow-polygons.md, "The eye").
+  bool eye_may_be_in_shadow = true, eye_in_several_volumes_counts_all = true,
+       eye_on_planes_counts_by_sample = true;
+  /// Walls of shadow volumes meet: which is nearer is asked again wherever it matters.
+  bool order_of_walls_is_verified = true;
+  /// A light has no field of view: what is beside and behind it is shadowed as what is before it.
+  bool light_looks_all_around = true;
   /// A vertex on the edge of a neighbouring face is a vertex of that face, too: its illumination
   /// is the same from both sides (shading_mesh.h, "no T-vertices").
   bool neighbour_vertices_are_in_the_face = true;

@@ -5,6 +5,7 @@
 #ifndef GNOMON_ALGORITHMS_PIXELS_IMAGE_SCENE_H
 #define GNOMON_ALGORITHMS_PIXELS_IMAGE_SCENE_H
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -37,6 +38,11 @@ class ImageScene {
   }
 
   Space& space() { return space_; }
+  /// From, to.
+  std::array<VertexId, 2> ends_of(PlaneRef edge) const {
+    const auto [a, b] = scene_.geometry.edges[edge.index()];
+    return edge.flipped() ? std::array{b, a} : std::array{a, b};
+  }
   const PreparedScene& scene() const { return scene_; }
   std::size_t light_count() const { return lights_.size(); }
   ImageLight light(std::size_t l) const { return lights_[l].light; }
@@ -56,24 +62,32 @@ class ImageScene {
   RayPlaneRef ray_plane(std::uint32_t part, std::size_t k) {
     const Part& of = scene_.parts[part];
     const PlaneRef edge = scene_.edges(of)[k];
+    return ray_plane_of(is_back(of, facing_eye_[part]) ? -edge : edge);
+  }
+  /// Of an edge by EdgeId, in its direction: positive on its left as seen from the eye.
+  RayPlaneRef ray_plane_of(PlaneRef edge) {
     std::uint32_t& made = ray_planes_[edge.index()];
     if (made == kNone) {
       const auto [a, b] = scene_.geometry.edges[edge.index()];
       made = space_.add_ray_plane(ImagePoint::at(a), ImagePoint::at(b)).index;
     }
-    return {made, edge.flipped() != is_back(of, facing_eye_[part])};
+    return {made, edge.flipped()};
   }
   /// Of the k-th edge: the plane through a light, positive inside the part's shadow volume.
   /// Requires: the part faces the light.
   PlaneRef shadow_plane(std::uint32_t part, std::size_t k, std::size_t l) {
     const Part& of = scene_.parts[part];
     const PlaneRef edge = scene_.edges(of)[k];
+    return shadow_plane_of(is_back(of, lights_[l].facing[part]) ? -edge : edge, l);
+  }
+  /// Of an edge by EdgeId, in its direction: positive on its left as seen from the light.
+  PlaneRef shadow_plane_of(PlaneRef edge, std::size_t l) {
     std::uint32_t& made = lights_[l].shadow_planes[edge.index()];
     if (made == kNone) {
       const auto [a, b] = scene_.geometry.edges[edge.index()];
       made = space_.add_shadow_plane(lights_[l].light, a, b).index();
     }
-    return PlaneRef(made, edge.flipped() != is_back(of, lights_[l].facing[part]));
+    return PlaneRef(made, edge.flipped());
   }
 
  private:

@@ -22,15 +22,23 @@ class PixelSink {
     std::span<std::uint64_t> lit_by;
   };
 
-  explicit PixelSink(Pixels& pixels) : pixels_(pixels) {
+  /// `with_casters`: Pixels::casters is wanted.
+  PixelSink(Pixels& pixels, bool with_casters) : pixels_(pixels) {
     const std::size_t samples = std::size_t{pixels.width} * pixels.height;
     pixels.part.assign(samples, Pixels::kNoPart);
     pixels.lit_by.assign(samples, 0);
+    if (with_casters) pixels.casters.assign(samples * pixels.lights.size(), 0);
   }
   Row row(std::uint32_t j) {
     const std::size_t first = pixels_.index({0, j});
     return {std::span(pixels_.part).subspan(first, pixels_.width),
             std::span(pixels_.lit_by).subspan(first, pixels_.width)};
+  }
+  /// Pixels::casters of a row under the task's l-th light; empty if they are not wanted.
+  std::span<std::int32_t> casters(std::uint32_t j, std::size_t l) {
+    if (pixels_.casters.empty()) return {};
+    const std::size_t first = l * pixels_.part.size() + pixels_.index({0, j});
+    return std::span(pixels_.casters).subspan(first, pixels_.width);
   }
 
  private:

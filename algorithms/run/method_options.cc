@@ -30,6 +30,21 @@ bool read_switch(bool& value, std::string_view text) {
   return read_word<bool>(value, text, {{"on", true}, {"off", false}});
 }
 
+/// A distance, at most so large that planes at it are on some grid.
+bool read_distance(double& value, std::string_view text) {
+  constexpr double kMost = 1e15;
+  double distance = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), distance);
+  if (error != std::errc() || end != text.data() + text.size()) return false;
+  if (!(distance >= 0 && distance <= kMost)) return false;
+  value = distance;
+  return true;
+}
+std::string distance_text(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
 constexpr std::array kOptions = {
     MethodOption{
         .name = "cells",
@@ -37,6 +52,23 @@ constexpr std::array kOptions = {
         .summary = "clip in the cells of a k-d tree of light space",
         .read = [](MethodOptionValues& v, std::string_view t) { return read_switch(v.cells, t); },
         .text = [](const MethodOptionValues& v) { return on_or_off(v.cells); }},
+    MethodOption{.name = "count",
+                 .values = "eye|z-pass|z-fail",
+                 .summary = "where walls are counted from: right from the eye alone, unless "
+                            "z-fail has no far plane",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<WallCount>(v.count, t,
+                                                   {{"eye", WallCount::kFromEye},
+                                                    {"z-pass", WallCount::kZPass},
+                                                    {"z-fail", WallCount::kZFail}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.count == WallCount::kFromEye ? "eye"
+                                          : v.count == WallCount::kZPass ? "z-pass"
+                                                                         : "z-fail");
+                     }},
     MethodOption{.name = "cover",
                  .values = "partition|overlay",
                  .summary = "fragments that tile a polygon, or shadows painted over it",
@@ -47,6 +79,25 @@ constexpr std::array kOptions = {
                        return cover.has_value();
                      },
                  .text = [](const MethodOptionValues& v) { return std::string(name_of(v.cover)); }},
+    MethodOption{
+        .name = "far",
+        .values = "0..1e15",
+        .summary = "with z-fail: the plane beyond which no wall is drawn, scene units; 0: none",
+        .read = [](MethodOptionValues& v, std::string_view t) { return read_distance(v.far, t); },
+        .text = [](const MethodOptionValues& v) { return distance_text(v.far); }},
+    MethodOption{
+        .name = "near",
+        .values = "0..1e15",
+        .summary = "with z-pass: the plane before which no wall is drawn, scene units; 0: none",
+        .read = [](MethodOptionValues& v, std::string_view t) { return read_distance(v.near, t); },
+        .text = [](const MethodOptionValues& v) { return distance_text(v.near); }},
+    MethodOption{
+        .name = "neighbours",
+        .values = "on|off",
+        .summary = "also count by the walls next in depth alone, and tell how often that is wrong",
+        .read = [](MethodOptionValues& v,
+                   std::string_view t) { return read_switch(v.neighbours, t); },
+        .text = [](const MethodOptionValues& v) { return on_or_off(v.neighbours); }},
     MethodOption{.name = "order",
                  .values = "near|file|far",
                  .summary = "which polygons are inserted first: a heuristic",
@@ -85,6 +136,19 @@ constexpr std::array kOptions = {
                        return true;
                      },
                  .text = [](const MethodOptionValues& v) { return std::to_string(v.tiles); }},
+    MethodOption{.name = "volumes",
+                 .values = "chain|polygons",
+                 .summary = "walls at the contour of all facing polygons, or around each of them",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<VolumesOf>(
+                           v.volumes, t,
+                           {{"chain", VolumesOf::kChain}, {"polygons", VolumesOf::kPolygons}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.volumes == VolumesOf::kChain ? "chain" : "polygons");
+                     }},
 };
 
 std::string joined(std::span<const std::string_view> names) {

@@ -12,6 +12,7 @@
 #include "algorithms/run/by_receiver.h"
 #include "algorithms/run/on_every_kernel.h"
 #include "algorithms/sectors/by_sectors.h"
+#include "algorithms/shadow_polygons/by_shadow_polygons.h"
 #include "algorithms/svbsp/by_svbsp.h"
 #include "algorithms/svbsp_full/by_svbsp_full.h"
 #include "algorithms/tiling/by_volumes.h"
@@ -40,6 +41,11 @@ constexpr std::array kContourCounters = {kIntervals, kSegments, kDarkPolygons, k
 constexpr std::array<std::string_view, 1> kZbufferOptions = {"order"};
 constexpr std::array kZbufferCounters = {kSamples, kSpans, kDepthTests, kCasterTests,
                                          kDepthComplexity};
+constexpr std::array<std::string_view, 6> kShadowPolygonsOptions = {
+    "volumes", "count", "near", "far", "neighbours", "order"};
+constexpr std::array kShadowPolygonsCounters = {
+    kSamples,     kSpans,          kDepthTests,      kWalls,     kActiveWalls,    kWallTests,
+    kWallSamples, kNeighbourTests, kNeighbourMisses, kWallBytes, kDepthComplexity};
 constexpr std::array kTwoPassCounters = {kClips, kShadowPolygons, kLists, kLongestList,
                                          kDeepestStack};
 
@@ -144,6 +150,19 @@ constexpr std::array kImageMethods = {
            .makes_fragments = false,
            .options = kZbufferOptions,
            .counters = kZbufferCounters},
+    Method{.id = MethodId::kShadowPolygons,
+           .name = "shadow-polygons",
+           .summary = "walls of shadow volumes, counted along the ray of each sample",
+           .source = "Crow 1977, class three; the stencil shadow volume",
+           .lights = {.point = true},
+           .domain = Domain::kImageSpace,
+           .needs = {.camera = true},
+           .threads = true,
+           .names_casters = false,
+           .makes_fragments = false,
+           .counts_casters = true,
+           .options = kShadowPolygonsOptions,
+           .counters = kShadowPolygonsCounters},
 };
 
 template <template <class> class Run>
@@ -250,6 +269,8 @@ PixelFunction pixel_function(MethodId method, KernelId kernel) {
   switch (method) {
     case MethodId::kZbuffer:
       return on_kernel<ByZbuffer>(kernel);
+    case MethodId::kShadowPolygons:
+      return on_kernel<ByShadowPolygons>(kernel);
     default:
       return nullptr;
   }

@@ -108,7 +108,7 @@ Expected<Pixels> compute_pixels_with(const PreparedScene& scene, const ImageFram
   pixels.width = frame.width;
   pixels.height = frame.height;
   pixels.lights = *lights;
-  PixelSink sink(pixels);
+  PixelSink sink(pixels, options.caster_counts && method_info(options.method).counts_casters);
   const double start = cpu_seconds();
   const PixelTask task{scene, frame, options, rules, *lights, sink};
   const PixelFunction own = pixel_function(options.method, options.kernel.id);

@@ -13,11 +13,10 @@
 #include <span>
 #include <vector>
 
-#include "algorithms/partition/insertion_order.h"
 #include "algorithms/pixels/by_rows.h"
 #include "algorithms/pixels/image_scene.h"
 #include "algorithms/pixels/part_balls.h"
-#include "algorithms/pixels/visible_row.h"
+#include "algorithms/pixels/visible_parts.h"
 #include "algorithms/zbuffer/by_zbuffer.h"
 #include "algorithms/zbuffer/caster_lists.h"
 
@@ -30,39 +29,24 @@ class ZbufferRun {
       : task_(task),
         scene_(task),
         balls_(task.scene, task.frame),
+        visible_(scene_, task, balls_),
         casters_(scene_, balls_),
-        lit_(task.frame.width) {
-    std::vector<std::uint32_t> seen;
-    for (std::uint32_t p = 0; p < task.scene.parts.size(); ++p) {
-      if (scene_.facing_eye(p).valid()) seen.push_back(p);
-    }
-    order_ = in_order(task.options.options.order, task.scene, task.frame.eye, seen);
-  }
+        lit_(task.frame.width) {}
 
   void fill_row(std::uint32_t row) {
     const PixelSink::Row out = task_.sink.row(row);
-    for (const std::uint32_t part : order_) {
-      if (balls_.misses_row(part, row)) continue;
-      const Span span = covered_span(scene_, part, row);
-      if (span.empty()) continue;
-      ++work_[Counter::kSpans];
-      covered_ += span.size();
-      draw_span(scene_, part, span, row, out.part, work_);
-    }
-    for (Span run; run.begin < out.part.size(); run.begin = run.end) {
-      const std::uint32_t part = out.part[run.begin];
-      while (run.end < out.part.size() && out.part[run.end] == part) ++run.end;
-      if (part == Pixels::kNoPart) continue;
+    visible_.draw_row(row, out.part, work_);
+    for_each_run(out.part, [&](std::uint32_t part, Span run) {
       work_[Counter::kSamples] += run.size();
       for (std::size_t l = 0; l < scene_.light_count(); ++l) {
         if (scene_.seen_side_faces(part, l)) light_span(part, run, row, l, out.lit_by);
       }
-    }
+    });
   }
 
   PixelWork work() const { return {work_, {}}; }
   StageCounts stages() { return scene_.space().stage_counts(); }
-  std::uint64_t covered() const { return covered_; }
+  std::uint64_t covered() const { return visible_.covered(); }
 
  private:
   void light_span(std::uint32_t part, Span run, std::uint32_t row, std::size_t l,
@@ -98,11 +82,10 @@ class ZbufferRun {
   const PixelTask& task_;
   ImageScene<Space> scene_;
   PartBalls balls_;
+  VisibleParts<Space> visible_;
   CasterLists<Space> casters_;
-  std::vector<std::uint32_t> order_;  // of the parts that the eye sees
-  std::vector<std::uint8_t> lit_;     // of the samples of a span
+  std::vector<std::uint8_t> lit_;  // of the samples of a span
   WorkCounts work_;
-  std::uint64_t covered_ = 0;  // pairs of a sample and a part
 };
 
 template <class Kernel>

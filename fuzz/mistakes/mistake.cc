@@ -63,6 +63,18 @@ constexpr std::array kMistakes = {
                 kCrow1977},
     MistakeInfo{Mistake::kBacksHide, "backs-hide",
                 "one-sided polygons hide what is behind them from an eye at their back", kCrow1977},
+    MistakeInfo{Mistake::kEyeAlwaysLit, "eye-always-lit",
+                "shadow volumes that hold the eye are not counted", kCrow1977},
+    MistakeInfo{Mistake::kEyeByFirstSurface, "eye-by-first-surface",
+                "the eye counts as in one volume if the ray leaves one first, else as in none",
+                kCrow1977},
+    MistakeInfo{Mistake::kEyeCountedOnce, "eye-counted-once",
+                "an eye on a plane of a shadow volume counts as outside it for all samples",
+                kCrow1977},
+    MistakeInfo{Mistake::kWallsKeepOrder, "walls-keep-order",
+                "walls are kept in the order of depth in which a row first meets them", kCrow1977},
+    MistakeInfo{Mistake::kOnePerspective, "one-perspective",
+                "what a lamp sees is mapped by one division, also beside and behind it", kCrow1977},
 };
 
 }  // namespace
@@ -88,9 +100,21 @@ namespace {
 bool has_thickness(KernelId kernel) { return kernel_info(kernel).has_thickness; }
 
 /// Those of samples.
-bool applies_to_pictures(Mistake mistake) {
-  return mistake == Mistake::kNone || mistake == Mistake::kTieTurnsPlane ||
-         mistake == Mistake::kBacksHide;
+bool applies_to_pictures(Mistake mistake, MethodId method) {
+  switch (mistake) {
+    case Mistake::kNone:
+    case Mistake::kTieTurnsPlane:
+    case Mistake::kBacksHide:
+      return true;
+    case Mistake::kEyeAlwaysLit:
+    case Mistake::kEyeByFirstSurface:
+    case Mistake::kEyeCountedOnce:
+    case Mistake::kWallsKeepOrder:
+    case Mistake::kOnePerspective:
+      return method == MethodId::kShadowPolygons;
+    default:
+      return false;
+  }
 }
 
 /// Kernels that can go on with a polygon that the light sees edge-on, where light space has no area
@@ -107,7 +131,8 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
   const bool by_order = svbsp || by_volumes;
   // It makes no fragments, and where polygons are it asks of input corners alone.
   const bool contour = method == MethodId::kContour;
-  if (method_info(method).domain == Domain::kImageSpace) return applies_to_pictures(mistake);
+  if (method_info(method).domain == Domain::kImageSpace)
+    return applies_to_pictures(mistake, method);
   switch (mistake) {
     case Mistake::kNone:
       return true;
@@ -143,6 +168,11 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kStraddlingLightFaces:
     case Mistake::kTieTurnsPlane:
     case Mistake::kBacksHide:
+    case Mistake::kEyeAlwaysLit:
+    case Mistake::kEyeByFirstSurface:
+    case Mistake::kEyeCountedOnce:
+    case Mistake::kWallsKeepOrder:
+    case Mistake::kOnePerspective:
       return false;
   }
   return false;
@@ -179,6 +209,11 @@ bool applies_to_area(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kFarCornerDecides:
     case Mistake::kTieTurnsPlane:
     case Mistake::kBacksHide:
+    case Mistake::kEyeAlwaysLit:
+    case Mistake::kEyeByFirstSurface:
+    case Mistake::kEyeCountedOnce:
+    case Mistake::kWallsKeepOrder:
+    case Mistake::kOnePerspective:
       return false;
   }
   return false;

@@ -37,8 +37,13 @@ enum class Mistake : std::uint8_t {
   kCollinearLeftOut,     // a polygon with an edge on the line of another's counts as nothing there
   kCasterSetsDiffer,     // backs cast where edges act, and hide nothing
   kFarCornerDecides,     // equal depth along an edge decided by a corner on either side of it
-  kTieTurnsPlane,  // a sample in a plane moved in all of the formula, which turns its own plane
-  kBacksHide,      // one-sided polygons hide what is behind them from an eye at their back
+  kTieTurnsPlane,      // a sample in a plane moved in all of the formula, which turns its own plane
+  kBacksHide,          // one-sided polygons hide what is behind them from an eye at their back
+  kEyeAlwaysLit,       // shadow volumes that hold the eye are not counted
+  kEyeByFirstSurface,  // the eye in shadow iff the ray leaves a volume before it enters one
+  kEyeCountedOnce,     // an eye on the plane of a volume is outside it for all samples
+  kWallsKeepOrder,     // walls kept in the order of depth in which they were met
+  kOnePerspective,     // what a light sees mapped by one perspective division
 };
 
 struct MistakeInfo {

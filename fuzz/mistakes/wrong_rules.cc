@@ -89,6 +89,21 @@ Rules rules_of(Mistake mistake) {
     case Mistake::kBacksHide:
       rules.backs_are_transparent = false;
       break;
+    case Mistake::kEyeAlwaysLit:
+      rules.eye_may_be_in_shadow = false;
+      break;
+    case Mistake::kEyeByFirstSurface:
+      rules.eye_in_several_volumes_counts_all = false;
+      break;
+    case Mistake::kEyeCountedOnce:
+      rules.eye_on_planes_counts_by_sample = false;
+      break;
+    case Mistake::kWallsKeepOrder:
+      rules.order_of_walls_is_verified = false;
+      break;
+    case Mistake::kOnePerspective:
+      rules.light_looks_all_around = false;
+      break;
     case Mistake::kOnSwapped:
       rules.on_goes_to_its_own_side = false;
       break;

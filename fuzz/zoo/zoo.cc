@@ -58,6 +58,16 @@ constexpr std::array kZoo = {
     ZooEntry{"tie-turns-plane", Mistake::kTieTurnsPlane, "plane/zbuffer", "family-small-lattice",
              kWrongLight},
     ZooEntry{"backs-hide", Mistake::kBacksHide, "plane/zbuffer", kPointScenes, kWrongPolygon},
+    ZooEntry{"eye-always-lit", Mistake::kEyeAlwaysLit, "plane/shadow-polygons", kPointScenes,
+             kWrongLight},
+    ZooEntry{"eye-by-first-surface", Mistake::kEyeByFirstSurface, "plane/shadow-polygons",
+             kPointScenes, kWrongLight},
+    ZooEntry{"eye-counted-once", Mistake::kEyeCountedOnce, "plane/shadow-polygons", kPointScenes,
+             kWrongLight},
+    ZooEntry{"walls-keep-order", Mistake::kWallsKeepOrder, "plane/shadow-polygons", kPointScenes,
+             kWrongLight},
+    ZooEntry{"one-perspective", Mistake::kOnePerspective, "plane/shadow-polygons", kPointScenes,
+             kWrongLight},
     ZooEntry{"area-on-swapped", Mistake::kOnSwapped, "plane", kAreaScenes, "misclassified"},
 };
 

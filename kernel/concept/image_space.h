@@ -80,7 +80,8 @@ concept ImageSpaceModel = std::copy_constructible<S> &&
   /// m . d, with R and then U where it is zero: the side to which the sample's ray leaves a plane
   /// that holds the eye. Zero only if m is.
   { space.heading(plane, sample) } -> std::same_as<Sign>;
-  /// The one predicate: side of `plane` (first) at the sample on a support plane (second).
+  /// The one predicate: side of `plane` (first) at the sample on a support plane (second), or on a
+  /// shadow plane.
   /// Requires: the ray meets the support plane, P(E) and n . d of opposite signs; so it does where
   /// the sample is covered by a polygon of the plane that faces the eye. Zero iff the two are one
   /// plane. Degree 5, image_side_bits().

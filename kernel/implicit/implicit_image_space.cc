@@ -245,8 +245,11 @@ Sign ImplicitImageSpace<Stats>::moved(const Plane& q, const Plane& p) {
 template <class Stats>
 Sign ImplicitImageSpace<Stats>::exact_bracket(const Plane& q, const Plane& p,
                                               const std::array<std::int64_t, 3>& d) {
-  const unsigned bits = q.has_direction ? image_side_bits(grid_bits_, direction_bits_, sample_bits_)
-                                        : image_side_bits(grid_bits_, sample_bits_);
+  const unsigned bits = q.has_direction && p.has_direction
+                            ? image_order_bits(grid_bits_, direction_bits_, sample_bits_)
+                        : q.has_direction || p.has_direction
+                            ? image_side_bits(grid_bits_, direction_bits_, sample_bits_)
+                            : image_side_bits(grid_bits_, sample_bits_);
   return stages_.exact(narrowest_width(bits), 0, [&]<class, class Int>() {
     const ExactSource<Int> first = exact<Int>(q.source), second = exact<Int>(p.source);
     const Vector3<Int> eye = integers<Int>(frame_.eye.grid), along = along_of<Int>(d);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "gnomon/algorithms/facing_chain.h"
 #include "gnomon/scene/digest.h"
 #include "report/facts/facing.h"
 
@@ -13,7 +14,7 @@ namespace gnomon::report {
 
 namespace {
 
-FacingShare facing_of(const PreparedScene& prepared, const LightPoint& light) {
+FacingShare facing_of(const PreparedScene& prepared, const std::vector<Sign>& signs) {
   FacingShare share;
   for (std::size_t polygon = 0; polygon + 1 < prepared.first_part.size(); ++polygon) {
     const std::uint32_t first = prepared.first_part[polygon],
@@ -21,14 +22,22 @@ FacingShare facing_of(const PreparedScene& prepared, const LightPoint& light) {
     if (first == last) continue;
     bool faces = false, in_plane = true;
     for (std::uint32_t index = first; index < last; ++index) {
-      const Part& part = prepared.parts[index];
-      const Sign sign = sign_at_light(prepared, part, light);
-      faces = faces || sign == Sign::kPositive || (sign == Sign::kNegative && part.two_sided);
+      const Sign sign = signs[index];
+      faces = faces || sign == Sign::kPositive ||
+              (sign == Sign::kNegative && prepared.parts[index].two_sided);
       in_plane = in_plane && sign == Sign::kZero;
     }
     ++(faces ? share.facing : in_plane ? share.in_plane : share.away);
   }
   return share;
+}
+
+void count_contour(const PreparedScene& prepared, const std::vector<Sign>& signs,
+                   LightFacts& facts) {
+  const FacingChain chain = facing_chain(prepared, facing_sides(prepared, signs));
+  facts.contour_edges = chain.loop_edges.size();
+  facts.contour_loops = chain.loops();
+  facts.contour_share = chain.contour_share();
 }
 
 void count_area_light(const PreparedScene& prepared, const PreparedLight& light,
@@ -86,6 +95,15 @@ void count_edges(const PreparedScene& prepared, SceneFacts& facts) {
       static_cast<std::size_t>(std::ranges::count_if(uses, [](auto count) { return count > 2; }));
 }
 
+void count_components(const PreparedScene& prepared, SceneFacts& facts) {
+  for (const Component& component : find_components(prepared)) {
+    ++facts.components;
+    facts.closed_components += component.is_closed ? 1 : 0;
+    facts.convex_components += component.is_convex ? 1 : 0;
+    if (!component.is_closed) facts.unpaired.push_back(component.unpaired);
+  }
+}
+
 }  // namespace
 
 SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared, double near) {
@@ -114,6 +132,7 @@ SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared, double
   }
   count_families(prepared, facts);
   count_edges(prepared, facts);
+  count_components(prepared, facts);
 
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   facts.low = {kInfinity, kInfinity, kInfinity};
@@ -145,7 +164,9 @@ SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared, double
     if (source.has_area()) {
       count_area_light(prepared, light, one);
     } else {
-      one.facing = facing_of(prepared, light.point);
+      const std::vector<Sign> signs = signs_at_light(prepared, light.point);
+      one.facing = facing_of(prepared, signs);
+      count_contour(prepared, signs, one);
     }
   }
   return facts;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/algorithms/components.h"
 #include "gnomon/kernel/precision_plan.h"
 #include "gnomon/scene/intent.h"
 #include "gnomon/scene/prepare.h"
@@ -28,6 +29,10 @@ struct LightFacts {
   FacingShare facing;               // polygons that face it, or see an area light
   std::size_t cutting = 0;          // polygons whose plane cuts the area light
   std::size_t reaching_behind = 0;  // polygons that the area light's plane cuts
+  // Of a point or directional light (gnomon/algorithms/facing_chain.h).
+  std::size_t contour_edges = 0;  // with their multiplicity
+  std::size_t contour_loops = 0;
+  double contour_share = 0;  // for each edge of a polygon that faces and casts
 };
 
 struct SceneFacts {
@@ -45,6 +50,8 @@ struct SceneFacts {
   std::size_t sharing_plane = 0;   // polygons with a part in a plane of another polygon
   std::size_t largest_family = 0;  // parts
   std::size_t edges = 0, shared_edges = 0, crowded_edges = 0;  // of two parts; of more
+  std::size_t components = 0, closed_components = 0, convex_components = 0;
+  std::vector<UnpairedEdge> unpaired;  // of each component that is not closed, the first
   std::array<double, 3> low{}, high{};
   double diagonal = 0;
   mpq_class step;

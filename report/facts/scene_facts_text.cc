@@ -112,6 +112,34 @@ std::string left_out_text(const SceneFacts& facts, bool all) {
   return text;
 }
 
+/// How many parts hang together, and of what is open an edge of each; the first few unless `all`.
+std::string components_text(const Scene& scene, const PreparedScene& prepared,
+                            const SceneFacts& facts, bool all) {
+  constexpr std::size_t kMost = 1;
+  std::string text = grouped(facts.components) + "; " + grouped(facts.closed_components) +
+                     " closed, " + grouped(facts.convex_components) + " of them convex";
+  for (std::size_t i = 0; i < facts.unpaired.size(); ++i) {
+    if (!all && i == kMost) return text + "; ... (--all lists one of each open component)";
+    text += "; " + unpaired_edge_text(scene, prepared, facts.unpaired[i]);
+  }
+  return text;
+}
+
+std::string contour_text(const LightFacts& light) {
+  return "; " + plural(light.contour_edges, "contour edge", "contour edges") + " in " +
+         plural(light.contour_loops, "loop", "loops") + ", " + percent(light.contour_share) +
+         " of the edges of facing polygons";
+}
+
+void write_components(JsonWriter& json, const Scene& scene, const PreparedScene& prepared,
+                      const SceneFacts& facts) {
+  json.member("components", facts.components);
+  json.member("closed_components", facts.closed_components);
+  json.member("convex_components", facts.convex_components);
+  if (facts.unpaired.empty()) return;
+  json.member("open_because", unpaired_edge_text(scene, prepared, facts.unpaired.front()));
+}
+
 void write_left_out(JsonWriter& json, const SceneFacts& facts) {
   json.key("left_out");
   json.begin_array();
@@ -183,6 +211,7 @@ std::string facts_text(const Scene& scene, const PreparedScene& prepared, const 
                               grouped(facts.largest_family) + " parts a plane");
   text += entry("edges", grouped(facts.edges) + "; " + grouped(facts.shared_edges) +
                              " shared by two parts, " + grouped(facts.crowded_edges) + " by more");
+  text += entry("components", components_text(scene, prepared, facts, all_notes));
   text += entry("box", point_text(facts.low) + " to " + point_text(facts.high) + ", diagonal " +
                            rounded(facts.diagonal, 9));
   const double step = facts.step.get_d();
@@ -207,7 +236,8 @@ std::string facts_text(const Scene& scene, const PreparedScene& prepared, const 
     if (light.type == LightType::kArea) {
       line += ", " + area_light_text(light);
     } else {
-      line += " " + position_text(light.position) + "; " + facing_text(light.facing);
+      line += " " + position_text(light.position) + "; " + facing_text(light.facing) +
+              contour_text(light);
     }
     text += wrapped(line, kWidth, 2, 6);
   }
@@ -257,6 +287,7 @@ void write_facts_json(TextSink& sink, const Scene& scene, const PreparedScene& p
   json.member("edges", facts.edges);
   json.member("shared_edges", facts.shared_edges);
   json.member("crowded_edges", facts.crowded_edges);
+  write_components(json, scene, prepared, facts);
   write_point(json, "low", facts.low);
   write_point(json, "high", facts.high);
   json.member("diagonal", facts.diagonal);
@@ -288,6 +319,10 @@ void write_facts_json(TextSink& sink, const Scene& scene, const PreparedScene& p
       json.member("corners", light.corners);
       json.member("cut_by_planes_of", light.cutting);
       json.member("reaching_behind", light.reaching_behind);
+    } else {
+      json.member("contour_edges", light.contour_edges);
+      json.member("contour_loops", light.contour_loops);
+      json.member("contour_share", light.contour_share);
     }
     json.end_object();
   }

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "scene/base/exact_int.h"
+#include "scene/geometry/joined_sets.h"
 #include "scene/geometry/numbering.h"
 
 namespace gnomon::scene_detail {
@@ -50,28 +50,6 @@ std::vector<HalfEdge> half_edges_of(const Scene& scene, const PreparedScene& pre
   for (std::size_t i = 0; i < result.size(); ++i) result[i].edge = edges[i];
   return result;
 }
-
-class PolygonSets {
- public:
-  explicit PolygonSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  std::uint32_t first(std::uint32_t polygon) {
-    while (parent_[polygon] != polygon) {
-      parent_[polygon] = parent_[parent_[polygon]];
-      polygon = parent_[polygon];
-    }
-    return polygon;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = first(a);
-    b = first(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// How often polygons run along an edge, each way.
 struct EdgeUse {
@@ -129,7 +107,7 @@ Components find_components(const Scene& scene, const PreparedScene& prepared,
   constexpr std::uint32_t kNone = 0xffffffffu;
   std::vector<EdgeUse> uses(edges);
   std::vector<std::uint32_t> owner(edges, kNone);
-  PolygonSets sets(polygons);
+  JoinedSets sets(polygons);
   for (const HalfEdge& half : result.half_edges) {
     ++(half.flipped ? uses[half.edge].backwards : uses[half.edge].forwards);
     std::uint32_t& other = owner[half.edge];

@@ -158,5 +158,23 @@ TEST_F(Intent, AForeignFile) {
   EXPECT_THAT(result.err, HasSubstr("this is glTF"));
 }
 
+TEST_F(Intent, InfoTellsWhatIsClosedAndWhatTheContoursAre) {
+  const std::string box = directory_.file("box.obj");
+  write_text(box,
+             "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\n"
+             "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n"
+             "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 9 10 11\n");
+  const RunResult said = run_gnomon({"info", box, "--sun=1,2,3"});
+  EXPECT_THAT(said.out, HasSubstr("components      2; 1 closed, 1 of them convex; edge "
+                                  "(5,0,0)-(6,0,0) of polygon 6 has no partner"));
+  EXPECT_THAT(said.out, HasSubstr("9 contour edges in 2"));
+  const RunResult json = run_gnomon({"info", box, "--sun=1,2,3", "--json", "-"});
+  EXPECT_THAT(json.out, AllOf(HasSubstr("\"components\": 2"), HasSubstr("\"closed_components\": 1"),
+                              HasSubstr("\"convex_components\": 1"),
+                              HasSubstr("\"open_because\": \"edge (5,0,0)-(6,0,0) of polygon 6"),
+                              HasSubstr("\"contour_edges\": 9, \"contour_loops\": 2, "
+                                        "\"contour_share\": 0.6")));
+}
+
 }  // namespace
 }  // namespace gnomon::test

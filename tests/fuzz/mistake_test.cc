@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "fuzz/check/check.h"
@@ -85,6 +86,18 @@ TEST(Mistakes, OfContours) {
   }
 }
 
+TEST(Mistakes, OfShadowPolygons) {
+  for (const char* sound :
+       {"plane/shadow-polygons", "rational/shadow-polygons", "double/shadow-polygons"}) {
+    for (const char* mistake : {"eye-always-lit", "eye-by-first-surface", "eye-counted-once",
+                                "walls-keep-order", "one-perspective"}) {
+      std::string name = std::string("y_") + mistake;
+      std::ranges::replace(name, '-', '_');
+      expect_shown(test::regression_scene(name), sound, mistake, "wrong light");
+    }
+  }
+}
+
 /// A tile of 1 over a floor of 100, whose thickness is then more than 1.
 TEST(Mistakes, ThicknessTooLarge) {
   ScenePen pen;
@@ -116,6 +129,9 @@ TEST(Mistakes, NoneDoesNothingInSilence) {
   };
   EXPECT_THAT(message("plane~coplanar-in-sequence"), HasSubstr("changes nothing"));
   EXPECT_THAT(message("plane~far-corner-decides"), HasSubstr("changes nothing"));
+  EXPECT_THAT(message("plane~eye-always-lit"), HasSubstr("changes nothing"));
+  EXPECT_THAT(message("plane/zbuffer~eye-always-lit"), HasSubstr("changes nothing"));
+  EXPECT_THAT(message("plane/shadow-polygons~on-swapped"), HasSubstr("changes nothing"));
   EXPECT_THAT(message("plane/contour~coplanar-in-sequence"), HasSubstr("changes nothing"));
   EXPECT_THAT(message("plane/svbsp~planes-from-fragments"), HasSubstr("changes nothing"));
   EXPECT_THAT(message("plane~union-without-continued-planes"), HasSubstr("changes nothing"));

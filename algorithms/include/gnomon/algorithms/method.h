@@ -67,6 +67,7 @@ struct Method {
   bool threads = false;           // runs on several
   bool names_casters = true;      // of every fragment in shadow, the polygon that hides it
   bool makes_fragments = true;    // else it tells classes and shares alone
+  bool counts_casters = false;    // of each sample, those between it and the light
   std::span<const std::string_view> options = {};  // names of method_option()
   std::span<const Counter> counters = {};          // those that it fills
 };

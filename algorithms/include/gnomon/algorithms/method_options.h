@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The options of methods: `--algorithm NAME[:option=value,...]`. No option changes a class or an
-// area; they change the work, and how the answer is put out.
+// area, but for `count` of shadow-polygons, which shows where graphics hardware is wrong; they
+// change the work, and how the answer is put out.
 #ifndef GNOMON_ALGORITHMS_METHOD_OPTIONS_H
 #define GNOMON_ALGORITHMS_METHOD_OPTIONS_H
 
@@ -17,6 +18,15 @@ namespace gnomon {
 /// The order in which polygons are inserted where no answer depends on it.
 enum class InsertionOrder : std::uint8_t { kNearFirst, kFile, kFarFirst };
 
+/// What shadow volumes are made of: one of all facing polygons together, with walls at the contour
+/// alone, or one of each polygon.
+enum class VolumesOf : std::uint8_t { kChain, kPolygons };
+
+/// Where the count of shadow volumes along a ray begins, and with what: with those that hold the
+/// eye; with none at the eye or the near plane (z-pass); with those at infinity, or none at the far
+/// plane (z-fail).
+enum class WallCount : std::uint8_t { kFromEye, kZPass, kZFail };
+
 /// Each method reads its own of them (Method::options).
 struct MethodOptionValues {
   Cover cover = Cover::kPartition;
@@ -24,6 +34,11 @@ struct MethodOptionValues {
   std::uint32_t tiles = 128;  // tiling: so many rows and columns on each face
   InsertionOrder order = InsertionOrder::kNearFirst;  // svbsp-full, zbuffer
   bool cells = true;                                  // two-pass: in cells of light space
+  // shadow-polygons:
+  VolumesOf volumes = VolumesOf::kChain;
+  WallCount count = WallCount::kFromEye;
+  bool neighbours = false;   // also by those next in depth alone
+  double near = 0, far = 0;  // planes that clip walls, scene units from the eye; 0: none
   friend bool operator==(const MethodOptionValues&, const MethodOptionValues&) = default;
 };
 

@@ -28,6 +28,7 @@ struct PixelOptions {
   MethodOptionValues options;            // each method reads its own
   std::vector<std::uint32_t> lights;     // indices into PreparedScene::lights; empty: all
   bool stage_counts = false;             // Pixels::stages (kernel plane)
+  bool caster_counts = false;            // Pixels::casters, of methods that count them
   unsigned jobs = 0;                     // threads; 0: as many as processors
   RunControl control;                    // light_done is not called
 };
@@ -43,6 +44,10 @@ struct Pixels {
   std::vector<std::uint32_t> part;    // the part seen; kNoPart: nothing is
   /// Bit b: the light lights[b] reaches the point that is seen, on the side that is seen.
   std::vector<std::uint64_t> lit_by;
+  /// On request, of a method with Method::counts_casters: of each light, all samples of the first
+  /// before those of the second, how many parts are between the point and the light. 0 where the
+  /// side that is seen does not face the light, and where nothing is seen.
+  std::vector<std::int32_t> casters;
   WorkCounts work;
   StageCounts stages;
   double seconds = 0;  // CPU time

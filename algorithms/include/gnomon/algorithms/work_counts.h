@@ -42,6 +42,13 @@ enum class Counter : std::uint8_t {
   kSpans,            // of samples of a row that a polygon covers
   kDepthTests,       // comparisons of two polygons along a span
   kCasterTests,      // pairs of a span and a polygon that may shadow it
+  kWalls,            // shadow polygons of all lights that the eye does not see edge-on
+  kActiveWalls,      // of them, those in one row
+  kWallTests,        // pairs of a span and a wall or cap whose depths are compared
+  kWallSamples,      // pairs of a sample and a wall that its ray comes through
+  kNeighbourTests,   // comparisons of a neighbour in depth with what is seen
+  kNeighbourMisses,  // samples that neighbours alone would have counted otherwise
+  kWallBytes,        // memory of walls and caps
   kDepthComplexity,  // polygons that face the eye and cover a sample, of all samples
 };
 inline constexpr std::size_t kCounterCount =

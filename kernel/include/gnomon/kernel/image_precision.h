@@ -22,6 +22,10 @@ constexpr unsigned image_coverage_bits(unsigned b, unsigned e, unsigned p) { ret
 constexpr unsigned image_side_bits(unsigned b, unsigned p) { return 5 * b + p + 4; }
 /// The same where Q is along a direction: 9 D^4 E 2^(p-1) and 12 D^4 E 2^(p-1).
 constexpr unsigned image_side_bits(unsigned b, unsigned e, unsigned p) { return 4 * b + e + p + 5; }
+/// The same where both are along directions: 3 * 2 D E 2^(p-1) times 3 * 2 D^2 E, twice.
+constexpr unsigned image_order_bits(unsigned b, unsigned e, unsigned p) {
+  return 3 * b + 2 * e + p + 7;
+}
 
 }  // namespace gnomon
 
