@@ -19,8 +19,8 @@ struct BorderContradiction {
   std::string text;            // one sentence
 };
 
-/// Judges `claims` in both ways, at a tolerance and a width that `seed` chooses, so that some are met
-/// by little and some are missed by little: from 1e-2 to 1e-16 of a polygon and to 1e-13 of the
+/// Judges `claims` in both ways, at a tolerance and a width that `seed` chooses, so that some are
+/// met by little and some are missed by little: from 1e-2 to 1e-16 of a polygon and to 1e-13 of the
 /// scene's diagonal, since widths are measured to 2^-46 of the size of their region. Errors: those
 /// of oracle::certify().
 Expected<std::optional<BorderContradiction>> border_contradiction(const JudgedScene& scene,
