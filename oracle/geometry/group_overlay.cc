@@ -139,10 +139,11 @@ AreaShare GroupOverlay::share(const std::vector<bool>& faces, std::size_t exact_
   return result;
 }
 
-void ShareSum::add(const AreaShare& share, Enclosure whole_area) {
+void ShareSum::add(const AreaShare& share, Enclosure weight) {
   if (count_++ == 0) only_ = share;
   area_ = area_ + share.area;
-  whole_ = whole_ + whole_area;
+  weighted_ = weighted_ + share.fraction * weight;
+  whole_ = whole_ + weight;
   zero_ = zero_ && share.zero;
   full_ = full_ && share.exact && *share.exact == 1;
 }
@@ -161,7 +162,7 @@ AreaShare ShareSum::result() const {
     sum.fraction = {1, 1};
     return sum;
   }
-  sum.fraction = not_negative(area_ / whole_);
+  sum.fraction = not_negative(weighted_ / whole_);
   return sum;
 }
 

@@ -63,12 +63,13 @@ class GroupOverlay {
 /// Sums shares of several planes of one polygon; exact as long as there is only one.
 class ShareSum {
  public:
-  void add(const AreaShare& share, Enclosure whole_area);
+  /// `weight`: the area of the whole, in a unit that doubles hold (areas_in_ratio()).
+  void add(const AreaShare& share, Enclosure weight);
   AreaShare result() const;
 
  private:
   AreaShare only_;
-  Enclosure area_, whole_;
+  Enclosure area_, weighted_, whole_;
   int count_ = 0;
   bool zero_ = true, full_ = true;
 };

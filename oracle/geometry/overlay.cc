@@ -152,8 +152,8 @@ mpz_class Overlay::fixed_value(const mpz_class& numerator, const mpz_class& deno
   return result;
 }
 
-double Overlay::box_unit() const {
-  return std::ldexp(1.0, static_cast<int>(std::clamp(-scale_, -5000L, 5000L)));
+long double Overlay::box_unit() const {
+  return std::ldexp(1.0L, static_cast<int>(std::clamp(-scale_, -16000L, 16000L)));
 }
 
 Overlay::Approximation Overlay::approximation_of(const ChartPoint& point) const {

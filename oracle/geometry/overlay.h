@@ -80,8 +80,8 @@ class Overlay {
 
   /// floor(numerator / denominator, in units of 2^-bits box units): exact to one unit.
   mpz_class fixed_value(const mpz_class& numerator, const mpz_class& denominator, int bits) const;
-  /// Grid units of one box unit, as a double; may be 0 or infinite at the ends of the range.
-  double box_unit() const;
+  /// Grid units of one box unit, which doubles need not hold.
+  long double box_unit() const;
   /// Area of a set of faces in the chart, in units of 2^(-2 kAreaBits) box areas; the true value is
   /// within +- error of it.
   struct FixedArea {

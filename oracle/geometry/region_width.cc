@@ -280,8 +280,8 @@ bool SlabCut::cut_slab(const std::vector<std::size_t>& crossing, const ChartPoin
 class RegionMeasure {
  public:
   RegionMeasure(const Overlay& overlay, const ChartMetric& metric,
-                const std::vector<std::uint32_t>& boundary)
-      : overlay_(overlay), metric_(metric), unit_(overlay.box_unit()) {
+                const std::vector<std::uint32_t>& boundary, long double step)
+      : overlay_(overlay), metric_(metric), unit_(overlay.box_unit() * step) {
     read(boundary);
     slabs_.cut([this](const BoundaryEdge& below, const BoundaryEdge& above, const Fraction& low_x,
                       const Fraction& high_x, const Fraction& middle_x, const Fraction& middle_y) {
@@ -291,12 +291,14 @@ class RegionMeasure {
 
   RegionShape shape(double resolution, double most) {
     const double rounding = 0x1p-47 * size_;
-    const double fine = std::max(4 * rounding, unit_ > 0 ? resolution / 2 / unit_ : 0.0);
+    const double fine =
+        std::max(4 * rounding, static_cast<double>(unit_ > 0 ? resolution / 2 / unit_ : 0.0L));
     const double lower = lower_bound(fine);
     double upper = queue_.empty() ? lower : std::max(lower, queue_.top().upper);
     if (!complete_) upper = size_;  // no better bound was computed
-    const Enclosure width{std::max(0.0, 2 * (lower - rounding)) * unit_,
-                          std::min(2 * (upper + rounding) * unit_, most)};
+    const auto scene_units = [&](double radius) { return static_cast<double>(2 * radius * unit_); };
+    const Enclosure width{round_down(scene_units(std::max(0.0, lower - rounding))),
+                          std::min(round_up(scene_units(upper + rounding)), most)};
     reduce(interior_);
     return {width, std::move(interior_)};
   }
@@ -323,7 +325,7 @@ class RegionMeasure {
 
   const Overlay& overlay_;
   const ChartMetric& metric_;
-  double unit_;
+  long double unit_;  // scene units; the grid's own may be beyond all doubles
   mpz_class base_x_, base_y_;
   SlabCut slabs_;
   BoxTree tree_;  // of the slabs' edges
@@ -432,9 +434,10 @@ double RegionMeasure::lower_bound(double fine) {
 }  // namespace
 
 RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
-                           const std::vector<std::uint32_t>& boundary, double resolution,
-                           double most) {
-  return RegionMeasure(overlay, metric, boundary).shape(resolution, most);
+                           const std::vector<std::uint32_t>& boundary,
+                           const WidthQuestion& question) {
+  return RegionMeasure(overlay, metric, boundary, question.step)
+      .shape(question.resolution, question.most);
 }
 
 double width_of_area(double share, double whole) {

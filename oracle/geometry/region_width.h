@@ -12,6 +12,8 @@
 #ifndef GNOMON_ORACLE_GEOMETRY_REGION_WIDTH_H
 #define GNOMON_ORACLE_GEOMETRY_REGION_WIDTH_H
 
+#include <limits>
+
 #include "gnomon/oracle/enclosure.h"
 #include "oracle/geometry/chart.h"
 #include "oracle/geometry/overlay.h"
@@ -25,17 +27,23 @@ struct ChartMetric {
 };
 
 struct RegionShape {
-  Enclosure width;      // grid units; from above at most `most`
+  Enclosure width;      // scene units; from above at most `most`
   ChartPoint interior;  // strictly inside the region
 };
 
+/// What is asked of a region's width, scene units.
+struct WidthQuestion {
+  long double step = 1;   // of the grid
+  double resolution = 0;  // bounds that are closer are not made closer
+  /// A bound that the caller knows, of a strip that holds the region, say; infinity: none. It is
+  /// what is told from above of a region of so many trapezoids that they are not all looked at.
+  double most = std::numeric_limits<double>::infinity();
+};
+
 /// `boundary`: the halfedges that have the region on their left and something else on their right.
-/// Bounds closer than `resolution` (grid units) are not made closer. `most` is a bound that the
-/// caller knows, of a strip that holds the region, say; infinity: none. It is what is told from
-/// above of a region of so many trapezoids that they are not all looked at.
 RegionShape measure_region(const Overlay& overlay, const ChartMetric& metric,
-                           const std::vector<std::uint32_t>& boundary, double resolution,
-                           double most);
+                           const std::vector<std::uint32_t>& boundary,
+                           const WidthQuestion& question);
 
 /// No disc in a region of this area is wider: 2 sqrt(area / pi), rounded up. The area is that share
 /// of `whole`.

@@ -104,7 +104,6 @@ class GroupComparison {
     AreaShare judged_misclassified, judged_uncovered, judged_overlapping, judged_outside;
   };
   const Shares& shares() const { return shares_; }
-  Enclosure whole_area() const { return overlay_.whole_area(); }
 
  private:
   Layer layer_of(LightState shade) const { return gnomon::oracle::layer_of(shade, rules_.area); }
@@ -168,6 +167,11 @@ class GroupComparison {
 void GroupComparison::add(const ClaimedFragment& fragment) {
   const Geometry& geometry = answer_.prepared().geometry;
   const Chart& chart = overlay_.chart();
+  // Of distances from the plane, that neither the grid's units nor the normal's go beyond doubles.
+  const Integers3& normal = chart.support().normal;
+  mpz_class size = 1;
+  for (const mpz_class& component : normal) size = std::max<mpz_class>(size, abs(component));
+  const mpq_class unit = geometry.step / size;
   Enclosure most, judged;
   const auto projected_loop = [&](const RationalLoop& points) {
     std::vector<ChartPoint> loop;
@@ -175,7 +179,7 @@ void GroupComparison::add(const ClaimedFragment& fragment) {
       const HomogeneousPoint place = to_grid(geometry, point);
       const mpz_class value = value_at(chart.support(), place);
       if (value != 0) {
-        const Enclosure own = enclose_ratio(value, place.w);
+        const Enclosure own = enclose_ratio(value * unit.get_num(), place.w * unit.get_den());
         most = greater_of(most, own);
         const bool excused = result_.rounding_radius > 0 &&
                              is_rounding(std::fabs(frame().height(point)), result_.rounding_radius);
@@ -189,10 +193,9 @@ void GroupComparison::add(const ClaimedFragment& fragment) {
   std::vector<std::vector<ChartPoint>> holes;
   for (const RationalLoop& hole : fragment.holes) holes.push_back(projected_loop(hole));
   if (!most.is_zero()) {
-    const Integers3& normal = chart.support().normal;
-    const Enclosure length = enclose_square_root(mpq_class(dot(normal, normal)));
+    const Enclosure length = enclose_square_root(mpq_class(dot(normal, normal)) / (size * size));
     const auto in_scene = [&](Enclosure distance) {
-      return distance.is_zero() ? distance : distance / length * enclose(geometry.step);
+      return distance.is_zero() ? distance : distance / length;
     };
     result_.off_plane = greater_of(result_.off_plane, in_scene(most));
     result_.judged_off_plane = greater_of(result_.judged_off_plane, in_scene(judged));
@@ -397,7 +400,7 @@ long double GroupComparison::width_at_most(RoundingCells& places,
 }
 
 /// Of a region of so many edges that its trapezoids may be too many to look at: what its area
-/// allows, grid units.
+/// allows, scene units.
 double GroupComparison::width_by_area(const std::vector<std::uint32_t>& faces,
                                       const std::vector<std::uint32_t>& boundary) const {
   constexpr std::size_t kFewEdges = 200;
@@ -407,7 +410,9 @@ double GroupComparison::width_by_area(const std::vector<std::uint32_t>& faces,
   const double share = overlay_.share(chosen, 0).fraction.upper;
   // 1 is also what is told where fixed point tells nothing.
   if (!(share < 1)) return std::numeric_limits<double>::infinity();
-  return width_of_area(share, group_area_on_grid(answer_.prepared(), group_.parts).upper);
+  const PreparedScene& prepared = answer_.prepared();
+  const long double width = width_of_area(share, group_area_on_grid(prepared, group_.parts).upper);
+  return round_up(static_cast<double>(width * nearest(prepared.geometry.step)));
 }
 
 /// What a region has to be wider than to matter: neither a greatest width nor the regions that are
@@ -448,13 +453,14 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
   const Geometry& geometry = answer_.prepared().geometry;
   const ChartMetric metric(overlay_.chart());
   ErrorRegion region;
-  const double step = geometry.step.get_d();
-  const double resolution = std::max(options_.width_resolution, known) / step;
-  const double strip = (1 + 0x1p-50) * static_cast<double>(most) / step;
-  const RegionShape shape = measure_region(overlay, metric, boundary, resolution,
-                                           std::min(strip, width_by_area(faces, boundary)));
+  const double strip = round_up(static_cast<double>(most));
+  const RegionShape shape =
+      measure_region(overlay, metric, boundary,
+                     {.step = nearest(geometry.step),
+                      .resolution = std::max(options_.width_resolution, known),
+                      .most = std::min(strip, width_by_area(faces, boundary))});
   Witness& witness = region.witness;
-  witness.width = not_negative(shape.width * enclose(geometry.step));
+  witness.width = not_negative(shape.width);
   region.rounding = rounding;
   if (!(options_.clearance > 0) && place_of(region) >= options_.most_regions) return region;
   // The point belongs to one of the faces: say what is wrong right there. A region of several faces
@@ -469,8 +475,9 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
     overlay.for_each_halfedge(worst, [&](std::uint32_t h) {
       if (overlay.halfedges()[Overlay::twin(h)].face != worst) own.push_back(h);
     });
-    constexpr double kNoMatter = std::numeric_limits<double>::infinity();
-    inner = measure_region(overlay, metric, own, kNoMatter, kNoMatter).interior;
+    // How wide it is does not matter.
+    const WidthQuestion none{.resolution = std::numeric_limits<double>::infinity()};
+    inner = measure_region(overlay, metric, own, none).interior;
   }
   const Cell& cell = cells[worst];
   witness.kind = kind_of(cell);
@@ -642,6 +649,9 @@ PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
       {&Shares::judged_uncovered, &PolygonComparison::judged_uncovered},
       {&Shares::judged_overlapping, &PolygonComparison::judged_overlapping},
       {&Shares::judged_outside, &PolygonComparison::judged_outside}};
+  std::vector<std::vector<std::uint32_t>> parts;
+  for (const ReceiverGroup& group : entry.groups) parts.push_back(group.parts);
+  const std::vector<Enclosure> weights = areas_in_ratio(answer.prepared(), parts);
   std::array<ShareSum, std::size(kShares)> sums;
   for (std::size_t g = 0; g < entry.groups.size(); ++g) {
     const ReceiverGroup& group = entry.groups[g];
@@ -650,7 +660,7 @@ PolygonComparison compare_entry(const ExactAnswer& answer, std::uint32_t light,
     for (const ClaimedFragment* fragment : fragments[g]) comparison.add(*fragment);
     comparison.compare();
     for (std::size_t i = 0; i < sums.size(); ++i) {
-      sums[i].add(comparison.shares().*kShares[i].first, comparison.whole_area());
+      sums[i].add(comparison.shares().*kShares[i].first, weights[g]);
     }
   }
   for (std::size_t i = 0; i < sums.size(); ++i) result.*kShares[i].second = sums[i].result();

@@ -44,7 +44,8 @@ class Scales : public testing::Test {
     return write(scene);
   }
   rapidjson::Document certificate(const std::string& scene, const std::string& kernel) {
-    const RunResult run = run_gnomon({"certify", scene, "--kernel", kernel, "--json", "-"});
+    const RunResult run =
+        run_gnomon({"certify", scene, "--kernel", kernel, "--measure", "--json", "-"});
     rapidjson::Document json;
     json.Parse(run.out.c_str());
     EXPECT_FALSE(json.HasParseError()) << run.out << run.err;
@@ -74,6 +75,26 @@ TEST_F(Scales, WrongSharesAreRightWhereAreasAreNot) {
     EXPECT_LE(run["totals"]["wrong_share"].GetDouble(), 1) << exponent;
     EXPECT_THAT(run["excess"].GetString(), HasSubstr("more than 1e-09")) << exponent;
   }
+}
+
+TEST_F(Scales, OneLeastDoubleAmongOthersIsTheGridsAndNotTheWidths) {
+  auto read = read_scene(scaled_example("table-chair", 0));
+  ASSERT_TRUE(read);
+  Scene& scene = read->scene;
+  Number* zero = nullptr;
+  for (Position& vertex : scene.vertices) {
+    for (Number& number : vertex) {
+      if (zero == nullptr && number.nearest() == 0) zero = &number;
+    }
+  }
+  ASSERT_NE(zero, nullptr);
+  *zero = Number(5e-324);
+  const auto json = certificate(write(scene), "double");
+  const auto& totals = json["runs"][0]["totals"];
+  EXPECT_STREQ(json["runs"][0]["verdict"].GetString(), "within tolerance");
+  EXPECT_GT(totals["regions"].GetUint(), 0u);
+  EXPECT_LT(totals["width"][1].GetDouble(), 1e-9);
+  EXPECT_LT(totals["off_plane"][1].GetDouble(), 1e-9);
 }
 
 TEST_F(Scales, ARegionIsNoWiderThanItsAreaAllows) {

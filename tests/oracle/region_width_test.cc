@@ -26,9 +26,7 @@ Enclosure width_of_loop(const Chart& chart, const std::vector<ChartPoint>& loop)
   overlay.build();
   std::vector<std::uint32_t> boundary;
   overlay.for_each_halfedge(1, [&](std::uint32_t h) { boundary.push_back(h); });
-  return measure_region(overlay, ChartMetric(chart), boundary, 0,
-                        std::numeric_limits<double>::infinity())
-      .width;
+  return measure_region(overlay, ChartMetric(chart), boundary, {}).width;
 }
 
 /// In the plane z = 0, whose chart is the plane itself.
