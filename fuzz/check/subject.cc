@@ -44,8 +44,10 @@ Expected<void> check_mistake(const Subject& subject, const std::string& whole) {
                 "a kernel without +thin");
   }
   const KernelId kernel = subject.kernel.kernel;
+  // A picture has no area lights.
+  const bool has_areas = method_info(subject.algorithm).domain != Domain::kImageSpace;
   if (!applies_to(subject.mistake, kernel, subject.algorithm) &&
-      !applies_to_area(subject.mistake, kernel, subject.area_algorithm)) {
+      !(has_areas && applies_to_area(subject.mistake, kernel, subject.area_algorithm))) {
     return fail(ErrorCode::kUsage, "'" + whole + "': " + mistake + " changes nothing there",
                 "a kernel and an algorithm that it applies to (docs/bug-zoo.md)");
   }

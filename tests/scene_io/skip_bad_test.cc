@@ -35,8 +35,7 @@ TEST(SkipBad, Obj) {
                "m.obj"),
       ElementsAre("1@7: a face of 2 vertices", "2@8: index 9 is not that of a vertex",
                   "3@9: 'x' is not a vertex of a face", "4@10: vertex 5: 'nan' is not finite",
-                  "5@11: polygon '5': the loop crosses itself: it runs as much clockwise as "
-                  "counter-clockwise",
+                  "5@11: polygon '5': the loop crosses itself: edges 1-3 and 2-0",
                   "6@12: index 0", "8@15: vertex 6: a vertex of 2 numbers", "kept 0", "kept 7"));
 }
 
@@ -46,8 +45,7 @@ TEST(SkipBad, Off) {
                "2\n3 0 1 4\n",
                "m.off"),
       ElementsAre("1@9: index 9 is not that of a vertex",
-                  "2@10: polygon '2': the loop crosses itself: it runs as much clockwise as "
-                  "counter-clockwise",
+                  "2@10: polygon '2': the loop crosses itself: edges 1-3 and 2-0",
                   "3@11: vertex 4: 'inf' is not finite", "kept 0"));
 }
 
@@ -80,8 +78,7 @@ TEST(SkipBad, Json) {
               ElementsAre("short@5: a loop of 2 vertices", "2@6: index 7 is not that of a vertex",
                           "3@7: index -7 is not that of a vertex",
                           "4@8: vertex 4: '1e999' is too large for a double",
-                          "5@9: polygon '5': the loop crosses itself: it runs as much clockwise as "
-                          "counter-clockwise",
+                          "5@9: polygon '5': the loop crosses itself: edges 1-3 and 2-0",
                           "7@11: index 9 is not that of a vertex", "kept 0", "kept 6"));
   // What is no matter of one polygon stays an error.
   EXPECT_THAT(left_out(head + R"({"loop": "x"}]})", "s.json"),
