@@ -109,6 +109,12 @@ class Pictures {
 /// A picture of the run that is furthest off, and one of every run that failed.
 void add_pictures(Report& report, const LoadedScene& loaded, const report::Certificate& certificate,
                   const std::vector<Claims>& candidates, const Claims& exact) {
+  // A painter's order and its cuts grow with the square of the parts.
+  constexpr std::size_t kMostPainted = 3000;
+  if (loaded.prepared.parts.size() > kMostPainted) {
+    report.notes.emplace_back("The scene has too many polygons for pictures as SVG.");
+    return;
+  }
   Pictures pictures(loaded, report);
   const report::JudgedRun* worst = nullptr;
   const Claims* worst_candidate = nullptr;
