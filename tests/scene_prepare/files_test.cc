@@ -17,7 +17,8 @@ std::vector<fs::path> files_in(const fs::path& directory) {
   for (const auto& entry : fs::directory_iterator(directory)) {
     // Beside the scenes there are a page and programs.
     const fs::path extension = entry.path().extension();
-    if (extension != ".md" && extension != ".py" && extension != ".cc") result.push_back(entry.path());
+    if (extension != ".md" && extension != ".py" && extension != ".cc")
+      result.push_back(entry.path());
   }
   std::sort(result.begin(), result.end());
   return result;
