@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/common/algorithm_choice.h"
 #include "cli/common/camera_options.h"
 #include "cli/common/commands.h"
 #include "cli/common/interrupt.h"
@@ -131,12 +132,7 @@ void add_pixels_command(CLI::App& app, Action& action) {
       "  gnomon pixels room.json --algorithm svbsp --kernel double -o room.pixels.json");
   add_scene_options(command, options->scene);
   add_camera_options(command, options->camera);
-  command
-      .add_option("--kernel", options->kernel,
-                  kernel_names(", ") +
-                      ", or exact (= " + std::string(kernel_info(kDefaultExactKernel).name) + ")")
-      ->type_name("K")
-      ->capture_default_str();
+  add_kernel_option(command, options->kernel);
   add_pixel_algorithm_option(command, options->algorithm);
   command.add_flag("--stats", options->stats,
                    "Print counts, times and, for plane, who decided, to standard error");

@@ -291,12 +291,7 @@ void add_shadows_command(CLI::App& app, Action& action) {
       "Example:\n  gnomon shadows room.json --kernel exact --exact-fractions --fragments -o "
       "room.result.json");
   add_scene_options(command, options->scene);
-  command
-      .add_option("--kernel", options->kernel,
-                  kernel_names(", ") +
-                      ", or exact (= " + std::string(kernel_info(kDefaultExactKernel).name) + ")")
-      ->type_name("K")
-      ->capture_default_str();
+  add_kernel_option(command, options->kernel);
   add_algorithm_option(command, options->algorithm);
   command.add_flag("--identity", options->identity,
                    "Rounded kernels: a vertex made by a plane is on it, whatever its numbers say");

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "gnomon/kernel/kernel_choice.h"
+
 namespace gnomon::cli {
 
 namespace {
@@ -35,6 +37,15 @@ MethodId automatic_method(std::initializer_list<NeedyOption> needs) {
 }
 
 }  // namespace
+
+CLI::Option* add_kernel_option(CLI::App& command, std::string& name) {
+  return command
+      .add_option("--kernel", name,
+                  kernel_names(", ") +
+                      ", or exact (= " + std::string(kernel_info(kDefaultExactKernel).name) + ")")
+      ->type_name("K")
+      ->capture_default_str();
+}
 
 CLI::Option* add_algorithm_option(CLI::App& command, std::string& name, std::string_view question,
                                   std::string_view besides) {

@@ -21,6 +21,9 @@ inline constexpr std::string_view kAutomaticName = "auto";
 inline constexpr std::string_view kBothName = "both";
 inline constexpr std::string_view kAllName = "all";
 
+/// --kernel of a command that runs one, into `name`, whose value is the default.
+CLI::Option* add_kernel_option(CLI::App& command, std::string& name);
+
 /// --algorithm, into `name`. `question` opens the help text, `besides` says what the command takes
 /// beyond names of methods.
 CLI::Option* add_algorithm_option(

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "comparison/engine_tables/table_verdict.h"
+#include "comparison/verdicts_json.h"
 #include "report/json/json_writer.h"
 #include "report/text/csv_field.h"
 #include "report/text/number_text.h"
@@ -153,23 +154,7 @@ void write_run(JsonWriter& json, const TableVerdict& verdict) {
 }  // namespace
 
 void write_table_verdicts_json(report::TextSink& sink, const std::vector<TableVerdict>& verdicts) {
-  JsonWriter json(sink);
-  const TableVerdict& first = verdicts.front();
-  json.begin_object();
-  json.member("format", "gnomon-certificate");
-  json.member("version", 1);
-  json.member("scene", first.scene);
-  json.member("geometry", first.geometry_digest);
-  json.member("numbers", first.numbers == NumberMeaning::kDecimal ? "decimal" : "double");
-  json.member("polygons", first.polygons);
-  json.member("parts", first.parts);
-  if (std::ranges::any_of(verdicts, &TableVerdict::interrupted)) json.member("interrupted", true);
-  json.key("runs");
-  json.begin_array();
-  for (const TableVerdict& verdict : verdicts) write_run(json, verdict);
-  json.end_array();
-  json.end_object();
-  json.finish();
+  write_verdicts_json(sink, verdicts, write_run);
 }
 
 std::string table_verdicts_csv(const std::vector<TableVerdict>& verdicts) {

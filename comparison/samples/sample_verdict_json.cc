@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "comparison/samples/sample_verdict.h"
+#include "comparison/verdicts_json.h"
 #include "gnomon/result/classes.h"
 #include "report/json/json_writer.h"
 
@@ -128,23 +129,9 @@ void write_run(JsonWriter& json, const SampleVerdict& verdict, const Scene& scen
 
 void write_sample_verdicts_json(report::TextSink& sink, const std::vector<SampleVerdict>& verdicts,
                                 const Scene& scene, const PreparedScene& prepared) {
-  JsonWriter json(sink);
-  const SampleVerdict& first = verdicts.front();
-  json.begin_object();
-  json.member("format", "gnomon-certificate");
-  json.member("version", 1);
-  json.member("scene", first.scene);
-  json.member("geometry", first.geometry_digest);
-  json.member("numbers", first.numbers == NumberMeaning::kDecimal ? "decimal" : "double");
-  json.member("polygons", first.polygons);
-  json.member("parts", first.parts);
-  if (std::ranges::any_of(verdicts, &SampleVerdict::interrupted)) json.member("interrupted", true);
-  json.key("runs");
-  json.begin_array();
-  for (const SampleVerdict& verdict : verdicts) write_run(json, verdict, scene, prepared);
-  json.end_array();
-  json.end_object();
-  json.finish();
+  write_verdicts_json(sink, verdicts, [&](JsonWriter& json, const SampleVerdict& verdict) {
+    write_run(json, verdict, scene, prepared);
+  });
 }
 
 }  // namespace gnomon::comparison
