@@ -2,8 +2,9 @@
 // Whether the rings of a polygon are legal (see polygon_cut.h), exactly.
 //
 // What a ring runs along there and back, a hair or the bridge of a keyhole, bounds nothing: it is
-// taken away before anything is asked, so that it may lie anywhere. A hair is found once vertices
-// that lie in edges are put into them.
+// taken away before other rings are looked at, so that it may lie anywhere among them. A ring that
+// crosses itself is refused even where a hair does it: its loop intersects itself. A hair is found
+// once vertices that lie in edges are put into them.
 #ifndef GNOMON_SCENE_PREPARE_RING_CHECK_H
 #define GNOMON_SCENE_PREPARE_RING_CHECK_H
 
@@ -36,7 +37,11 @@ class RingCheck {
     if (auto problem = find_touching_vertices(*index)) return problem;
     input_.tell(0.3);
     if (take_edges_apart(index->edges())) index.emplace(chart_, edges_);
-    if (auto problem = check_crossings(*index)) return problem;
+    if (drop_hairs()) {
+      if (auto problem = check_crossings(*index, &RingCheck::crosses_itself)) return problem;
+      index.emplace(chart_, edges_);
+    }
+    if (auto problem = check_crossings(*index, &RingCheck::is_crossing)) return problem;
     input_.tell(0.5);
     turn_holes();
     if (!needs_tracing()) return std::nullopt;
@@ -150,8 +155,8 @@ class RingCheck {
                                              chart_.key(v), edge_name(edge))};
   }
 
-  /// Makes edges_: pieces of edges between the vertices in them, without hairs. True if they are
-  /// not the edges as they were.
+  /// Makes edges_: pieces of edges between the vertices in them. True if they are not the edges as
+  /// they were.
   bool take_edges_apart(const std::vector<RingEdge>& edges) {
     for (std::size_t i = 0; i < edges.size(); ++i) {
       RingEdge piece = edges[i];
@@ -172,12 +177,13 @@ class RingCheck {
       edges_.push_back(piece);
     }
     inside_.clear();
-    if (touches_) drop_hairs();
-    return edges_.size() != edges.size() || touches_;
+    return edges_.size() != edges.size();
   }
 
-  /// Of each ring, edges that it runs along there and back, as often as it does.
-  void drop_hairs() {
+  /// Of each ring, edges that it runs along there and back, as often as it does. True if there are
+  /// any.
+  bool drop_hairs() {
+    if (!touches_) return false;
     std::vector<std::uint32_t> order(edges_.size());
     for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
     const auto ends = [&](std::uint32_t i) {
@@ -203,11 +209,17 @@ class RingCheck {
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       if (dropped[i] == 0) edges_[kept++] = edges_[i];
     }
+    const bool any = kept != edges_.size();
     edges_.resize(kept);
+    return any;
   }
 
-  /// The first crossing: of a ring with itself before those of two rings.
-  std::optional<CutProblem> check_crossings(const EdgeIndex<Int>& index) const {
+  /// The first pair of edges of which `crosses` is true: of a ring with itself before those of two
+  /// rings.
+  std::optional<CutProblem> check_crossings(const EdgeIndex<Int>& index,
+                                            bool (RingCheck::*crosses)(const RingEdge&,
+                                                                       const RingEdge&)
+                                                const) const {
     const std::vector<RingEdge>& edges = index.edges();
     using Place = std::tuple<bool, std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
     std::optional<Place> first;
@@ -215,7 +227,7 @@ class RingCheck {
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
       if (input_.stopped()) return stop();
       index.for_each_near(edges[i].a, edges[i].b, [&](std::uint32_t j) {
-        if (j <= i || !is_crossing(edges[i], edges[j])) return;
+        if (j <= i || !(this->*crosses)(edges[i], edges[j])) return;
         const RingEdge &e = edges[i], &f = edges[j];
         const Place place{e.ring != f.ring, e.ring, f.ring, e.whole, f.whole};
         if (first && *first <= place) return;
@@ -230,10 +242,13 @@ class RingCheck {
                                             e.ring == 0 ? "the loop" : "another hole", edge_name(f),
                                             edge_name(e))};
     }
-    const bool crosses = chart_.cross_properly(e.a, e.b, f.a, f.b);
-    return CutProblem{e.ring,
-                      fmt::format("{} itself: edges {} and {}", crosses ? "crosses" : "touches",
-                                  edge_name(e), edge_name(f))};
+    return CutProblem{e.ring, fmt::format("{} itself: edges {} and {}",
+                                          crosses_itself(e, f) ? "crosses" : "touches",
+                                          edge_name(e), edge_name(f))};
+  }
+
+  bool crosses_itself(const RingEdge& e, const RingEdge& f) const {
+    return e.ring == f.ring && chart_.cross_properly(e.a, e.b, f.a, f.b);
   }
 
   bool is_crossing(const RingEdge& e, const RingEdge& f) const {

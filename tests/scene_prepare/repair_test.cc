@@ -233,6 +233,22 @@ TEST(Holes, WithHairsThatGoAnywhere) {
             1u);
 }
 
+TEST(Loops, WithHairsThatCrossThem) {
+  // Two holes cut by seams from one corner: the second seam runs outside the first hole, or across.
+  const auto seams = [](const Triple& second_hole) {
+    const auto at = [&](double x, double y) {
+      return Triple{second_hole[0] + x, second_hole[1] + y, 0};
+    };
+    const Triple corner{0, 12, 0};
+    return Loop{{0, 0, 0}, {12, 0, 0}, {12, 12, 0}, corner, {2, 2, 0}, {2, 5, 0},
+                {5, 5, 0}, {5, 2, 0},  {2, 2, 0},   corner, at(0, 0),  at(0, 2),
+                at(2, 2),  at(2, 0),   at(0, 0),    corner};
+  };
+  EXPECT_GE(sound(seams({8, 8, 0})).parts.size(), 4u);
+  const Error across = error_of(seams({7, 1, 0}));
+  EXPECT_NE(across.what.find("crosses itself: edges"), std::string::npos) << across.what;
+}
+
 TEST(Holes, OfALoopWithoutAreaAreCheckedFirst) {
   const Error outside =
       error_of({{0, 0, 0}, {4, 0, 0}, {8, 0, 0}}, {{{1, 1, 0}, {2, 1, 0}, {2, 2, 0}}});
