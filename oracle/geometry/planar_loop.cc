@@ -97,22 +97,15 @@ long double perimeter_of(const PlanarLoop& loop) {
   return sum;
 }
 
-long double width_of(const PlanarLoop& loop) {
+bool is_wider(const PlanarLoop& loop, long double width) {
   // Corners that cuts have made may be in the order that rounding gave them.
-  const PlanarLoop hull = hull_of(loop);
-  if (hull.size() < 3) return 0;
-  const std::vector<PlanarLine> lines = lines_of(hull);
-  long double low = 0, high = std::sqrt(std::max(0.0L, area_of(hull)));
-  constexpr int kSteps = 60;
-  for (int step = 0; step < kSteps && low < high; ++step) {
-    const long double radius = low + (high - low) / 2;
-    PlanarLoop rest = hull;
-    for (const PlanarLine& line : lines) {
-      if (!rest.empty()) rest = cut(rest, line.grown(-radius));
-    }
-    (rest.empty() ? high : low) = radius;
+  PlanarLoop middles = hull_of(loop);
+  if (middles.size() < 3) return false;
+  for (const PlanarLine& line : lines_of(middles)) {
+    middles = cut(middles, line.grown(-width / 2));
+    if (middles.empty()) return false;
   }
-  return 2 * high;
+  return true;
 }
 
 long double strip_width_of(const PlanarLoop& points) {

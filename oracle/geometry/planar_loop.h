@@ -48,8 +48,8 @@ PlanarLoop hull_of(PlanarLoop points);
 /// Signed: positive if counter-clockwise.
 long double area_of(const PlanarLoop& loop);
 long double perimeter_of(const PlanarLoop& loop);
-/// The diameter of the largest disc in a counter-clockwise convex loop.
-long double width_of(const PlanarLoop& loop);
+/// A disc of a greater diameter than `width` is in a convex loop.
+bool is_wider(const PlanarLoop& loop, long double width);
 /// Of the narrowest strip along an edge of their hull that holds some points; infinite if they are
 /// one point.
 long double strip_width_of(const PlanarLoop& points);

@@ -70,7 +70,8 @@ class WitnessChecker {
   /// A piece of error that is no rounding, until the whole side is known.
   struct Excess {
     ErrorKind kind = ErrorKind::kMisclassified;
-    long double area = 0, width = 0;
+    long double area = 0;
+    bool wide = false;  // than the comparison excuses
     std::string text;
     std::optional<std::uint64_t> fragment;
   };

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <ranges>
 
@@ -95,7 +96,7 @@ void WitnessChecker::add_error(const Family& family, const FlatPiece& piece, Err
   if (error.empty()) return;
   std::vector<Border> borders = borders_of(family, piece);
   borders.insert(borders.end(), more.begin(), more.end());
-  Excess excess{kind, 0, 0, text,
+  Excess excess{kind, 0, false, text,
                 piece.fragment ? std::optional<std::uint64_t>(piece.index) : std::nullopt};
   for (const PlanarLoop& loop : error) {
     if (loop.size() < 3) continue;
@@ -104,27 +105,21 @@ void WitnessChecker::add_error(const Family& family, const FlatPiece& piece, Err
       continue;
     }
     excess.area += area_of(loop);
-    excess.width = std::max(excess.width, width_of(loop));
+    excess.wide = excess.wide || is_wider(loop, width_);
   }
   if (excess.area > 0) excesses_.push_back(std::move(excess));
 }
 
 void WitnessChecker::settle(const ClaimedPolygon& polygon, long double area) {
-  const auto share = [&](const auto& counts) {
-    long double sum = 0;
-    for (const Excess& excess : excesses_) sum += counts(excess.kind) ? excess.area : 0;
-    return sum / area;
-  };
   // What is not covered is misclassified as well.
-  const auto wrong = share([](ErrorKind kind) {
-    return kind == ErrorKind::kMisclassified || kind == ErrorKind::kUncovered;
-  });
+  const auto weighed_as = [](ErrorKind kind) {
+    return kind == ErrorKind::kUncovered ? ErrorKind::kMisclassified : kind;
+  };
+  std::map<ErrorKind, long double> areas;
+  for (const Excess& excess : excesses_) areas[weighed_as(excess.kind)] += excess.area;
   for (const Excess& excess : excesses_) {
-    long double own = share([&](ErrorKind kind) { return kind == excess.kind; });
-    if (excess.kind == ErrorKind::kMisclassified || excess.kind == ErrorKind::kUncovered) {
-      own = wrong;
-    }
-    if (!(own <= options_.tolerance) || !(excess.width <= width_)) {
+    const long double share = areas[weighed_as(excess.kind)] / area;
+    if (!(share <= options_.tolerance) || excess.wide) {
       violation(polygon.id, excess.text, excess.fragment);
     }
   }
@@ -335,7 +330,7 @@ void WitnessChecker::check_rounded_tiling(Family& family, const std::vector<Flat
   const Loops uncovered = left_of(family.shades.loops(), pieces, rounding_reach(family.radius));
   for (const PlanarLoop& loop : uncovered) {
     const FlatPiece none(nullptr, 0, loop);
-    Excess excess{ErrorKind::kUncovered, area_of(loop), width_of(loop),
+    Excess excess{ErrorKind::kUncovered, area_of(loop), is_wider(loop, width_),
                   "the fragments' areas do not add up to the polygon's", std::nullopt};
     if (!is_rounding(loop, own_borders, family.radius) && excess.area > 0) {
       excesses_.push_back(std::move(excess));

@@ -42,6 +42,16 @@ void expect_near(const Enclosure& width, double truth) {
   EXPECT_LE(width.upper, 1.06 * width.lower);
 }
 
+/// The diameter of the largest disc in a convex loop.
+long double width_of(const PlanarLoop& loop) {
+  long double low = 0, high = 2 * std::sqrt(area_of(loop));
+  for (int step = 0; step < 60; ++step) {
+    const long double middle = low + (high - low) / 2;
+    (is_wider(loop, middle) ? low : high) = middle;
+  }
+  return high;
+}
+
 TEST(RegionWidth, LongStripsInAnyDirection) {
   for (const auto& [x, y, length] : {std::tuple{3, 4, 5}, {12, 5, 13}, {-15, 8, 17}, {1, 0, 1}}) {
     SCOPED_TRACE(testing::Message() << "along " << x << ", " << y);
