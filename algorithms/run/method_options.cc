@@ -120,6 +120,20 @@ constexpr std::array kOptions = {
         .summary = "covered polygons cast nothing, volumes inside a later one are dropped",
         .read = [](MethodOptionValues& v, std::string_view t) { return read_switch(v.prune, t); },
         .text = [](const MethodOptionValues& v) { return on_or_off(v.prune); }},
+    MethodOption{.name = "split",
+                 .values = "axis|contour",
+                 .summary = "what splits cells: values of an axis, or planes through edges of the "
+                            "contour",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<CellSplit>(
+                           v.split, t,
+                           {{"axis", CellSplit::kAxis}, {"contour", CellSplit::kContour}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.split == CellSplit::kAxis ? "axis" : "contour");
+                     }},
     MethodOption{.name = "tiles",
                  .values = "1..1024",
                  .summary = "rows and columns of tiles on each face of the cube",

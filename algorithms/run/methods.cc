@@ -28,6 +28,7 @@ using enum Counter;
 constexpr std::array<std::string_view, 2> kBasicOptions = {"cover", "prune"};
 constexpr std::array<std::string_view, 3> kTilingOptions = {"tiles", "cover", "prune"};
 constexpr std::array<std::string_view, 1> kSvbspFullOptions = {"order"};
+constexpr std::array<std::string_view, 1> kSectorsOptions = {"split"};
 constexpr std::array<std::string_view, 2> kTwoPassOptions = {"cells", "cover"};
 constexpr std::array kSvbspCounters = {kScenePieces, kShadowPolygons, kNodes, kDepth};
 constexpr std::array kBasicCounters = {kScenePieces, kVolumes, kTests,  kCovered,
@@ -46,6 +47,7 @@ constexpr std::array<std::string_view, 6> kShadowPolygonsOptions = {
 constexpr std::array kShadowPolygonsCounters = {
     kSamples,     kSpans,          kDepthTests,      kWalls,     kActiveWalls,    kWallTests,
     kWallSamples, kNeighbourTests, kNeighbourMisses, kWallBytes, kDepthComplexity};
+constexpr std::array kSectorsCounters = {kShadowPolygons, kCellCuts};
 constexpr std::array kTwoPassCounters = {kClips, kShadowPolygons, kLists, kLongestList,
                                          kDeepestStack};
 
@@ -57,7 +59,9 @@ constexpr std::array kObjectMethods = {
            .source = "Slater 1992, tiles, in light space",
            .lights = {.point = true},
            .explains = true,
-           .threads = true},
+           .threads = true,
+           .options = kSectorsOptions,
+           .counters = kSectorsCounters},
     Method{.id = MethodId::kContour,
            .name = "contour",
            .summary = "edges seen from the light, classes and shares alone",

@@ -32,6 +32,7 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kLists, "lists", "lists of polygons that one of them clipped", kSum},
     {Counter::kLongestList, "longest list", "polygons in the longest list", kMost},
     {Counter::kDeepestStack, "deepest stack", "lists that waited at the same time", kMost},
+    {Counter::kCellCuts, "cell cuts", "cuts of polygons by planes between cells", kSum},
     {Counter::kIntervals, "intervals", "of edges inside other polygons", kSum},
     {Counter::kSegments, "segments", "of edges that take light from what is behind them", kSum},
     {Counter::kDarkPolygons, "dark polygons", "proven to be so before they are met", kSum},

@@ -20,6 +20,7 @@
 #include "algorithms/partition/run_task.h"
 #include "algorithms/sectors/by_sectors.h"
 #include "algorithms/sectors/sector_tree.inl.h"
+#include "gnomon/algorithms/facing_chain.h"
 #include "kernel/concept/kernel_model.h"
 #include "kernel/signs/fp_environment.h"
 
@@ -64,6 +65,9 @@ class SectorRun {
     result_.facing_edges = facing_.edges;
   }
 
+  /// Cells are split by planes through edges of the contour of what casts, not at values of axes.
+  /// Call it before run().
+  void split_by_contour();
   /// `progress` gets the share of the work that is done, from one thread at a time.
   RunOutcome run(const std::function<void(double)>& progress);
   LightResult finish();
@@ -124,12 +128,26 @@ class SectorRun {
   std::vector<Ball> areas_;
   std::vector<PairBall> pair_areas_;
   FractionSums sums_;
+  /// If cells are split there: by plane of an edge, whether it is of the contour.
+  std::vector<std::uint8_t> contour_;
   std::span<const std::uint8_t> receives_;  // of facing_.parts; empty: all do
   std::vector<SectorState> states_;         // of facing_.parts
   std::vector<SectorOutput> outputs_;
   StageCounts stages_;
   LightResult result_;
 };
+
+template <SectorSpaceModel Space>
+void SectorRun<Space>::split_by_contour() {
+  std::vector<Side> sides;
+  for (const Facing& facing : facing_.facing) {
+    sides.push_back(facing.faces() ? facing.side : Side::kOn);
+  }
+  contour_.assign(scene_.geometry.edges.size(), 0);
+  for (const ContourEdge& edge : facing_chain(scene_, sides).contour) {
+    contour_[edge.edge.index()] = 1;
+  }
+}
 
 /// Facing parts as loops and items, in order.
 template <SectorSpaceModel Space>
@@ -155,9 +173,14 @@ std::vector<SectorItem> SectorRun<Space>::import(LoopStore<Vertex>& loops) {
                   item.first);
       if (!space_.knows_identity()) {  // planes of edges are computed here, once a polygon
         for (std::uint32_t k = 0; k < item.count; ++k) {
-          loops.edge(item.first + k) =
-              space_.shadow_plane(loops.edge(item.first + k), loops.vertex(item.first + k),
-                                  loops.vertex(item.first + (k + 1 == item.count ? 0 : k + 1)));
+          PlaneRef& edge = loops.edge(item.first + k);
+          const bool of_contour = !contour_.empty() && contour_[edge.index()] != 0;
+          edge = space_.shadow_plane(edge, loops.vertex(item.first + k),
+                                     loops.vertex(item.first + (k + 1 == item.count ? 0 : k + 1)));
+          if (of_contour) {
+            contour_.resize(std::max<std::size_t>(contour_.size(), edge.index() + 1));
+            contour_[edge.index()] = 1;
+          }
         }
       }
       const LoopView<Vertex> loop =
@@ -225,10 +248,10 @@ RunOutcome SectorRun<Space>::run(const std::function<void(double)>& progress) {
   constexpr std::uint32_t kSmallestTask = 256, kLargestTask = 16384, kTasks = 128;
   std::atomic<std::uint64_t> pieces = 0;
   std::atomic<bool> stopped = false, no_ieee = false;
-  const SectorContext context{scene_, options_,    rules_, facing_, charts_, light_,
-                              areas_, pair_areas_, sums_,  pieces,  stopped, leaf_method_};
   LoopStore<Vertex> loops;
   std::vector<SectorItem> items = import(loops);
+  const SectorContext context{scene_,      options_, rules_, facing_, charts_,      light_,  areas_,
+                              pair_areas_, sums_,    pieces, stopped, leaf_method_, contour_};
   Tree planner(context, std::move(space_));
   planner.add_sector_planes();
   planner.loops() = std::move(loops);
@@ -430,6 +453,7 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
     FacingParts facing(scene, space, task.rules);
     SectorRun<Space> run(scene, run_options, task.rules, scene_space, lights[i], std::move(space),
                          std::move(facing), leaf_method, cover);
+    if (options.method.options.split == CellSplit::kContour) run.split_by_contour();
     std::function<void(double)> progress;
     if (options.control.progress) {
       progress = [&](double share) {

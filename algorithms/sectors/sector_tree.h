@@ -90,6 +90,8 @@ struct SectorContext {
   std::atomic<std::uint64_t>& pieces;  // so far
   std::atomic<bool>& stopped;          // interrupted, or too many pieces
   LeafMethod leaf_method = LeafMethod::kSubtract;
+  /// Not empty: which planes of edges, by their numbers, are of the contour. They split cells then.
+  std::span<const std::uint8_t> contour;
 };
 
 /// A cell of light space: which of the sector planes are still to come, and the chart after them.
@@ -114,6 +116,7 @@ class SectorTree {
   /// that made the task.
   struct Task {
     SectorCell cell;
+    std::vector<PlaneRef> edges;  // planes of polygons' edges that bound the cell
     std::uint32_t begin = 0, end = 0;
     std::vector<SectorState> states;  // when done
 
@@ -169,6 +172,7 @@ class SectorTree {
     int stage = 0;                     // 0: new; 1: front done; 2: both done
     std::uint32_t children = 0, middle = 0, children_end = 0;
     std::uint32_t loops_mark = 0, planes_mark = 0;
+    PlaneRef edge;  // whose plane splits it, if one does
     SectorCell front_cell, back_cell;
   };
   struct Range {
@@ -214,7 +218,20 @@ class SectorTree {
   LoopView<Vertex> view(const SectorItem& item) const {
     return view(LoopRange{item.first, item.count, item.part});
   }
-  bool is_cell_plane(PlaneRef edge) const { return edge.index() >= first_cell_plane_; }
+  /// Whether it bounds the cell at hand: a plane that was made for cells, or that of an edge which
+  /// has split one.
+  bool is_cell_plane(PlaneRef edge) const {
+    return edge.index() >= first_cell_plane_ ||
+           (edge.index() < bounds_cell_.size() && bounds_cell_[edge.index()] != 0);
+  }
+  bool is_of_contour(PlaneRef edge) const {
+    const std::span<const std::uint8_t> contour = context_->contour;
+    return edge.index() < contour.size() && contour[edge.index()] != 0;
+  }
+  void set_bounds_cell(PlaneRef edge, bool does) {
+    if (edge.index() >= bounds_cell_.size()) bounds_cell_.resize(first_cell_plane_);
+    bounds_cell_[edge.index()] = does ? 1 : 0;
+  }
 
   ChartBox box_of(const LightChart& chart, const LoopView<Vertex>& loop) const;
   std::uint32_t cull(std::uint32_t begin, std::uint32_t end);
@@ -225,7 +242,10 @@ class SectorTree {
   bool split(Frame& frame, std::uint32_t open_end);
   bool split_by_sector_plane(Frame& frame, std::uint32_t open_end);
   PlaneRef next_sector_plane(const SectorCell& cell, SectorCell& above, SectorCell& below) const;
-  PlaneRef choose_edge_plane(std::uint32_t begin, std::uint32_t end);
+  std::vector<PlaneRef> splitting_edges() const;
+  bool split_by_axis(Frame& frame, std::uint32_t open_end);
+  bool split_by_edge(Frame& frame, std::uint32_t open_end, bool of_contour);
+  PlaneRef choose_edge_plane(std::uint32_t begin, std::uint32_t end, bool of_contour);
   void partition(Frame& frame, std::uint32_t open_end, PlaneRef plane, const ChartSplit* split);
   /// `chart`: of the cell; null if it has none.
   void leaf(std::uint32_t begin, std::uint32_t end, const LightChart* chart);
@@ -246,6 +266,7 @@ class SectorTree {
   SectorOutput output_;
   std::array<PlaneRef, 10> sector_planes_;
   std::uint32_t first_cell_plane_ = 0;
+  std::vector<std::uint8_t> bounds_cell_;  // by plane of an edge; empty: none does
   LoopStore<Vertex> loops_;
   std::vector<SectorItem> items_;
   std::vector<SectorState> states_;

@@ -108,6 +108,7 @@ void SectorTree<Space>::run(Task& task, const SectorTree& planner) {
     items_[i].parent = i;
   }
   states_.assign(items_.size(), kUndecided);
+  for (const PlaneRef edge : task.edges) set_bounds_cell(edge, true);
   Frame root;
   root.cell = task.cell;
   root.end = static_cast<std::uint32_t>(items_.size());
@@ -116,6 +117,7 @@ void SectorTree<Space>::run(Task& task, const SectorTree& planner) {
   descend(0, nullptr);
   task.states.assign(items_.size(), kUndecided);
   for (std::size_t i = 0; i < items_.size(); ++i) task.states[items_[i].parent] = states_[i];
+  for (const PlaneRef edge : task.edges) set_bounds_cell(edge, false);
   loops_.clear();
   exact_areas_.clear();
 }
@@ -154,7 +156,7 @@ void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* task
       }
       const std::uint32_t open = open_end - frame.begin;
       if (open > 0 && tasks != nullptr && open <= task_size) {
-        tasks->push_back({frame.cell, frame.begin, open_end, {}});
+        tasks->push_back({frame.cell, splitting_edges(), frame.begin, open_end, {}});
         stack_.pop_back();
         continue;
       }
@@ -165,12 +167,14 @@ void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* task
         continue;
       }
       frame.stage = 1;
+      if (frame.edge.valid()) set_bounds_cell(frame.edge, true);
       enter(frame.front_cell, {frame.middle, frame.children_end}, frame.located);
     } else if (frame.stage == 1) {
       frame.stage = 2;
       enter(frame.back_cell, {frame.children, frame.middle}, frame.located);
     } else {
       const Range children{frame.children, frame.children_end};
+      if (frame.edge.valid()) set_bounds_cell(frame.edge, false);
       if (tasks != nullptr) {
         joins_.push_back(children);
       } else {
@@ -196,33 +200,56 @@ bool SectorTree<Space>::split(Frame& frame, std::uint32_t open_end) {
     for (std::uint32_t i = frame.begin; i < open_end; ++i) locate(frame.cell.chart, items_[i]);
     frame.located = true;
   }
+  const bool by_contour = !context_->contour.empty();
+  if (by_contour ? split_by_edge(frame, open_end, true) : split_by_axis(frame, open_end)) {
+    return true;
+  }
   const std::uint32_t size = open_end - frame.begin;
-  if (const std::optional<ChartSplit> chosen =
-          chooser_.choose({items_.data() + frame.begin, size})) {
-    const PlaneRef plane =
-        space_.add_prefix_plane(plane_of(*chosen, frame.cell.chart, context_->light.directional,
-                                         context_->scene.geometry.grid.bits()));
-    frame.front_cell = frame.back_cell = frame.cell;
-    partition(frame, open_end, plane, &*chosen);
-    // Boxes are only bounds, and the plane's value was rounded: the plane may separate nothing, and
-    // then would separate nothing the next time either.
-    const std::uint32_t back = frame.middle - frame.children;
-    const std::uint32_t front = frame.children_end - frame.middle;
-    if (std::max(back, front) < size) return true;
-    items_.resize(frame.children);
-    states_.resize(frame.children);
-    loops_.truncate(frame.loops_mark);
-    space_.release_planes(frame.planes_mark);
-  }
-  if (size > std::size_t{kLargeLeaf} * context_->options.tuning.leaf_size) {
-    const PlaneRef plane = choose_edge_plane(frame.begin, open_end);
-    if (plane.valid()) {
-      frame.front_cell = frame.back_cell = frame.cell;
-      partition(frame, open_end, plane, nullptr);
-      return true;
-    }
-  }
+  return size > std::size_t{kLargeLeaf} * context_->options.tuning.leaf_size &&
+         split_by_edge(frame, open_end, false);
+}
+
+/// At the value of an axis of the chart. Requires: the items have boxes.
+template <SectorSpaceModel Space>
+bool SectorTree<Space>::split_by_axis(Frame& frame, std::uint32_t open_end) {
+  const std::uint32_t size = open_end - frame.begin;
+  const std::optional<ChartSplit> chosen = chooser_.choose({items_.data() + frame.begin, size});
+  if (!chosen) return false;
+  const PlaneRef plane =
+      space_.add_prefix_plane(plane_of(*chosen, frame.cell.chart, context_->light.directional,
+                                       context_->scene.geometry.grid.bits()));
+  frame.front_cell = frame.back_cell = frame.cell;
+  partition(frame, open_end, plane, &*chosen);
+  // Boxes are only bounds, and the plane's value was rounded: the plane may separate nothing, and
+  // then would separate nothing the next time either.
+  const std::uint32_t back = frame.middle - frame.children;
+  const std::uint32_t front = frame.children_end - frame.middle;
+  if (std::max(back, front) < size) return true;
+  items_.resize(frame.children);
+  states_.resize(frame.children);
+  loops_.truncate(frame.loops_mark);
+  space_.release_planes(frame.planes_mark);
   return false;
+}
+
+/// By the plane of an edge, which bounds the cells below from then on.
+template <SectorSpaceModel Space>
+bool SectorTree<Space>::split_by_edge(Frame& frame, std::uint32_t open_end, bool of_contour) {
+  frame.edge = choose_edge_plane(frame.begin, open_end, of_contour);
+  if (!frame.edge.valid()) return false;
+  frame.front_cell = frame.back_cell = frame.cell;
+  partition(frame, open_end, frame.edge, nullptr);
+  return true;
+}
+
+/// Of the frames on the stack.
+template <SectorSpaceModel Space>
+std::vector<PlaneRef> SectorTree<Space>::splitting_edges() const {
+  std::vector<PlaneRef> edges;
+  for (const Frame& frame : stack_) {
+    if (frame.edge.valid()) edges.push_back(frame.edge);
+  }
+  return edges;
 }
 
 // Returns the next of the planes between the sectors, and the cells on its two sides.
@@ -276,9 +303,11 @@ bool SectorTree<Space>::split_by_sector_plane(Frame& frame, std::uint32_t open_e
 }
 
 // Many polygons around one direction are separated by no box, but perhaps by one of their own
-// edges. Chooses the edge that splits a sample best; none if no edge pays.
+// edges. Chooses the edge, of the contour if so asked, that splits a sample best; none if no edge
+// pays.
 template <SectorSpaceModel Space>
-PlaneRef SectorTree<Space>::choose_edge_plane(std::uint32_t begin, std::uint32_t end) {
+PlaneRef SectorTree<Space>::choose_edge_plane(std::uint32_t begin, std::uint32_t end,
+                                              bool of_contour) {
   constexpr std::uint32_t kSample = 64, kCandidates = 8;
   const std::uint32_t n = end - begin;
   const std::uint32_t stride = std::max(1u, n / kSample);
@@ -286,24 +315,29 @@ PlaneRef SectorTree<Space>::choose_edge_plane(std::uint32_t begin, std::uint32_t
   for (std::uint32_t i = begin; i < end; i += stride) ++sampled;
   PlaneRef best;
   double best_cost = kSplitGrowth * 0.9 * n_log_n(sampled);
-  for (std::uint32_t c = 0; c < kCandidates; ++c) {
-    const SectorItem& item =
-        items_[begin +
-               static_cast<std::uint32_t>(std::uint64_t{n} * (2 * c + 1) / (2 * kCandidates))];
+  const auto consider = [&](PlaneRef plane) {
+    std::size_t front = 0, back = 0;
+    for (std::uint32_t i = begin; i < end; i += stride) {
+      const Placement placement = record_.decide(space_, plane, view(items_[i]));
+      front += placement == Placement::kFront || placement == Placement::kSpanning;
+      back += placement != Placement::kFront;
+    }
+    const double cost = n_log_n(front) + n_log_n(back);
+    if (front < sampled && back < sampled && cost < best_cost) {
+      best_cost = cost;
+      best = plane;
+    }
+  };
+  // Most edges are of no contour: more polygons are asked then, and one edge of each is tried.
+  const std::uint32_t candidates = of_contour ? std::min(n, 4 * kCandidates) : kCandidates;
+  for (std::uint32_t c = 0; c < candidates; ++c) {
+    const SectorItem& item = items_[begin + static_cast<std::uint32_t>(
+                                                std::uint64_t{n} * (2 * c + 1) / (2 * candidates))];
     for (std::uint32_t e = 0; e < item.count; ++e) {
-      const PlaneRef plane = loops_.edge(item.first + e);
-      if (is_cell_plane(plane)) continue;
-      std::size_t front = 0, back = 0;
-      for (std::uint32_t i = begin; i < end; i += stride) {
-        const Placement placement = record_.decide(space_, plane, view(items_[i]));
-        front += placement == Placement::kFront || placement == Placement::kSpanning;
-        back += placement != Placement::kFront;
-      }
-      const double cost = n_log_n(front) + n_log_n(back);
-      if (front < sampled && back < sampled && cost < best_cost) {
-        best_cost = cost;
-        best = plane;
-      }
+      const PlaneRef plane = loops_.edge(item.first + (e + c) % item.count);
+      if (is_cell_plane(plane) || (of_contour && !is_of_contour(plane))) continue;
+      consider(plane);
+      if (of_contour) break;
     }
   }
   return best;
@@ -320,6 +354,7 @@ void SectorTree<Space>::partition(Frame& frame, std::uint32_t open_end, PlaneRef
   for (std::uint32_t i = frame.begin; i < open_end; ++i) {
     SectorItem child = items_[i];
     child.parent = i;
+    if (frame.edge.valid()) child.fresh = 1;  // the cell may end at its own edge
     Placement placement;
     if (split != nullptr && static_cast<double>(child.low[axis]) >= split->value) {
       placement = Placement::kFront;
@@ -333,6 +368,7 @@ void SectorTree<Space>::partition(Frame& frame, std::uint32_t open_end, PlaneRef
     } else if (placement != Placement::kSpanning) {
       items_.push_back(child);
     } else {
+      ++output_.work[Counter::kCellCuts];
       loops_.reserve_more(2 * std::size_t{child.count} + 4);
       const SplitChildren pieces =
           make_children(space_, plane, view(child), record_, crossings_, loops_);

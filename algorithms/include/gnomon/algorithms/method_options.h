@@ -27,6 +27,10 @@ enum class VolumesOf : std::uint8_t { kChain, kPolygons };
 /// plane (z-fail).
 enum class WallCount : std::uint8_t { kFromEye, kZPass, kZFail };
 
+/// What splits the cells of light space: values of an axis of their chart, or planes through edges
+/// of the contour (Sutherland, as Crow 1977 tells of him).
+enum class CellSplit : std::uint8_t { kAxis, kContour };
+
 /// Each method reads its own of them (Method::options).
 struct MethodOptionValues {
   Cover cover = Cover::kPartition;
@@ -34,6 +38,7 @@ struct MethodOptionValues {
   std::uint32_t tiles = 128;  // tiling: so many rows and columns on each face
   InsertionOrder order = InsertionOrder::kNearFirst;  // svbsp-full, zbuffer
   bool cells = true;                                  // two-pass: in cells of light space
+  CellSplit split = CellSplit::kAxis;                 // sectors
   // shadow-polygons:
   VolumesOf volumes = VolumesOf::kChain;
   WallCount count = WallCount::kFromEye;

@@ -34,6 +34,7 @@ enum class Counter : std::uint8_t {
   kLists,            // lists of polygons that were clipped by one of them
   kLongestList,      // polygons in the longest of them
   kDeepestStack,     // lists that waited at the same time
+  kCellCuts,         // cuts of a polygon by a plane between cells of light space
   kIntervals,        // of edges inside other polygons
   kSegments,         // of edges that take light from what is behind them
   kDarkPolygons,     // proven to be so before they are met
