@@ -281,12 +281,22 @@ void ReceiverRun<Space>::run_pieces(std::uint32_t index, double from, double to,
     whole.push(space_.input_vertex(face.loop[i]),
                space_.edges().of_edge(face.edges[i].index(), face.edges[i].flipped()));
   }
+  // What has no part in front of the light neither casts nor receives (1992, "Preprocess").
+  const PlaneRef front(face.plane, face.flipped);
+  LoopStore<Vertex> store;
+  SplitRecord record;
+  const auto is_before_light = [&](std::uint32_t part) {
+    if (scene_.parts[part].plane == face.plane) return false;
+    const Placement place = record.decide(space_, front, part_loop(space_, scene_, part, store));
+    return place == Placement::kFront || place == Placement::kSpanning;
+  };
   std::vector<PlaneRef> planes;
   std::vector<bool> known(light_geometry_.geometry.planes.size(), false);
-  known[face.plane] = true;
-  for (const Part& part : scene_.parts) {
-    if (!known[part.plane]) planes.emplace_back(part.plane, part.flipped);
+  for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
+    const Part& part = scene_.parts[i];
+    if (known[part.plane] || !is_before_light(i)) continue;
     known[part.plane] = true;
+    planes.emplace_back(part.plane, part.flipped);
   }
   LightCut<Vertex> cut;
   if (!cut_light(space_, whole.view({0, whole.size(), 0}, face.plane), planes,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // An area light cut into pieces by the planes of polygons: each piece is then wholly on one side of
 // every polygon, and a light of its own. Chin & Feiner (1992, "Preprocess") do so before anything
-// else, by those polygons alone that have a part in front of the light's plane; the caller chooses.
+// else, by those polygons alone that have a part in front of the light's plane.
 //
 // Exactness: that of the space. The pieces tile the light. Their edges are those of the light and
 // support planes, so that volumes of pieces stay of bounded degree: no piece is put on a grid.

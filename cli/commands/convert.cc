@@ -8,7 +8,9 @@
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
 #include "cli/common/scene_options.h"
+#include "gnomon/scene/light_arguments.h"
 #include "gnomon/scene/read.h"
+#include "gnomon/scene/visible_light_scene.h"
 #include "gnomon/scene/write.h"
 
 namespace gnomon::cli {
@@ -18,9 +20,21 @@ namespace {
 struct ConvertOptions {
   SceneOptions scene;
   RepairOptions repair;
+  std::string from, area_light;  // a point's sight of an area light; empty: the scene itself
   std::string target;
   std::string format;
 };
+
+/// Replaces the scene by what a point sees of an area light, if that was asked for.
+Expected<void> take_sight(const ConvertOptions& options, Scene& scene) {
+  if (options.from.empty()) return {};
+  const auto point = parse_light_argument(LightType::kPoint, options.from, scene.numbers, "eye");
+  if (!point) return tl::unexpected(point.error());
+  auto seen = visible_light_scene(scene, options.area_light, point->position);
+  if (!seen) return tl::unexpected(std::move(seen.error()));
+  scene = std::move(*seen);
+  return {};
+}
 
 int run_convert(const ConvertOptions& options) {
   std::optional<SceneFormat> format;
@@ -39,6 +53,7 @@ int run_convert(const ConvertOptions& options) {
   if (auto done = repair(*scene, options.scene, options.repair, options.target); !done) {
     return report_error(done.error());
   }
+  if (auto done = take_sight(options, scene->scene); !done) return report_error(done.error());
   const auto written = scene_to_text(scene->scene, *format);
   if (!written) return report_error(written.error());
   for (const std::string& warning : written->warnings) warn(options.target + ": " + warning);
@@ -64,7 +79,8 @@ void add_convert_command(CLI::App& app, Action& action) {
       "  gnomon convert house.obj house.json --sun=1,2,3\n"
       "  gnomon convert house.json house.ply --format ply-binary\n"
       "  gnomon convert house.idf house.city.json\n"
-      "  gnomon convert model.json meant.json --snap 1e-6 --parent --orient");
+      "  gnomon convert model.json meant.json --snap 1e-6 --parent --orient\n"
+      "  gnomon convert room.json seen.json --from 1,2,0 --area-light panel");
   add_scene_options(command, options->scene);
   command.remove_option(command.get_option("--light"));
   command.add_option("OUT", options->target, "File to write; - is standard output")
@@ -74,6 +90,17 @@ void add_convert_command(CLI::App& app, Action& action) {
       ->check(CLI::IsMember(written_format_names()))
       ->type_name(CLI::detail::join(written_format_names(), "|"));
   add_repair_options(command, options->repair);
+  CLI::Option* from =
+      command
+          .add_option("--from", options->from,
+                      "What a point sees of an area light: a scene whose lamp is the point and "
+                      "whose first polygon is the light; lit is what is seen")
+          ->type_name("X,Y,Z")
+          ->group("Sight");
+  command.add_option("--area-light", options->area_light, "Its id [the only one]")
+      ->type_name("ID")
+      ->needs(from)
+      ->group("Sight");
   command.callback([options, &action] { action = [options] { return run_convert(*options); }; });
 }
 
