@@ -17,7 +17,9 @@
 namespace gnomon::test {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::Not;
 
 class Scales : public testing::Test {
  protected:
@@ -144,6 +146,16 @@ TEST_F(Scales, AreasOfVerdictsAreToldAtEveryScale) {
     }
     EXPECT_GE(totals["misclassified"][0].GetDouble(), 0) << exponent;
   }
+}
+
+TEST_F(Scales, EveryStepOfScaleIsJudged) {
+  const RunResult run =
+      run_gnomon({"extremes", "scale-up", "--from", "550", "--to", "550", "--kernel", "longdouble",
+                  "--kernel", "double", "--algorithm", "sectors", "--curves"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, Not(HasSubstr("not judged")));
+  EXPECT_THAT(run.out, ContainsRegex("sectors +double +- +550 +misclassified"));
+  EXPECT_THAT(run.out, ContainsRegex("sectors +longdouble +- +never"));
 }
 
 TEST_F(Scales, OneLeastDoubleAmongOthersIsTheGridsAndNotTheWidths) {
