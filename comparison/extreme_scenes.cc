@@ -343,18 +343,20 @@ const ExtremeAxis* axis_by_name(std::string_view name) {
 Scene extreme_scene(const ExtremeAxis& axis, int step, bool sheared) {
   Scene scene = axis.make(step);
   scene.name = extreme_name(axis, step, sheared);
-  if (!sheared || !axis.shears) return scene;
-  const auto shear = [](Position& p) {
-    // x + z / 8, y + x / 4, z + y / 16: doubles as far as the scene's are short enough.
+  if (sheared && axis.shears) shear(scene);
+  return scene;
+}
+
+void shear(Scene& scene) {
+  const auto move = [](Position& p) {
     const double x = p[0].nearest(), y = p[1].nearest(), z = p[2].nearest();
     p = {Number(x + z / 8), Number(y + x / 4), Number(z + y / 16)};
   };
-  for (Position& vertex : scene.vertices) shear(vertex);
+  for (Position& vertex : scene.vertices) move(vertex);
   for (Light& light : scene.lights) {
-    if (!light.has_area()) shear(light.position);
-    for (Position& corner : light.loop) shear(corner);
+    if (!light.has_area()) move(light.position);
+    for (Position& corner : light.loop) move(corner);
   }
-  return scene;
 }
 
 std::string extreme_name(const ExtremeAxis& axis, int step, bool sheared) {

@@ -38,6 +38,10 @@ const ExtremeAxis* axis_by_name(std::string_view name);
 /// the axis.
 Scene extreme_scene(const ExtremeAxis& axis, int step, bool sheared);
 
+/// Maps a scene so: x + z / 8, y + x / 4, z + y / 16, in doubles, which is exact if coordinates are
+/// short enough. Shadows and shares stay what they are.
+void shear(Scene& scene);
+
 /// "extreme:AXIS:STEP" or "extreme:AXIS:STEP:sheared", by which SceneSource::parse() makes it.
 std::string extreme_name(const ExtremeAxis& axis, int step, bool sheared);
 /// Errors: kUsage, for what begins with "extreme:" and is none.

@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <new>
 #include <optional>
@@ -20,6 +21,8 @@
 #include "gnomon/oracle/exact_answer.h"
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/scene/prepare.h"
+#include "report/certificate/certificate.h"
+#include "report/certificate/wrong_share.h"
 #include "report/facts/facing.h"
 #include "report/sides/claims_of.h"
 
@@ -209,7 +212,17 @@ class Run {
     judgement.confirms = report->confirms_exact();
     judgement.by_points = report->by_points;
     const double area = report::facing_area(prepared_, options_.lights);
-    if (area > 0) judgement.wrong = report->totals.misclassified.upper / area;
+    if (std::isnormal(area)) {
+      judgement.wrong = report->totals.misclassified.upper / area;
+    } else {
+      report::Certificate scale;
+      scale.scene = &scene_;
+      scale.prepared = &prepared_;
+      for (const std::uint32_t light : options_.lights) {
+        scale.lights.push_back(scene_.lights[prepared_.lights[light].light].id);
+      }
+      judgement.wrong = report::WrongShare(scale).of(*report);
+    }
     const oracle::ComparisonTotals& totals = report->totals;
     judgement.worst_share = std::max({totals.worst_misclassified, totals.worst_uncovered,
                                       totals.worst_overlapping, totals.worst_outside});

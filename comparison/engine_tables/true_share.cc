@@ -19,7 +19,7 @@ std::vector<CasterShare> casters_on(const oracle::ExactAnswer& answer, std::uint
   std::map<std::uint32_t, double> areas;  // by polygon that casts
   for (std::uint32_t part = prepared.first_part[polygon]; part < prepared.first_part[polygon + 1];
        ++part) {
-    const double area = report::nearest_area(prepared, prepared.parts[part]);
+    const double area = report::comparable_area(prepared, prepared.parts[part]).middle();
     whole += area;
     if (regions.lit_side(part) != side) continue;
     for (const auto& [caster, share] : oracle::caster_shares(prepared, regions, part)) {

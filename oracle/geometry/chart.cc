@@ -78,15 +78,43 @@ HomogeneousPoint to_grid(const Geometry& geometry, const RationalPoint& point) {
   return result;
 }
 
+namespace {
+
+/// a b - c d. The result keeps its memory: an expression of mpz_class would make a number for each
+/// product, and that costs more than the products of short numbers.
+void subtract_products(mpz_class& result, const mpz_class& a, const mpz_class& b,
+                       const mpz_class& c, const mpz_class& d) {
+  mpz_mul(result.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
+  mpz_submul(result.get_mpz_t(), c.get_mpz_t(), d.get_mpz_t());
+}
+
+void add_product(mpz_class& sum, const mpz_class& a, const mpz_class& b) {
+  mpz_addmul(sum.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
+}
+
+/// The sign of a b - c d.
+int compare_products(const mpz_class& a, const mpz_class& b, const mpz_class& c,
+                     const mpz_class& d) {
+  thread_local mpz_class difference;
+  subtract_products(difference, a, b, c, d);
+  return sgn(difference);
+}
+
+}  // namespace
+
 int sign_at(const ChartLine& line, const ChartPoint& point) {
-  return sgn(mpz_class(line.a * point.x + line.b * point.y + line.c * point.w));
+  thread_local mpz_class value;
+  mpz_mul(value.get_mpz_t(), line.a.get_mpz_t(), point.x.get_mpz_t());
+  add_product(value, line.b, point.y);
+  add_product(value, line.c, point.w);
+  return sgn(value);
 }
 
 ChartLine line_through(const ChartPoint& a, const ChartPoint& b) {
   ChartLine line;
-  line.a = a.y * b.w - a.w * b.y;
-  line.b = a.w * b.x - a.x * b.w;
-  line.c = a.x * b.y - a.y * b.x;
+  subtract_products(line.a, a.y, b.w, a.w, b.y);
+  subtract_products(line.b, a.w, b.x, a.x, b.w);
+  subtract_products(line.c, a.x, b.y, a.y, b.x);
   reduce(line);
   return line;
 }
@@ -110,21 +138,21 @@ void reduce(ChartPoint& point) {
 
 ChartPoint meet(const ChartLine& a, const ChartLine& b) {
   ChartPoint point;
-  point.x = a.b * b.c - a.c * b.b;
-  point.y = a.c * b.a - a.a * b.c;
-  point.w = a.a * b.b - a.b * b.a;
+  subtract_products(point.x, a.b, b.c, a.c, b.b);
+  subtract_products(point.y, a.c, b.a, a.a, b.c);
+  subtract_products(point.w, a.a, b.b, a.b, b.a);
   reduce(point);
   return point;
 }
 
 int compare_x(const ChartPoint& a, const ChartPoint& b) {
   if (a.w == b.w) return cmp(a.x, b.x);
-  return cmp(mpz_class(a.x * b.w), mpz_class(b.x * a.w));
+  return compare_products(a.x, b.w, b.x, a.w);
 }
 
 int compare_y(const ChartPoint& a, const ChartPoint& b) {
   if (a.w == b.w) return cmp(a.y, b.y);
-  return cmp(mpz_class(a.y * b.w), mpz_class(b.y * a.w));
+  return compare_products(a.y, b.w, b.y, a.w);
 }
 
 int compare(const ChartPoint& a, const ChartPoint& b) {
@@ -133,8 +161,13 @@ int compare(const ChartPoint& a, const ChartPoint& b) {
 }
 
 int orientation(const ChartPoint& a, const ChartPoint& b, const ChartPoint& c) {
-  const mpz_class value =
-      (a.y * b.w - a.w * b.y) * c.x + (a.w * b.x - a.x * b.w) * c.y + (a.x * b.y - a.y * b.x) * c.w;
+  thread_local mpz_class minor, value;
+  subtract_products(minor, a.y, b.w, a.w, b.y);
+  mpz_mul(value.get_mpz_t(), minor.get_mpz_t(), c.x.get_mpz_t());
+  subtract_products(minor, a.w, b.x, a.x, b.w);
+  add_product(value, minor, c.y);
+  subtract_products(minor, a.x, b.y, a.y, b.x);
+  add_product(value, minor, c.w);
   return sgn(value);
 }
 

@@ -145,11 +145,17 @@ void Overlay::fixed(const ChartPoint& point, int bits, mpz_class& x, mpz_class& 
   y -= corner_.y << bits;
 }
 
-mpz_class Overlay::fixed_value(const mpz_class& numerator, const mpz_class& denominator,
-                               int bits) const {
-  mpz_class result;
-  scaled_quotient(result, numerator, denominator, scale_ + bits);
+Overlay::FixedPoint Overlay::fixed(const ChartPoint& point) const {
+  FixedPoint result;
+  fixed(point, kFixedBits, result.x, result.y);
   return result;
+}
+
+const Overlay::FixedPoint& Overlay::fixed(std::uint32_t vertex) const {
+  if (fixed_.size() < points_.size()) fixed_.resize(points_.size());
+  std::optional<FixedPoint>& known = fixed_[vertex];
+  if (!known) known = fixed(points_[vertex]);
+  return *known;
 }
 
 long double Overlay::box_unit() const {
@@ -195,6 +201,19 @@ int Overlay::order(std::uint32_t a, std::uint32_t b) const {
   if (difference > 4 * error_) return 1;
   if (difference < -4 * error_) return -1;
   return compare(points_[a], points_[b]);
+}
+
+int Overlay::order_along(int u, int v, std::uint32_t a, std::uint32_t b) const {
+  if (a == b) return 0;
+  const Approximation &p = approximations_[a], &q = approximations_[b];
+  const double x = u * (p.x - q.x), y = v * (p.y - q.y);
+  // As in order(), for each coordinate, and three roundings.
+  const double bound =
+      4 * error_ * (std::abs(u) + std::abs(v)) + 4 * kUnitRoundoff * (std::fabs(x) + std::fabs(y));
+  if (x + y > bound) return 1;
+  if (x + y < -bound) return -1;
+  const ChartPoint &r = points_[a], &s = points_[b];
+  return sgn(mpz_class((u * r.x + v * r.y) * s.w - (u * s.x + v * s.y) * r.w));
 }
 
 bool Overlay::strictly_within(std::uint32_t vertex, const Segment& segment) const {
@@ -529,13 +548,13 @@ std::size_t Overlay::boundary_size(const std::vector<bool>& face_in_set) const {
 
 Overlay::FixedArea Overlay::area(const std::vector<bool>& face_in_set) const {
   FixedArea result;
-  mpz_class ax, ay, bx, by, largest;
+  mpz_class largest;
   unsigned long terms = 0;
   for (std::size_t h = 0; h < halfedges_.size(); ++h) {
     const auto halfedge = static_cast<std::uint32_t>(h);
     if (!face_in_set[halfedges_[h].face] || face_in_set[halfedges_[twin(halfedge)].face]) continue;
-    fixed(points_[halfedges_[h].origin], kAreaBits, ax, ay);
-    fixed(points_[target(halfedge)], kAreaBits, bx, by);
+    const auto& [ax, ay] = fixed(halfedges_[h].origin);
+    const auto& [bx, by] = fixed(target(halfedge));
     result.value += ax * by - ay * bx;
     for (const mpz_class* coordinate : {&ax, &ay, &bx, &by}) {
       if (cmp(abs(*coordinate), largest) > 0) largest = abs(*coordinate);

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -78,12 +79,22 @@ class Overlay {
   /// Vertices of a candidate's layers that lie inside an edge of these layers.
   std::uint64_t t_vertices() const { return t_vertices_; }
 
-  /// floor(numerator / denominator, in units of 2^-bits box units): exact to one unit.
-  mpz_class fixed_value(const mpz_class& numerator, const mpz_class& denominator, int bits) const;
+  /// Positive if a, b, c turn left.
+  int turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const { return orient(a, b, c); }
+  /// The sign of u x + v y at a less that at b.
+  int order_along(int u, int v, std::uint32_t a, std::uint32_t b) const;
+  static constexpr int kFixedBits = 256;
+  /// Coordinates less those of the box's corner, in units of 2^-kFixedBits box units: floors, so
+  /// that they are off by less than one.
+  struct FixedPoint {
+    mpz_class x, y;
+  };
+  const FixedPoint& fixed(std::uint32_t vertex) const;
+  FixedPoint fixed(const ChartPoint& point) const;
   /// Grid units of one box unit, which doubles need not hold.
   long double box_unit() const;
-  /// Area of a set of faces in the chart, in units of 2^(-2 kAreaBits) box areas; the true value is
-  /// within +- error of it.
+  /// Area of a set of faces in the chart, in units of 2^(-2 kFixedBits) box areas; the true value
+  /// is within +- error of it.
   struct FixedArea {
     mpz_class value, error;
   };
@@ -95,7 +106,6 @@ class Overlay {
   std::size_t boundary_size(const std::vector<bool>& face_in_set) const;
 
  private:
-  static constexpr int kAreaBits = 256;
   struct Segment {
     std::uint32_t a = 0, b = 0;  // a before b in the order x, y
     Winding delta{};             // left of a -> b minus right of it
@@ -135,6 +145,7 @@ class Overlay {
 
   std::vector<ChartPoint> points_;
   std::vector<Approximation> approximations_;
+  mutable std::vector<std::optional<FixedPoint>> fixed_;  // by vertex; made when first asked for
   std::unordered_map<std::uint32_t, std::uint32_t, PointHash, PointEqual> ids_{
       64, PointHash{&points_}, PointEqual{&points_}};
   std::unordered_map<std::uint64_t, std::uint32_t> segment_ids_;

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
 #include <queue>
+#include <tuple>
+#include <utility>
 
 #include "oracle/geometry/box_tree.h"
+#include "oracle/geometry/slab_cut.h"
 
 namespace gnomon::oracle {
 
@@ -18,15 +20,13 @@ constexpr std::size_t kMostTrapezoids = 100'000;
 constexpr std::size_t kStepsAnEdge = 400;  // a break between two edges takes some 160 to isolate
 constexpr std::size_t kMostSteps = 40'000;
 constexpr double kCloseEnough = 1.05;  // ratio of the bounds
-constexpr int kBits = 256;             // of coordinates relative to the overlay's box
+constexpr int kBits = Overlay::kFixedBits;
 
 struct Planar {
   double x = 0, y = 0;
 };
 
-struct BoundaryEdge {
-  ChartPoint left, right;  // in the order x, y
-  ChartLine line;
+struct PlanarEdge {
   Planar a, b;
 };
 
@@ -59,7 +59,7 @@ double distance(Planar p, const PlanarBox& box) {
   return (1 - 0x1p-40) * std::sqrt(dx * dx + dy * dy);
 }
 
-double farthest(const Piece& piece, const BoundaryEdge& edge) {
+double farthest(const Piece& piece, const PlanarEdge& edge) {
   double result = 0;
   for (int i = 0; i < piece.count; ++i) {
     result = std::max(result, distance(piece.corners[i], edge.a, edge.b));
@@ -68,13 +68,24 @@ double farthest(const Piece& piece, const BoundaryEdge& edge) {
 }
 
 /// No disc has a radius above the mean of its centre's distances from two edges, which is convex.
-double half_between(const Piece& piece, const BoundaryEdge& below, const BoundaryEdge& above) {
+double half_between(const Piece& piece, const PlanarEdge& below, const PlanarEdge& above) {
   double result = 0;
   for (int i = 0; i < piece.count; ++i) {
     result = std::max(result, distance(piece.corners[i], below.a, below.b) +
                                   distance(piece.corners[i], above.a, above.b));
   }
   return result / 2;
+}
+
+double upper_bound(const Piece& piece, const PlanarEdge& below, const PlanarEdge& above) {
+  return std::min(
+      {farthest(piece, below), farthest(piece, above), half_between(piece, below, above)});
+}
+
+/// The length of a trapezoid's side along the edge below.
+double bottom_of(const Piece& piece) {
+  return std::hypot(piece.corners[1].x - piece.corners[0].x,
+                    piece.corners[1].y - piece.corners[0].y);
 }
 
 Planar centre_of(const Piece& piece) {
@@ -116,31 +127,6 @@ double scaled(const mpz_class& value) {
   return std::ldexp(mantissa, static_cast<int>(std::clamp(exponent - kBits, -5000L, 5000L)));
 }
 
-/// A rational that is not reduced, which costs more than all else here; the denominator is
-/// positive.
-struct Fraction {
-  mpz_class numerator, denominator = 1;
-  friend bool operator<(const Fraction& a, const Fraction& b) {
-    return cmp(mpz_class(a.numerator * b.denominator), mpz_class(b.numerator * a.denominator)) < 0;
-  }
-};
-
-Fraction middle_of(const Fraction& a, const Fraction& b) {
-  return {a.numerator * b.denominator + b.numerator * a.denominator,
-          2 * a.denominator * b.denominator};
-}
-
-/// y of a line that is not vertical, at x: exactly.
-Fraction height_at(const ChartLine& line, const Fraction& x) {
-  Fraction y{line.a * x.numerator + line.c * x.denominator, line.b * x.denominator};
-  if (y.denominator < 0) {
-    y.denominator = -y.denominator;
-  } else {
-    y.numerator = -y.numerator;
-  }
-  return y;
-}
-
 }  // namespace
 
 ChartMetric::ChartMetric(const Chart& chart) {
@@ -157,21 +143,6 @@ ChartMetric::ChartMetric(const Chart& chart) {
 }
 
 namespace {
-
-/// Slabs are cut along a direction (p, q) that is as far from parallel to all long edges as
-/// possible: then the two edges that bound a trapezoid are near everywhere in it, however the
-/// region winds.
-struct SlabDirection {
-  int p = 0, q = 1;
-  ChartPoint turn(const ChartPoint& point) const {
-    return {q * point.x - p * point.y, p * point.x + q * point.y, point.w};
-  }
-  /// The inverse: back to the chart. Not reduced.
-  ChartPoint turn_back(const Fraction& x, const Fraction& y) const {
-    const mpz_class u = x.numerator * y.denominator, v = y.numerator * x.denominator;
-    return {q * u + p * v, q * v - p * u, (p * p + q * q) * x.denominator * y.denominator};
-  }
-};
 
 SlabDirection best_direction(const std::vector<Planar>& edges) {
   constexpr int kReach = 7;       // some 70 directions, none special to axes or diagonals alone
@@ -196,97 +167,18 @@ SlabDirection best_direction(const std::vector<Planar>& edges) {
   return best;
 }
 
-/// The boundary's edges of a region, turned so that slabs are upright, and the region between them
-/// as trapezoids, slab by slab.
-class SlabCut {
- public:
-  explicit SlabCut(SlabDirection direction = {}) : direction_(direction) {}
-
-  void add(BoundaryEdge edge);
-  const std::vector<BoundaryEdge>& edges() const { return edges_; }
-  SlabDirection direction() const { return direction_; }
-  /// Calls `use(below, above, low_x, high_x, middle_x, middle_y)` for each; it returns false to
-  /// stop.
-  template <class Use>
-  void cut(const Use& use);
-
- private:
-  template <class Use>
-  bool cut_slab(const std::vector<std::size_t>& crossing, const ChartPoint& from,
-                const ChartPoint& to, const Use& use);
-
-  SlabDirection direction_;
-  std::vector<BoundaryEdge> edges_;
-};
-
-void SlabCut::add(BoundaryEdge edge) {
-  edge.left = direction_.turn(edge.left);
-  edge.right = direction_.turn(edge.right);
-  if (compare(edge.left, edge.right) > 0) std::swap(edge.left, edge.right);
-  edge.line = line_through(edge.left, edge.right);
-  edges_.push_back(std::move(edge));
-}
-
-template <class Use>
-void SlabCut::cut(const Use& use) {
-  std::vector<ChartPoint> stops;  // where slabs begin and end
-  for (const BoundaryEdge& edge : edges_) {
-    stops.push_back(edge.left);
-    stops.push_back(edge.right);
-  }
-  const auto before_x = [](const ChartPoint& p, const ChartPoint& q) {
-    return compare_x(p, q) < 0;
-  };
-  std::sort(stops.begin(), stops.end(), before_x);
-  stops.erase(
-      std::unique(stops.begin(), stops.end(),
-                  [](const ChartPoint& p, const ChartPoint& q) { return compare_x(p, q) == 0; }),
-      stops.end());
-  std::sort(edges_.begin(), edges_.end(),
-            [&](const BoundaryEdge& p, const BoundaryEdge& q) { return before_x(p.left, q.left); });
-  std::vector<std::size_t> active;
-  std::size_t next = 0;
-  for (std::size_t s = 0; s + 1 < stops.size(); ++s) {
-    const ChartPoint& from = stops[s];
-    std::erase_if(active, [&](std::size_t e) { return compare_x(edges_[e].right, from) <= 0; });
-    while (next < edges_.size() && compare_x(edges_[next].left, from) <= 0) {
-      if (compare_x(edges_[next].right, from) > 0) active.push_back(next);
-      ++next;
-    }
-    if (!cut_slab(active, from, stops[s + 1], use)) return;
-  }
-}
-
-/// Between each two edges that cross the slab.
-template <class Use>
-bool SlabCut::cut_slab(const std::vector<std::size_t>& crossing, const ChartPoint& from,
-                       const ChartPoint& to, const Use& use) {
-  const Fraction low_x{from.x, from.w}, high_x{to.x, to.w};
-  const Fraction middle_x = middle_of(low_x, high_x);
-  std::vector<std::pair<Fraction, std::size_t>> across;
-  for (std::size_t e : crossing) across.emplace_back(height_at(edges_[e].line, middle_x), e);
-  std::ranges::sort(
-      across, std::less<>(), [](const auto& own) -> auto& { return own.first; });
-  for (std::size_t i = 0; i + 1 < across.size(); i += 2) {
-    const Fraction middle_y = middle_of(across[i].first, across[i + 1].first);
-    if (!use(edges_[across[i].second], edges_[across[i + 1].second], low_x, high_x, middle_x,
-             middle_y)) {
-      return false;
-    }
-  }
-  return true;
-}
-
 class RegionMeasure {
  public:
   RegionMeasure(const Overlay& overlay, const ChartMetric& metric,
                 const std::vector<std::uint32_t>& boundary, long double step)
-      : overlay_(overlay), metric_(metric), unit_(overlay.box_unit() * step) {
+      : overlay_(overlay), metric_(metric), unit_(overlay.box_unit() * step), slabs_(overlay) {
     read(boundary);
-    slabs_.cut([this](const BoundaryEdge& below, const BoundaryEdge& above, const Fraction& low_x,
-                      const Fraction& high_x, const Fraction& middle_x, const Fraction& middle_y) {
-      return add_trapezoid(below, above, low_x, high_x, middle_x, middle_y);
+    slabs_.cut([this](std::size_t below, std::size_t above, Stop stop) {
+      guesses_.push_back(guess(below, above, stop));
+      complete_ = guesses_.size() <= kMostTrapezoids;
+      return complete_;
     });
+    add_trapezoids();
   }
 
   RegionShape shape(double resolution, double most) {
@@ -299,23 +191,40 @@ class RegionMeasure {
     const auto scene_units = [&](double radius) { return static_cast<double>(2 * radius * unit_); };
     const Enclosure width{round_down(scene_units(std::max(0.0, lower - rounding))),
                           std::min(round_up(scene_units(upper + rounding)), most)};
-    reduce(interior_);
-    return {width, std::move(interior_)};
+    const auto [below, above, stop] = widest_between_;
+    ChartPoint interior = slabs_.middle(below, above, stop);
+    reduce(interior);
+    return {width, std::move(interior)};
   }
 
  private:
   /// Coordinates relative to the base, subtracted exactly, in units of the overlay's box.
-  Planar planar(const ChartPoint& point) const {
-    const mpz_class dx = overlay_.fixed_value(point.x, point.w, kBits) - base_x_;
-    const mpz_class dy = overlay_.fixed_value(point.y, point.w, kBits) - base_y_;
-    const double u = scaled(dx), v = scaled(dy);
+  Planar planar(const mpz_class& x, const mpz_class& y) const {
+    const double u = scaled(x - base_.x), v = scaled(y - base_.y);
     return Planar{metric_.a * u + metric_.b * v, metric_.c * v};
   }
+  Planar planar(const Overlay::FixedPoint& point) const { return planar(point.x, point.y); }
+  Planar corner(std::size_t edge, Stop stop);
 
+  /// What doubles say of a trapezoid, whose corners cost most.
+  struct Guess {
+    std::size_t below = 0, above = 0;
+    Stop stop = 0;
+    Planar centre;
+    double upper = 0;  // of the radius
+    double wide = 0;   // of what the interior's trapezoid has most of
+    double error = 0;  // both may be more or less by this
+  };
+  Guess guess(std::size_t below, std::size_t above, Stop stop) const;
+  /// Along the slabs.
+  double place_of(Planar point) const;
+  /// A corner, and what it may be off by.
+  std::pair<Planar, double> guessed_corner(std::size_t edge, Stop stop) const;
+  /// The radius of a disc in the region, not the largest.
+  double some_radius() const;
   void read(const std::vector<std::uint32_t>& boundary);
-  /// False once there are too many.
-  bool add_trapezoid(const BoundaryEdge& below, const BoundaryEdge& above, const Fraction& low_x,
-                     const Fraction& high_x, const Fraction& middle_x, const Fraction& middle_y);
+  void add_trapezoids();
+  void add_trapezoid(std::size_t below, std::size_t above, Stop stop);
   /// Halves the pieces, widest first, until no disc can be much larger than the one found.
   double lower_bound(double fine);
   /// How far some point of a piece can be from the edge where that is least; the piece's own bound
@@ -326,61 +235,145 @@ class RegionMeasure {
   const Overlay& overlay_;
   const ChartMetric& metric_;
   long double unit_;  // scene units; the grid's own may be beyond all doubles
-  mpz_class base_x_, base_y_;
+  Overlay::FixedPoint base_;
   SlabCut slabs_;
+  std::vector<PlanarEdge> edges_;       // as those of the slabs
+  std::vector<std::uint32_t> origins_;  // of these: the vertex at a
+  std::vector<KnownCorner<Planar>> corners_;
+  std::vector<Guess> guesses_;
   BoxTree tree_;  // of the slabs' edges
   double size_ = 0;
   std::priority_queue<Piece> queue_;
-  std::size_t made_ = 0;
   double widest_ = -1;
   bool complete_ = true;
-  ChartPoint interior_;
+  struct Between {
+    std::size_t below = 0, above = 0;
+    Stop stop = 0;
+  } widest_between_;
 };
 
 void RegionMeasure::read(const std::vector<std::uint32_t>& boundary) {
-  const ChartPoint& base = overlay_.point(overlay_.halfedges()[boundary.front()].origin);
-  base_x_ = overlay_.fixed_value(base.x, base.w, kBits);
-  base_y_ = overlay_.fixed_value(base.y, base.w, kBits);
+  base_ = overlay_.fixed(overlay_.halfedges()[boundary.front()].origin);
   std::vector<Planar> directions;
-  std::vector<BoundaryEdge> edges;
-  for (std::uint32_t halfedge : boundary) {
-    const ChartPoint& p = overlay_.point(overlay_.halfedges()[halfedge].origin);
-    const ChartPoint& q = overlay_.point(overlay_.target(halfedge));
-    edges.push_back({p, q, {}, planar(p), planar(q)});
-    const Planar &a = edges.back().a, &b = edges.back().b;
+  for (const std::uint32_t halfedge : boundary) {
+    const std::uint32_t origin = overlay_.halfedges()[halfedge].origin;
+    origins_.push_back(origin);
+    const auto& [a, b] = edges_.emplace_back(PlanarEdge{
+        planar(overlay_.fixed(origin)), planar(overlay_.fixed(overlay_.target(halfedge)))});
     const double v = (b.y - a.y) / metric_.c;
     directions.push_back({(b.x - a.x - metric_.b * v) / metric_.a, v});
     size_ = std::max({size_, std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y)});
   }
-  slabs_ = SlabCut(best_direction(directions));
-  for (BoundaryEdge& edge : edges) slabs_.add(std::move(edge));
+  slabs_ = SlabCut(overlay_, best_direction(directions));
+  for (const std::uint32_t halfedge : boundary) {
+    slabs_.add(overlay_.halfedges()[halfedge].origin, overlay_.target(halfedge));
+  }
+  corners_.resize(edges_.size());
+  std::vector<PlanarBox> boxes;
+  for (const PlanarEdge& edge : edges_) {
+    boxes.push_back(box_of(PlanarPoint{edge.a.x, edge.a.y}, PlanarPoint{edge.b.x, edge.b.y}));
+  }
+  tree_ = BoxTree(std::move(boxes));
 }
 
-bool RegionMeasure::add_trapezoid(const BoundaryEdge& below, const BoundaryEdge& above,
-                                  const Fraction& low_x, const Fraction& high_x,
-                                  const Fraction& middle_x, const Fraction& middle_y) {
+Planar RegionMeasure::corner(std::size_t edge, Stop stop) {
+  const SlabEdge& own = slabs_.edges()[edge];
+  if (stop == own.first || stop == own.last) {
+    const std::uint32_t vertex = stop == own.first ? own.left : own.right;
+    return vertex == origins_[edge] ? edges_[edge].a : edges_[edge].b;
+  }
+  KnownCorner<Planar>& known = corners_[edge];
+  if (known.stop != stop) {
+    const ChartPoint point = slabs_.corner(edge, stop);
+    known = {stop, planar(overlay_.fixed(point))};
+  }
+  return known.corner;
+}
+
+double RegionMeasure::place_of(Planar point) const {
+  const SlabDirection direction = slabs_.direction();
+  const double v = point.y / metric_.c, u = (point.x - metric_.b * v) / metric_.a;
+  return direction.q * u - direction.p * v;
+}
+
+std::pair<Planar, double> RegionMeasure::guessed_corner(std::size_t edge, Stop stop) const {
+  // Of coordinates and of places, which are sums of some of them with factors up to 7.
+  const double rounding = 0x1p-45 * size_;
+  const SlabEdge& own = slabs_.edges()[edge];
+  const bool forwards = own.left == origins_[edge];
+  const Planar& left = forwards ? edges_[edge].a : edges_[edge].b;
+  const Planar& right = forwards ? edges_[edge].b : edges_[edge].a;
+  if (stop == own.first) return {left, rounding};
+  if (stop == own.last) return {right, rounding};
+  const Planar along{right.x - left.x, right.y - left.y};
+  const double length = std::hypot(along.x, along.y);
+  const double from = place_of(left), long_way = place_of(right) - from;
+  if (!(long_way > 0)) return {left, length};
+  const double at = place_of(planar(overlay_.fixed(slabs_.vertex_at(stop))));
+  const double part = std::clamp((at - from) / long_way, 0.0, 1.0);
+  return {{left.x + part * along.x, left.y + part * along.y},
+          std::min(length, rounding * (1 + length / long_way))};
+}
+
+RegionMeasure::Guess RegionMeasure::guess(std::size_t below, std::size_t above, Stop stop) const {
+  Guess result;
+  result.below = below;
+  result.above = above;
+  result.stop = stop;
   Piece piece;
-  const auto corner = [&](const BoundaryEdge& edge, const Fraction& x) {
-    return planar(slabs_.direction().turn_back(x, height_at(edge.line, x)));
-  };
-  piece.corners = {corner(below, low_x), corner(below, high_x), corner(above, high_x),
-                   corner(above, low_x)};
-  piece.below = static_cast<std::uint32_t>(&below - slabs_.edges().data());
-  piece.above = static_cast<std::uint32_t>(&above - slabs_.edges().data());
-  const auto apart = [&](int i, int j) {
-    return std::hypot(piece.corners[i].x - piece.corners[j].x,
-                      piece.corners[i].y - piece.corners[j].y);
-  };
-  piece.upper =
-      std::min({farthest(piece, below), farthest(piece, above), half_between(piece, below, above)});
-  const double area_like = std::min(piece.upper, apart(1, 0));
-  if (area_like > widest_) {
+  for (const auto& [i, edge, at] :
+       {std::tuple{0, below, stop}, {1, below, stop + 1}, {2, above, stop + 1}, {3, above, stop}}) {
+    const auto [corner, error] = guessed_corner(edge, at);
+    piece.corners[i] = corner;
+    result.error = std::max(result.error, error);
+  }
+  result.centre = centre_of(piece);
+  result.upper = upper_bound(piece, edges_[below], edges_[above]);
+  result.wide = std::min(result.upper, bottom_of(piece));
+  return result;
+}
+
+double RegionMeasure::some_radius() const {
+  constexpr std::ptrdiff_t kTries = 8;
+  std::vector<const Guess*> widest;
+  for (const Guess& guess : guesses_) widest.push_back(&guess);
+  const auto end = widest.begin() + std::min(kTries, std::ssize(widest));
+  std::partial_sort(widest.begin(), end, widest.end(),
+                    [](const Guess* a, const Guess* b) { return a->upper > b->upper; });
+  double radius = 0;
+  for (auto one = widest.begin(); one != end; ++one) {
+    // Where the centre is off, and outside the region, it is near its edges.
+    radius = std::max(radius, distance_to_edges((*one)->centre) - (*one)->error);
+  }
+  return radius * (1 - 0x1p-30);
+}
+
+/// A trapezoid whose bound is less than the radius of some disc never is the one with the greatest
+/// bound: the one that holds that disc's centre is before it, or a half of that. So it need not be
+/// looked at, unless the interior is told from it.
+void RegionMeasure::add_trapezoids() {
+  const double radius = some_radius();
+  double wide = 0;
+  for (const Guess& guess : guesses_) wide = std::max(wide, guess.wide - 2 * guess.error);
+  for (const Guess& guess : guesses_) {
+    if (guess.upper + guess.error < radius && guess.wide + 2 * guess.error < wide) continue;
+    add_trapezoid(guess.below, guess.above, guess.stop);
+  }
+}
+
+void RegionMeasure::add_trapezoid(std::size_t below, std::size_t above, Stop stop) {
+  Piece piece;
+  piece.corners = {corner(below, stop), corner(below, stop + 1), Planar{}, corner(above, stop)};
+  piece.corners[2] = corner(above, stop + 1);
+  piece.below = static_cast<std::uint32_t>(below);
+  piece.above = static_cast<std::uint32_t>(above);
+  piece.upper = upper_bound(piece, edges_[below], edges_[above]);
+  const double area_like = std::min(piece.upper, bottom_of(piece));
+  if (queue_.empty() || area_like > widest_) {
     widest_ = area_like;
-    interior_ = slabs_.direction().turn_back(middle_x, middle_y);
+    widest_between_ = {below, above, stop};
   }
   queue_.push(piece);
-  if (++made_ > kMostTrapezoids) complete_ = false;
-  return complete_;
 }
 
 double RegionMeasure::nearest_edge(const Piece& piece) const {
@@ -393,33 +386,26 @@ double RegionMeasure::nearest_edge(const Piece& piece) const {
         }
         return most;
       },
-      [&](std::uint32_t edge) { return farthest(piece, slabs_.edges()[edge]); });
+      [&](std::uint32_t edge) { return farthest(piece, edges_[edge]); });
 }
 
 double RegionMeasure::distance_to_edges(Planar point) const {
   return tree_.least(
       std::numeric_limits<double>::infinity(),
       [&](const PlanarBox& box) { return distance(point, box); },
-      [&](std::uint32_t edge) {
-        return distance(point, slabs_.edges()[edge].a, slabs_.edges()[edge].b);
-      });
+      [&](std::uint32_t edge) { return distance(point, edges_[edge].a, edges_[edge].b); });
 }
 
 double RegionMeasure::lower_bound(double fine) {
-  std::vector<PlanarBox> boxes;
-  for (const BoundaryEdge& edge : slabs_.edges()) {
-    boxes.push_back(box_of(PlanarPoint{edge.a.x, edge.a.y}, PlanarPoint{edge.b.x, edge.b.y}));
-  }
-  tree_ = BoxTree(std::move(boxes));
-  const std::size_t most_steps = std::min(kMostSteps, 600 + kStepsAnEdge * slabs_.edges().size());
+  const std::size_t most_steps = std::min(kMostSteps, 600 + kStepsAnEdge * edges_.size());
   double lower = 0;
   for (std::size_t step = 0; step < most_steps && !queue_.empty(); ++step) {
     Piece piece = queue_.top();
     if (piece.upper <= std::max(lower * kCloseEnough, fine)) break;
     queue_.pop();
     if (!piece.refined) {
-      piece.upper = std::min(piece.upper, half_between(piece, slabs_.edges()[piece.below],
-                                                       slabs_.edges()[piece.above]));
+      piece.upper =
+          std::min(piece.upper, half_between(piece, edges_[piece.below], edges_[piece.above]));
       piece.upper = nearest_edge(piece);
       lower = std::max(lower, distance_to_edges(centre_of(piece)));
       piece.refined = true;
@@ -448,24 +434,28 @@ double width_of_area(double share, double whole) {
 
 std::vector<std::vector<ChartPoint>> trapezoids_of(const Overlay& overlay,
                                                    const std::vector<std::uint32_t>& boundary) {
-  SlabCut slabs;
+  SlabCut slabs(overlay);
   for (const std::uint32_t halfedge : boundary) {
-    slabs.add({overlay.point(overlay.halfedges()[halfedge].origin),
-               overlay.point(overlay.target(halfedge)),
-               {},
-               {},
-               {}});
+    slabs.add(overlay.halfedges()[halfedge].origin, overlay.target(halfedge));
   }
-  std::vector<std::vector<ChartPoint>> trapezoids;
-  slabs.cut([&](const BoundaryEdge& below, const BoundaryEdge& above, const Fraction& low_x,
-                const Fraction& high_x, const Fraction&, const Fraction&) {
-    std::vector<ChartPoint> corners;
-    for (const auto& [edge, x] :
-         {std::pair{&below, &low_x}, {&below, &high_x}, {&above, &high_x}, {&above, &low_x}}) {
-      corners.push_back(slabs.direction().turn_back(*x, height_at(edge->line, *x)));
-      reduce(corners.back());
+  std::vector<KnownCorner<ChartPoint>> known(boundary.size());
+  const auto corner = [&](std::size_t edge, Stop stop) -> const ChartPoint& {
+    const SlabEdge& own = slabs.edges()[edge];
+    if (stop == own.first) return overlay.point(own.left);
+    if (stop == own.last) return overlay.point(own.right);
+    if (known[edge].stop != stop) {
+      known[edge] = {stop, slabs.corner(edge, stop)};
+      reduce(known[edge].corner);
     }
-    trapezoids.push_back(std::move(corners));
+    return known[edge].corner;
+  };
+  std::vector<std::vector<ChartPoint>> trapezoids;
+  slabs.cut([&](std::size_t below, std::size_t above, Stop stop) {
+    std::vector<ChartPoint>& corners = trapezoids.emplace_back();
+    for (const auto& [edge, at] :
+         {std::pair{below, stop}, {below, stop + 1}, {above, stop + 1}, {above, stop}}) {
+      corners.push_back(corner(edge, at));
+    }
     return trapezoids.size() < kMostTrapezoids;
   });
   return trapezoids;

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <string>
 
 #include "report/certificate/certificate.h"
 #include "report/certificate/decisions.h"
 #include "report/certificate/wrong_share.h"
+#include "report/json/area_json.h"
 #include "report/json/json_writer.h"
 
 namespace gnomon::report {
 
 namespace {
+
+constexpr double kLeast = 0x1p-960;  // below it bounds of a double are no longer close
+constexpr int kFacingDigits = 13;    // that are sure
 
 void write_enclosure(JsonWriter& json, std::string_view name, const oracle::Enclosure& enclosure) {
   json.key(name);
@@ -18,13 +25,30 @@ void write_enclosure(JsonWriter& json, std::string_view name, const oracle::Encl
   json.end_array();
 }
 
-void write_share(JsonWriter& json, std::string_view name, const oracle::AreaShare& share) {
+/// Bounds of an area, and as text beside them where doubles do not tell it. `relative`: the same in
+/// shares of the square over the scene's box.
+void write_area_bounds(JsonWriter& json, const std::string& name, const oracle::Enclosure& area,
+                       const oracle::Enclosure& relative, const WrongShare& scale) {
+  constexpr double kUnsure = 0x1p-44;  // of the shares
+  write_enclosure(json, name, area);
+  if (relative.is_zero() || (std::isfinite(area.upper) && area.upper > kLeast)) return;
+  json.key(name + "_decimal");
+  json.begin_array(JsonLayout::kInline);
+  json.value(decimal_text(mpq_class(relative.lower * (1 - kUnsure)) * scale.unit()));
+  json.value(decimal_text(mpq_class(relative.upper * (1 + kUnsure)) * scale.unit()));
+  json.end_array();
+}
+
+/// `polygon`: the area of all of it, in shares of the square over the scene's box.
+void write_share(JsonWriter& json, std::string_view name, const oracle::AreaShare& share,
+                 double polygon, const WrongShare& scale) {
   json.key(name);
   json.begin_object(JsonLayout::kInline);
   json.member("zero", share.zero);
   if (share.exact) json.member("exact", share.exact->get_str());
   write_enclosure(json, "fraction", share.fraction);
-  write_enclosure(json, "area", share.area);
+  write_area_bounds(json, "area", share.area,
+                    {share.fraction.lower * polygon, share.fraction.upper * polygon}, scale);
   json.end_object();
 }
 
@@ -64,9 +88,57 @@ void write_witness(JsonWriter& json, const oracle::Witness& witness) {
   json.end_object();
 }
 
-/// `areas`: there are area lights.
-void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals, double wrong_share,
-                  bool areas) {
+using ShareOf = oracle::AreaShare oracle::PolygonComparison::*;
+
+/// The sum of such shares of all sides, in shares of the square over the scene's box. What is true
+/// is counted once, however often it is told: of the first block alone.
+oracle::Enclosure relative_total(const oracle::Report& report,
+                                 std::initializer_list<ShareOf> shares, bool first_block,
+                                 const WrongShare& scale) {
+  oracle::Enclosure sum{0, 0};
+  for (const oracle::LightComparison& light : report.lights) {
+    if (first_block && light.block != report.lights.front().block) continue;
+    for (const oracle::PolygonComparison& side : light.polygons) {
+      const double area = scale.area_of(side.polygon);
+      for (const ShareOf share : shares) {
+        sum.lower += (side.*share).fraction.lower * area;
+        sum.upper += (side.*share).fraction.upper * area;
+      }
+    }
+  }
+  return sum;
+}
+
+void write_total_areas(JsonWriter& json, const oracle::Report& report, bool area_lights,
+                       const WrongShare& scale) {
+  using Polygon = oracle::PolygonComparison;
+  const oracle::ComparisonTotals& totals = report.totals;
+  const auto write = [&](const char* name, const oracle::Enclosure& area,
+                         std::initializer_list<ShareOf> shares, bool true_one) {
+    write_area_bounds(json, name, oracle::not_negative(area),
+                      relative_total(report, shares, true_one, scale), scale);
+  };
+  write("area", totals.area, {&Polygon::lit, &Polygon::shadow, &Polygon::penumbra, &Polygon::umbra},
+        true);
+  write("lit", totals.lit, {&Polygon::lit}, true);
+  write("shadow", totals.shadow, {&Polygon::shadow}, true);
+  if (area_lights) {
+    write("penumbra", totals.penumbra, {&Polygon::penumbra}, true);
+    write("umbra", totals.umbra, {&Polygon::umbra}, true);
+    write("missing_umbra", totals.missing_umbra, {&Polygon::missing_umbra}, false);
+  }
+  write("misclassified", totals.misclassified, {&Polygon::misclassified}, false);
+  write("uncovered", totals.uncovered, {&Polygon::uncovered}, false);
+  write("overlapping", totals.overlapping, {&Polygon::overlapping}, false);
+  write("outside", totals.outside, {&Polygon::outside}, false);
+  write("ill_conditioned", totals.ill_conditioned, {&Polygon::ill_conditioned}, false);
+  write("rounding", totals.rounding, {&Polygon::rounding}, false);
+}
+
+/// `area_lights`: there are some.
+void write_totals(JsonWriter& json, const oracle::Report& report, const WrongShare& scale,
+                  bool area_lights) {
+  const oracle::ComparisonTotals& totals = report.totals;
   json.key("totals");
   json.begin_object();
   json.member("polygons", totals.polygons);
@@ -84,22 +156,9 @@ void write_totals(JsonWriter& json, const oracle::ComparisonTotals& totals, doub
   json.member("worst_overlapping", totals.worst_overlapping);
   json.member("worst_outside", totals.worst_outside);
   json.member("worst_share", totals.worst_share());
-  json.member("wrong_share", wrong_share);
+  json.member("wrong_share", scale.of(report));
   json.member("by_borders", totals.by_borders);
-  write_enclosure(json, "area", totals.area);
-  write_enclosure(json, "lit", totals.lit);
-  write_enclosure(json, "shadow", totals.shadow);
-  if (areas) {
-    write_enclosure(json, "penumbra", totals.penumbra);
-    write_enclosure(json, "umbra", totals.umbra);
-    write_enclosure(json, "missing_umbra", totals.missing_umbra);
-  }
-  write_enclosure(json, "misclassified", totals.misclassified);
-  write_enclosure(json, "uncovered", totals.uncovered);
-  write_enclosure(json, "overlapping", totals.overlapping);
-  write_enclosure(json, "outside", totals.outside);
-  write_enclosure(json, "ill_conditioned", totals.ill_conditioned);
-  write_enclosure(json, "rounding", totals.rounding);
+  write_total_areas(json, report, area_lights, scale);
   json.member("rounding_radius", totals.rounding_radius);
   write_enclosure(json, "width", totals.width);
   write_enclosure(json, "off_plane", totals.off_plane);
@@ -116,7 +175,8 @@ bool is_wrong(const oracle::PolygonComparison& polygon) {
 }
 
 /// The polygon sides that are not exactly right; all others are.
-void write_wrong_polygons(JsonWriter& json, const Scene& scene, const oracle::Report& report) {
+void write_wrong_polygons(JsonWriter& json, const Scene& scene, const oracle::Report& report,
+                          const WrongShare& scale) {
   const auto is_area = [&](const std::string& id) {
     return std::ranges::any_of(
         scene.lights, [&](const Light& light) { return light.id == id && light.has_area(); });
@@ -138,20 +198,24 @@ void write_wrong_polygons(JsonWriter& json, const Scene& scene, const oracle::Re
       json.member("t_vertices", polygon.t_vertices);
       json.member("self_crossing", polygon.self_crossing);
       if (polygon.inconsistent) json.member("inconsistent", true);
-      write_share(json, "lit", polygon.lit);
+      const double area = scale.area_of(polygon.polygon);
+      const auto write = [&](std::string_view name, const oracle::AreaShare& share) {
+        write_share(json, name, share, area, scale);
+      };
+      write("lit", polygon.lit);
       if (is_area(light.id)) {
-        write_share(json, "penumbra", polygon.penumbra);
-        write_share(json, "umbra", polygon.umbra);
-        write_share(json, "missing_umbra", polygon.missing_umbra);
+        write("penumbra", polygon.penumbra);
+        write("umbra", polygon.umbra);
+        write("missing_umbra", polygon.missing_umbra);
       } else {
-        write_share(json, "shadow", polygon.shadow);
+        write("shadow", polygon.shadow);
       }
-      write_share(json, "misclassified", polygon.misclassified);
-      write_share(json, "uncovered", polygon.uncovered);
-      write_share(json, "overlapping", polygon.overlapping);
-      write_share(json, "outside", polygon.outside);
-      write_share(json, "ill_conditioned", polygon.ill_conditioned);
-      write_share(json, "rounding", polygon.rounding);
+      write("misclassified", polygon.misclassified);
+      write("uncovered", polygon.uncovered);
+      write("overlapping", polygon.overlapping);
+      write("outside", polygon.outside);
+      write("ill_conditioned", polygon.ill_conditioned);
+      write("rounding", polygon.rounding);
       write_enclosure(json, "width", polygon.width);
       write_enclosure(json, "off_plane", polygon.off_plane);
       if (!polygon.worst.empty()) {
@@ -172,7 +236,7 @@ void write_wrong_polygons(JsonWriter& json, const Scene& scene, const oracle::Re
   json.end_array();
 }
 
-void write_run(JsonWriter& json, const NamedScene& named, const WrongShare& wrong_share,
+void write_run(JsonWriter& json, const NamedScene& named, const WrongShare& scale,
                const JudgedRun& run, bool times) {
   const Scene& scene = *named.scene;
   json.begin_object();
@@ -224,8 +288,8 @@ void write_run(JsonWriter& json, const NamedScene& named, const WrongShare& wron
     }
     write_texts(json, "problems", report.problems);
     write_texts(json, "notes", report.notes);
-    write_totals(json, report.totals, wrong_share.of(report), has_area_light(scene));
-    write_wrong_polygons(json, scene, report);
+    write_totals(json, report, scale, has_area_light(scene));
+    write_wrong_polygons(json, scene, report, scale);
   }
   if (!run.explanation.empty()) json.member("first_difference", run.explanation);
   if (run.decisions) {
@@ -249,14 +313,18 @@ void write_certificate_json(TextSink& sink, const Certificate& certificate, bool
   json.member("polygons", scene.polygons.size());
   json.member("parts", certificate.prepared->parts.size());
   write_texts(json, "lights", certificate.lights);
+  const WrongShare scale(certificate);
   json.member("facing_area", certificate.facing_area);
+  if (scale.facing() > 0 && !tells(certificate.facing_area)) {
+    json.member("facing_area_decimal",
+                decimal_text(mpq_class(scale.facing()) * scale.unit(), kFacingDigits));
+  }
   write_texts(json, "scene_findings", certificate.scene_findings);
   if (certificate.interrupted) json.member("interrupted", true);
-  const WrongShare wrong_share(certificate);
   json.key("runs");
   json.begin_array();
   for (const JudgedRun& run : certificate.runs)
-    write_run(json, {&scene, certificate.prepared}, wrong_share, run, times);
+    write_run(json, {&scene, certificate.prepared}, scale, run, times);
   json.end_array();
   json.end_object();
   json.finish();

@@ -11,6 +11,8 @@ namespace gnomon::report {
 WrongShare::WrongShare(const Certificate& certificate) {
   if (certificate.scene == nullptr || certificate.prepared == nullptr) return;
   const PreparedScene& prepared = *certificate.prepared;
+  const mpq_class width = prepared.geometry.step * (mpz_class(1) << prepared.position_bits);
+  unit_ = width * width;
   std::vector<std::uint32_t> lights;
   for (std::uint32_t i = 0; i < prepared.lights.size(); ++i) {
     const std::string& id = certificate.scene->lights[prepared.lights[i].light].id;
@@ -26,10 +28,9 @@ double WrongShare::of(const oracle::Report& report) const {
   double wrong = 0, compared = 0;
   for (const oracle::LightComparison& light : report.lights) {
     for (const oracle::PolygonComparison& side : light.polygons) {
-      const auto area = areas_.find(side.polygon);
-      if (area == areas_.end()) continue;
-      compared += area->second;
-      if (!side.misclassified.zero) wrong += side.misclassified.fraction.upper * area->second;
+      const double area = area_of(side.polygon);
+      compared += area;
+      if (!side.misclassified.zero) wrong += side.misclassified.fraction.upper * area;
     }
   }
   const double all = facing_ > 0 ? facing_ : compared;

@@ -4,6 +4,8 @@
 #ifndef GNOMON_REPORT_CERTIFICATE_WRONG_SHARE_H
 #define GNOMON_REPORT_CERTIFICATE_WRONG_SHARE_H
 
+#include <gmpxx.h>
+
 #include <map>
 #include <string>
 
@@ -19,9 +21,20 @@ class WrongShare {
   /// all that was compared if none faces one. An upper bound but for the rounding of the sums.
   double of(const oracle::Report& report) const;
 
+  /// All area that faces a light, and that of a polygon: shares of the square over the scene's box.
+  /// Off by less than 2^-45 of themselves.
+  double facing() const { return facing_; }
+  double area_of(const std::string& polygon) const {
+    const auto area = areas_.find(polygon);
+    return area == areas_.end() ? 0 : area->second;
+  }
+  /// The square over the scene's box, scene units squared.
+  const mpq_class& unit() const { return unit_; }
+
  private:
-  double facing_ = 0;                    // shares of the square over the scene's box
+  double facing_ = 0;
   std::map<std::string, double> areas_;  // by polygon
+  mpq_class unit_ = 0;
 };
 
 }  // namespace gnomon::report

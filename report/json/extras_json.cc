@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "kernel/signs/nearest_double.h"
+#include "report/json/area_json.h"
 #include "report/sides/count_shares.h"
 #include "report/sides/group_sums.h"
 #include "report/sides/lit_centroid.h"
@@ -46,12 +47,14 @@ void ExtrasWriter::write_counts(const CasterCounts& counts, const ClassifiedSide
     json_.begin_object(JsonLayout::kInline);
     json_.member("count", own.count);
     write_fraction(own.share, own.exact);
-    json_.key("area");
-    if (own.exact) {
-      json_.value(areas_.nearest(side.polygon, *own.exact));
-    } else if (std::isfinite(own.share.middle())) {
-      json_.value(areas_.nearest(side.polygon, own.share.middle()));
+    if (own.exact || std::isfinite(own.share.middle())) {
+      const mpq_class share = own.exact ? *own.exact : mpq_class(own.share.middle());
+      write_area(json_,
+                 own.exact ? areas_.nearest(side.polygon, share)
+                           : areas_.nearest(side.polygon, own.share.middle()),
+                 [&] { return mpq_class(share * precise_area(prepared_, side.polygon)); });
     } else {
+      json_.key("area");
       json_.null();
     }
     json_.end_object();
@@ -91,13 +94,13 @@ void ExtrasWriter::write_light(const LightResult& light) {
     json_.member("id", group.name);
     json_.member("polygons", group.polygons.size());
     json_.member("sides", sum.sides);
-    json_.member("area", sum.area);
+    write_area(json_, sum.area, [&] { return sum.precise_area; });
     for (const LightState state : light_states(area_light)) {
       const GroupShare& share = sum.of(state);
       json_.key(name_of(state));
       json_.begin_object(JsonLayout::kInline);
       write_fraction(share.share, share.exact);
-      json_.member("area", share.area);
+      write_area(json_, share.area, [&] { return share.precise_area; });
       json_.end_object();
     }
     json_.end_object();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernel/signs/nearest_double.h"
+#include "report/json/area_json.h"
 #include "report/json/extras_json.h"
 #include "report/json/json_writer.h"
 #include "report/sides/part_area.h"
@@ -236,8 +237,7 @@ class ResultWriter {
     json_.member("id", id);
     json_.member("side", name_of(side.side));
     const double area = areas_.nearest(side.polygon);
-    if (!std::isfinite(area)) find("polygon " + id + ": its area is beyond the range of doubles");
-    json_.member("area", area);
+    write_area(json_, area, [&] { return precise_area(prepared_, side.polygon); });
     for (const LightState state : light_states(side.area_light)) {
       write_share(state, light, side, area);
     }
@@ -278,7 +278,15 @@ class ResultWriter {
     } else {
       write_enclosure(std::nextafter(nearest, 0.0), std::min(1.0, std::nextafter(nearest, 2.0)));
     }
-    json_.member("area", areas_.nearest(side.polygon, share));
+    write_area_of(side, areas_.nearest(side.polygon, share), share);
+  }
+
+  /// Of a share of a side.
+  void write_area_of(const ClassifiedSide& side, double nearest, const mpq_class& share) {
+    write_area(json_, nearest, [&]() -> mpq_class {
+      if (share == 0) return 0;  // the usual reason for an area of 0
+      return share * precise_area(prepared_, side.polygon);
+    });
   }
 
   /// `area`: of the whole side.
@@ -304,11 +312,11 @@ class ResultWriter {
       if (share.upper - share.lower > kTight) write_enclosure(share.lower, share.upper);
     }
     if (share.lower == share.upper && (share.lower == 0 || share.lower == 1)) {
-      json_.member("area", share.lower == 0 ? 0.0 : area);
+      write_area_of(side, share.lower == 0 ? 0.0 : area, share.lower);
     } else if (exact) {
-      json_.member("area", areas_.nearest(side.polygon, *exact));
+      write_area_of(side, areas_.nearest(side.polygon, *exact), *exact);
     } else if (std::isfinite(share.middle())) {
-      json_.member("area", areas_.nearest(side.polygon, share.middle()));
+      write_area_of(side, areas_.nearest(side.polygon, share.middle()), share.middle());
     } else {
       json_.key("area");
       json_.null();
@@ -324,7 +332,8 @@ class ResultWriter {
       const PartSide& part = side.parts[i];
       json_.begin_object(JsonLayout::kInline);
       json_.member("part", i);
-      json_.member("area", nearest_area(prepared_, prepared_.parts[first + i]));
+      const Part& own = prepared_.parts[first + i];
+      write_area(json_, nearest_area(prepared_, own), [&] { return precise_area(prepared_, own); });
       for (const LightState state : light_states(side.area_light)) {
         if (options_.exact_fractions) {
           json_.member(name_of(state), exact_share(part, state).get_str());

@@ -41,17 +41,25 @@ GrossShares::GrossShares(const Scene& scene, const PreparedScene& prepared,
     }
   }
   const PolygonAreas areas(prepared);
+  const auto area_of = [&](std::uint32_t polygon) {
+    if (areas_fit_doubles(prepared)) return areas.nearest(polygon);
+    double sum = 0;
+    for (std::uint32_t part = prepared.first_part[polygon]; part < prepared.first_part[polygon + 1];
+         ++part) {
+      sum += comparable_area(prepared, prepared.parts[part]).middle();
+    }
+    return sum;
+  };
   for (std::size_t column = 0; column < columns.size(); ++column) {
     const std::uint32_t polygon = columns.polygon(column);
     if (columns.side(column) != Side::kFront) continue;
-    Wall wall{scene.polygons[polygon].id + "#gross", {{column, areas.nearest(polygon)}}};
+    Wall wall{scene.polygons[polygon].id + "#gross", {{column, area_of(polygon)}}};
     for (const auto& hole : scene.polygons[polygon].holes) {
       const auto opening = polygons.find(key_of(prepared, hole));
       if (opening == polygons.end()) continue;
       const Side side = look_alike(prepared, polygon, opening->second) ? Side::kFront : Side::kBack;
       const auto its = column_of.find({opening->second, side});
-      if (its != column_of.end())
-        wall.columns.push_back({its->second, areas.nearest(opening->second)});
+      if (its != column_of.end()) wall.columns.push_back({its->second, area_of(opening->second)});
     }
     if (wall.columns.size() == 1) continue;
     double whole = 0;

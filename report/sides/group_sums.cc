@@ -75,6 +75,7 @@ void sum_exactly(const PreparedScene& scene, const std::vector<Member>& members,
     precise.push_back(precise_area(scene, *member.part));
     total += precise.back();
   }
+  sum.precise_area = total;
   sum.area = nearest_double(total);
   const mpq_class rational_total = sum_of(rational);
   for (const LightState state : states) {
@@ -86,6 +87,7 @@ void sum_exactly(const PreparedScene& scene, const std::vector<Member>& members,
       area += cut_off(own) * precise[i];
       if (!rational.empty()) terms.push_back(own * rational[i]);
     }
+    share.precise_area = area;
     share.area = nearest_double(area);
     share.share = around(nearest_double(area / total));
     if (!rational.empty()) share.exact = sum_of(terms) / rational_total;
@@ -101,11 +103,12 @@ void sum_enclosures(const PreparedScene& scene, const std::vector<Member>& membe
   Enclosure total{0, 0};
   mpq_class precise_total = 0;
   for (const Member& member : members) {
-    areas.push_back(to_enclosure(part_area(scene, *member.part)));
+    areas.push_back(to_enclosure(comparable_area(scene, *member.part)));
     total = total + areas.back();
     precise.push_back(precise_area(scene, *member.part));
     precise_total += precise.back();
   }
+  sum.precise_area = precise_total;
   sum.area = nearest_double(precise_total);
   for (const LightState state : states) {
     GroupShare& share = sum.shares[static_cast<std::size_t>(state)];
@@ -118,6 +121,7 @@ void sum_enclosures(const PreparedScene& scene, const std::vector<Member>& membe
     }
     const bool known = std::isfinite(area.middle()) && total.lower > 0;
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    share.precise_area = precise_sum;
     share.area = std::isfinite(area.middle()) ? nearest_double(precise_sum) : kNone;
     const Enclosure ratio = known ? area / total : Enclosure{kNone, kNone};
     share.share = {ratio.lower, std::min(ratio.upper, 1.0)};
@@ -136,7 +140,8 @@ void set_certain(const std::vector<Member>& members, std::span<const LightState>
       });
       if (!all) continue;
       share.share = {value, value};
-      share.area = value * sum.area;
+      share.precise_area = value == 0 ? mpq_class(0) : sum.precise_area;
+      share.area = value == 0 ? 0 : sum.area;
     }
   }
 }

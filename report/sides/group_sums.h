@@ -22,12 +22,14 @@ namespace gnomon::report {
 struct GroupShare {
   Interval share;
   std::optional<mpq_class> exact;
-  double area = 0;  // scene units squared
+  double area = 0;             // scene units squared
+  mpq_class precise_area = 0;  // the same, to more digits than a double has, at every scale
 };
 
 struct GroupSum {
   std::uint64_t sides = 0;           // that were added: of a polygon each one that the result lists
   double area = 0;                   // of them, scene units squared
+  mpq_class precise_area = 0;        // the same, to more digits than a double has
   std::array<GroupShare, 4> shares;  // by LightState; those that the light knows
 
   const GroupShare& of(LightState state) const { return shares[static_cast<std::size_t>(state)]; }

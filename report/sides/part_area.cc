@@ -114,6 +114,24 @@ Interval part_area(const PreparedScene& scene, const Part& part) {
   return {area.lower, area.upper};
 }
 
+bool areas_fit_doubles(const PreparedScene& scene) {
+  constexpr long kFar = 450;  // a box of 2^900 or 2^-900 leaves room for what is smaller or larger
+  const mpq_class& step = scene.geometry.step;
+  const auto width = static_cast<long>(scene.position_bits) +
+                     static_cast<long>(mpz_sizeinbase(step.get_num_mpz_t(), 2)) -
+                     static_cast<long>(mpz_sizeinbase(step.get_den_mpz_t(), 2));
+  return std::labs(width) < kFar;
+}
+
+Interval comparable_area(const PreparedScene& scene, const Part& part) {
+  if (areas_fit_doubles(scene)) return part_area(scene, part);
+  // The grid's box is 2^b wide; squares of twice the areas.
+  mpq_class squared(squared_length(doubled_area_vector(scene, part)));
+  squared >>= 4 * static_cast<mp_bitcnt_t>(scene.position_bits) + 2;
+  const oracle::Enclosure area = oracle::enclose_square_root(squared);
+  return {area.lower, area.upper};
+}
+
 double nearest_area(const PreparedScene& scene, const Part& part) {
   return nearest_double(precise_area(scene, part));
 }

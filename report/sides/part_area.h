@@ -19,6 +19,12 @@ namespace gnomon::report {
 std::array<mpz_class, 3> doubled_area_vector(const PreparedScene& scene, const Part& part);
 /// Bounds of the part's area in scene units squared; [0, infinity] beyond the range of doubles.
 Interval part_area(const PreparedScene& scene, const Part& part);
+/// Whether the areas of a scene's box and of what is seen in it are far from the ends of the range
+/// of doubles.
+bool areas_fit_doubles(const PreparedScene& scene);
+/// Bounds of the part's area in a unit that all parts of a scene have in common, for ratios: scene
+/// units squared if areas fit doubles, else the square over the scene's box.
+Interval comparable_area(const PreparedScene& scene, const Part& part);
 /// The double nearest to the part's area, scene units squared.
 double nearest_area(const PreparedScene& scene, const Part& part);
 /// The part's area, to far more digits than a double has.

@@ -102,7 +102,7 @@ void PartWeights::add(const PreparedScene& scene, std::uint32_t polygon) {
   oracle::Enclosure total{0, 0};
   for (std::uint32_t part = scene.first_part[polygon]; part < scene.first_part[polygon + 1];
        ++part) {
-    areas.push_back(part_area(scene, scene.parts[part]));
+    areas.push_back(comparable_area(scene, scene.parts[part]));
     total = total + to_enclosure(areas.back());
   }
   if (!(total.lower > 0) || !std::isfinite(total.upper)) areas = areas_in_ratio(scene, polygon);

@@ -259,7 +259,7 @@ Interval deep_umbra_share(const PreparedScene& scene, const LightResult& light,
       fraction = bounds[static_cast<std::size_t>(part.result - light.parts.data())].fraction;
     }
     if (side.parts.size() == 1) return fraction;
-    const Enclosure area = to_enclosure(part_area(scene, scene.parts[first + i]));
+    const Enclosure area = to_enclosure(comparable_area(scene, scene.parts[first + i]));
     total = total + area;
     deep = deep + area * to_enclosure(fraction);
   }

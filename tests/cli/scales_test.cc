@@ -17,7 +17,9 @@
 namespace gnomon::test {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
+using testing::Not;
 
 class Scales : public testing::Test {
  protected:
@@ -75,6 +77,85 @@ TEST_F(Scales, WrongSharesAreRightWhereAreasAreNot) {
     EXPECT_LE(run["totals"]["wrong_share"].GetDouble(), 1) << exponent;
     EXPECT_THAT(run["excess"].GetString(), HasSubstr("more than 1e-09")) << exponent;
   }
+}
+
+/// log10 of an area in JSON, as a number where that tells it, else as text beside it.
+double logarithm(const rapidjson::Value& object, const char* name) {
+  const std::string decimal = std::string(name) + "_decimal";
+  if (!object.HasMember(decimal.c_str())) return std::log10(object[name].GetDouble());
+  const std::string text = object[decimal.c_str()].GetString();
+  const auto at = text.find('e');
+  return std::log10(std::stod(text.substr(0, at))) + std::stod(text.substr(at + 1));
+}
+
+TEST_F(Scales, AreasAreToldAtEveryScale) {
+  const auto shadows = [&](int exponent) {
+    const RunResult run = run_gnomon({"shadows", scaled_example("table-chair", exponent)});
+    rapidjson::Document json;
+    json.Parse(run.out.c_str());
+    EXPECT_FALSE(json.HasParseError()) << run.out << run.err;
+    EXPECT_EQ(run.out.find("_decimal") == std::string::npos, std::abs(exponent) < 500) << exponent;
+    return json;
+  };
+  const auto known = shadows(0);
+  for (const int exponent : {-1000, -600, -530, -400, 400, 520, 1000}) {
+    const auto json = shadows(exponent);
+    const double scale = 2 * exponent * std::log10(2.0);
+    const auto& sides = json["lights"][0]["polygons"];
+    for (rapidjson::SizeType i = 0; i < sides.Size(); ++i) {
+      const auto& own = known["lights"][0]["polygons"][i];
+      EXPECT_NEAR(logarithm(sides[i], "area"), logarithm(own, "area") + scale, 1e-9) << exponent;
+      for (const char* share : {"lit", "shadow"}) {
+        const auto& area = own[share]["area"];
+        if (area.GetDouble() == 0) {
+          EXPECT_EQ(sides[i][share]["area"].GetDouble(), 0) << exponent;
+          EXPECT_FALSE(sides[i][share].HasMember("area_decimal")) << exponent;
+        } else {
+          EXPECT_NEAR(logarithm(sides[i][share], "area"), logarithm(own[share], "area") + scale,
+                      1e-9)
+              << exponent;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Scales, AreasOfVerdictsAreToldAtEveryScale) {
+  const auto logarithm_of_bound = [](const rapidjson::Value& text) {
+    rapidjson::Document object(rapidjson::kObjectType);
+    object.AddMember("x_decimal", rapidjson::Value(text, object.GetAllocator()),
+                     object.GetAllocator());
+    return logarithm(object, "x");
+  };
+  const auto known = certificate(scaled_example("table-chair", 0), "double");
+  for (const char* name : {"area", "lit", "shadow"}) {
+    EXPECT_FALSE(known["runs"][0]["totals"].HasMember((std::string(name) + "_decimal").c_str()));
+  }
+  for (const int exponent : {-1000, -600, 520, 1000}) {
+    const auto json = certificate(scaled_example("table-chair", exponent), "double");
+    const double scale = 2 * exponent * std::log10(2.0);
+    EXPECT_NEAR(logarithm(json, "facing_area"),
+                std::log10(known["facing_area"].GetDouble()) + scale, 1e-9);
+    const auto& totals = json["runs"][0]["totals"];
+    for (const char* name : {"area", "lit", "shadow"}) {
+      const auto& bounds = totals[(std::string(name) + "_decimal").c_str()];
+      const auto& own = known["runs"][0]["totals"][name];
+      EXPECT_NEAR(logarithm_of_bound(bounds[0]), std::log10(own[0].GetDouble()) + scale, 1e-9);
+      EXPECT_NEAR(logarithm_of_bound(bounds[1]), std::log10(own[1].GetDouble()) + scale, 1e-9);
+      EXPECT_LE(logarithm_of_bound(bounds[0]), logarithm_of_bound(bounds[1]) + 1e-12);
+    }
+    EXPECT_GE(totals["misclassified"][0].GetDouble(), 0) << exponent;
+  }
+}
+
+TEST_F(Scales, EveryStepOfScaleIsJudged) {
+  const RunResult run =
+      run_gnomon({"extremes", "scale-up", "--from", "550", "--to", "550", "--kernel", "longdouble",
+                  "--kernel", "double", "--algorithm", "sectors", "--curves"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, Not(HasSubstr("not judged")));
+  EXPECT_THAT(run.out, ContainsRegex("sectors +double +- +550 +misclassified"));
+  EXPECT_THAT(run.out, ContainsRegex("sectors +longdouble +- +never"));
 }
 
 TEST_F(Scales, OneLeastDoubleAmongOthersIsTheGridsAndNotTheWidths) {
