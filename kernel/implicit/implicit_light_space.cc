@@ -36,8 +36,10 @@ Sign ImplicitLightSpace<Stats>::exact_side_of_input(PlaneRef plane, VertexId ver
     return stages_.exact(width_of(light.narrow, light.side_bits), 0, [&]<class, class Int>() {
       using Position = PositionFor<Int>;
       const ExactGeometry<Position> exact(geometry());
-      return side_of_shadow_plane<Int>(light.light.directional, light.position<Position>(),
-                                       exact.position(ends.a), exact.position(ends.b),
+      const Vector3<Position> a = exact.position(ends.a);
+      Vector3<Position> l = light.position<Position>();
+      if (light.far) l = difference(l, a);  // then the side is as of a sun
+      return side_of_shadow_plane<Int>(light.is_parallel(), l, a, exact.position(ends.b),
                                        exact.position(vertex));
     });
   }

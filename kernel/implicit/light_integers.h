@@ -28,10 +28,18 @@ struct LightIntegers {
   unsigned side_bits;   // signed bits of the side of an edge plane of an input vertex
   unsigned edge_bits;   // magnitude bits of an edge plane
   unsigned cut_bits;    // magnitude bits of a cut of two support planes
-  bool narrow;          // grid and light fit into 64 bits
+  bool far;             // a lamp beyond is_far(): its doubles are those of a sun, nearly
+  bool narrow;          // grid and light fit into 64 bits, and their differences
   std::array<std::int64_t, 3> narrow_light{};  // the light, if narrow
 
+  /// A lamp whose coordinates have so many bits more than those of vertices is far: seen from the
+  /// scene it shines along its position, but for 2^-kFarBits. Its rays are as a sun's then
+  /// (far_ray()), so that doubles of them have the scene's size, and not only that of its distance.
+  static constexpr unsigned kFarBits = 12;
+
   unsigned grid_bits() const { return geometry->grid.bits(); }
+  /// Whether doubles are those of a sun, or nearly.
+  bool is_parallel() const { return light.directional || far; }
 
   /// The light's position, or its direction. Requires: narrow, unless Int is GMP's.
   template <class Int>
@@ -58,8 +66,38 @@ struct LightIntegers {
     const ExactGeometry<Position> exact(*geometry);
     const Vector3<Position> l = position<Position>();
     const Vector3<Position> a = exact.position(ends.a), b = exact.position(ends.b);
+    if (far) return cross<Int>(difference(l, a), difference(a, b));
     if (!light.directional) return point_shadow_plane<Int>(l, a, b);
     return directional_shadow_plane<Int>(permuted(l), permuted(a), permuted(b));
+  }
+  /// Of a far lamp L, with z the axis of its largest coordinate, a ray is r = (x L_z - z L_x, y L_z
+  /// - z L_y, L_z - z): a sun's q, but for the z in its third component, and a linear map of q = L
+  /// - v with the determinant L_z^2. grid_bits() + light_bits + 1 bits, the third light_bits + 1.
+  template <class Int>
+  Vector3<Int> far_ray(VertexId v) const {
+    const Vector3<Int> p = permuted(ExactGeometry<Int>(*geometry).position(v)),
+                       l = permuted(position<Int>());
+    return {Int(p[0] * l[2] - p[2] * l[0]), Int(p[1] * l[2] - p[2] * l[1]), Int(l[2] - p[2])};
+  }
+  /// A plane n . q of a far lamp in its rays, (-n_x, -n_y, n . L) with the sign of L_z: the plane's
+  /// normal in the scene, and its offset. The opposite way: the plane in q of one in rays, times
+  /// |L_z|.
+  Vector3<mpz_class> in_far_rays(const Vector3<mpz_class>& n) const;
+  Vector3<mpz_class> from_far_rays(const Vector3<mpz_class>& n) const;
+  /// in_far_rays() of an edge_normal(): its offset is L . (a x b), 2 grid_bits() + light_bits + 2.
+  template <class Int>
+  Vector3<Int> far_edge_plane(const EdgeEnds& ends) const {
+    using Position = PositionFor<Int>;
+    const ExactGeometry<Position> exact(*geometry);
+    const Vector3<Position> l = permuted(position<Position>());
+    const Vector3<Position> a = permuted(exact.position(ends.a)),
+                            b = permuted(exact.position(ends.b));
+    Vector3<Int> plane = cross<Int>(difference(l, a), difference(b, a));
+    plane[2] = dot<Int>(l, cross<Product<Int, Position, Position>>(a, b));
+    if (sign_of(l[2]) == Sign::kNegative) {
+      for (Int& x : plane) x = -x;
+    }
+    return plane;
   }
   /// The plane through the light and the line in which plane i, a support plane, is cut by plane j;
   /// positive on the part of i in front of j: cut_bits for support planes.
