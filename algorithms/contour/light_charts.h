@@ -199,10 +199,10 @@ bool LightCharts::fill_one_chart(const FacingPolygons<Numbers>& polygons,
         z_margin = Numbers::kCertified ? light.depth_error[p.plane] * polygons.reach[i]
                                        : 0x1p-47 * most * largest(depth);
       } else if (light.of_heights) {
-        z_margin = (Numbers::kCertified ? 1.1 * light.depth_error[p.plane] * polygons.reach[i]
-                                        : 0x1p-45 * most * largest(depth)) /
-                       least_third +
-                   0x1p-50 * std::max(std::fabs(low_z), std::fabs(high_z));
+        z_margin = Numbers::kCertified
+                       ? 1.1 * light.depth_error[p.plane] * polygons.reach[i] / least_third
+                       : 0x1p-45 * most * largest(depth);
+        z_margin += 0x1p-50 * std::max(std::fabs(low_z), std::fabs(high_z));
       }
       if (high_z - low_z + z_margin < kInfinity) {
         depths_[i] = {float_below(low_z - z_margin), float_above(high_z + z_margin)};

@@ -167,12 +167,14 @@ class ScaledScene {
       scale_ = power_below(most);
       light_scale_ = power_below(most_of_light);
       nearness_ = far ? T(light_scale_ / scale_) : T(0);
-    } else {
-      nearness_ = far ? 1 : 0;
+    } else if (far) {
+      // Rays are to be doubles for boxes, however far it is.
+      mpq_div_2exp(nearness_.get_mpq_t(), mpq_class(1).get_mpq_t(), bits_of(light.grid));
     }
     for (int k = 0; k < 3; ++k) {
       if constexpr (std::is_same_v<T, mpq_class>) {
         light_[k] = light.grid[k];
+        if (far) light_[k] *= nearness_;
       } else {
         light_[k] = static_cast<T>((light.nearest[k] - corner_[k]) * light_scale_);
       }

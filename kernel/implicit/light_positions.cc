@@ -121,12 +121,11 @@ ChartPoint LightPositions::chart_point_of_lamp(const LightChart& chart,
   const double inverse = 1 / w, relative = error * inverse;
   point.u = chart.sign * q[static_cast<std::size_t>(chart.u)] * inverse;
   point.v = chart.sign * q[static_cast<std::size_t>(chart.v)] * inverse;
-  point.z = at.under * inverse;  // n / h . q, times d_z
-  if (d[z].middle < 0) point.z = -point.z;
+  point.z = at.under / d[z].middle * inverse;  // n / h . q on the plane itself, where that is 1
   const double most = std::max(std::fabs(point.u), std::fabs(point.v));
   point.uv_error = 1.01 * (1 + most) * relative + LightBounds::kQuotient * most;
-  point.z_error = 1.01 * at.under_error * inverse +
-                  std::fabs(point.z) * (1.01 * relative + LightBounds::kQuotient);
+  point.z_error = 1.01 * at.under_error / std::fabs(d[z].middle) * inverse +
+                  std::fabs(point.z) * (1.01 * relative + 2 * LightBounds::kQuotient);
   return point;
 }
 
