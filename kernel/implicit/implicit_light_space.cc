@@ -129,9 +129,8 @@ Sign ImplicitLightSpace<Stats>::exact_depth_of_crossing(PlaneId plane,
   const unsigned n = light.cut_bits, m = plane_bits(corner.before), l = plane_bits(corner.after);
   return stages_.exact(width_of(narrow, side_of_crossing_bits(n, m, l)), std::max({n, m, l}),
                        [&]<class Factor, class Int>() {
-                         const ExactGeometry<Factor> exact(geometry());
                          return sign_of_determinant<Int>(
-                             light.cut_normal(exact.plane(corner.support), exact.plane(plane)),
+                             light.cut_of_supports<Factor>(corner.support, plane),
                              exact_normal<Factor>(corner.before),
                              exact_normal<Factor>(corner.after));
                        });

@@ -103,10 +103,20 @@ struct LightIntegers {
   /// positive on the part of i in front of j: cut_bits for support planes.
   template <class Int>
   Vector3<Int> cut_normal(const ExactPlane<Int>& i, const ExactPlane<Int>& j) const;
+  /// The same of two support planes, each factor kept as narrow as it is.
+  template <class Int>
+  Vector3<Int> cut_of_supports(PlaneId i, PlaneId j) const;
   /// A plane of this light in three dimensions, any integers.
   ExactPlane<mpz_class> in_scene(const Vector3<mpz_class>& normal) const;
 
  private:
+  template <class Int, class Normal, class Value>
+  Vector3<Int> cut_of_narrow(PlaneId i, PlaneId j) const;
+  /// Whether a cut of plane i, of this value at the light, is the opposite of what its formula
+  /// says: plane i is oriented to the light, and d_z positive.
+  bool flips_cut(Sign at_light) const {
+    return (at_light == Sign::kNegative) != (light.directional && sgn(light.grid[axes.z]) < 0);
+  }
   template <class Int>
   Vector3<Int> permuted(const Vector3<Int>& v) const {
     return {v[axes.x], v[axes.y], v[axes.z]};
@@ -131,10 +141,58 @@ Vector3<Int> LightIntegers::cut_normal(const ExactPlane<Int>& i, const ExactPlan
     normal[1] = hi * j.n[axes.y] - hj * i.n[axes.y];
     normal[2] = hj * i.d - hi * j.d;
   }
-  // Plane i oriented to the light, and d_z positive.
-  const bool flip = (sign_of(hi) == Sign::kNegative) !=
-                    (light.directional && sign_of(l[axes.z]) == Sign::kNegative);
-  if (flip) {
+  if (flips_cut(sign_of(hi))) {
+    for (Int& x : normal) x = -x;
+  }
+  return normal;
+}
+
+template <class Int>
+Vector3<Int> LightIntegers::cut_of_supports(PlaneId i, PlaneId j) const {
+  if constexpr (std::is_same_v<Int, mpz_class>) {
+    const ExactGeometry<Int> exact(*geometry);
+    return cut_normal(exact.plane(i), exact.plane(j));
+  } else {
+    // Values at the light, 2 D^3 of a box that holds it or 3 D^2 E, and at the grid's corner.
+    const unsigned b = grid_bits();
+    const unsigned at_light = is_parallel() ? 2 * b + light_bits + 2 : support_value_bits(q_bits);
+    const unsigned value_bits = std::max(at_light, support_value_bits(b));
+    Vector3<Int> result;
+    with_factor<Int>(support_normal_bits(b) + 1, [&]<class Normal>() {
+      with_factor<Int>(value_bits, [&]<class Value>() {
+        // Values have more bits than normals.
+        if constexpr (kLimbsOf<Normal> <= kLimbsOf<Value>) {
+          result = cut_of_narrow<Int, Normal, Value>(i, j);
+        }
+      });
+    });
+    return result;
+  }
+}
+
+// As cut_normal().
+template <class Int, class Normal, class Value>
+Vector3<Int> LightIntegers::cut_of_narrow(PlaneId i, PlaneId j) const {
+  const ExactGeometry<std::int64_t> exact(*geometry);
+  const Vector3<std::int64_t> l = position<std::int64_t>();
+  const Vector3<std::int64_t> a_i = exact.position(geometry->planes[i].a),
+                              a_j = exact.position(geometry->planes[j].a);
+  const Vector3<Normal> n_i = exact.normal<Normal>(i), n_j = exact.normal<Normal>(j);
+  const bool directional = light.directional;
+  const Value h_i = dot<Value>(n_i, directional ? l : difference(l, a_i));
+  const Value h_j = dot<Value>(n_j, directional ? l : difference(l, a_j));
+  const auto minor = [&](const auto& of_i, const auto& of_j) {
+    return Int(multiply<Int>(h_j, of_i) - multiply<Int>(h_i, of_j));
+  };
+  Vector3<Int> normal;
+  if (!directional) {
+    for (std::size_t k = 0; k < 3; ++k) normal[k] = minor(n_i[k], n_j[k]);
+  } else {
+    normal[0] = -minor(n_i[axes.x], n_j[axes.x]);
+    normal[1] = -minor(n_i[axes.y], n_j[axes.y]);
+    normal[2] = minor(dot<Value>(n_i, a_i), dot<Value>(n_j, a_j));
+  }
+  if (flips_cut(sign_of(h_i))) {
     for (Int& x : normal) x = -x;
   }
   return normal;

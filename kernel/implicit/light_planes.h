@@ -217,8 +217,7 @@ Vector3<Int> LightPlanes::exact_normal(PlaneRef ref) const {
   } else if (const LightPlaneSource& from = source(ref); from.is_explicit()) {
     for (int k = 0; k < 3; ++k) n[k] = integer_from<Int>(explicit_[from.a].n[k]);
   } else {
-    const ExactGeometry<Int> exact(geometry());
-    n = integers().cut_normal(exact.plane(from.a), exact.plane(from.b));
+    n = integers().cut_of_supports<Int>(from.a, from.b);
   }
   if (ref.flipped()) {
     for (Int& x : n) x = -x;
