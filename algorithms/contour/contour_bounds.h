@@ -50,6 +50,10 @@ struct ContourBounds {
   /// 8 * 2u D + 8u D = 112u D; sums of two and three of them round by 8u D + 16u D. 240u D, which
   /// is this times D and kSunReach.
   static constexpr double kSunLine = 128 * kUnit;
+  /// A far lamp's rays have r_z = d_z - t z, and lines d_z = -t (b_z - a_z), t <= 2^-12: r_z is off
+  /// by 3u, so that n_x and n_y are off by 2u D more, and n_x r_x and n_y r_y by 4u D each; n_z r_z
+  /// by 8u D. 256u D, and what is multiplied by t.
+  static constexpr double kFarLine = 132 * kUnit;
   /// Of depth . r likewise: 2 (2 * 8u + 8u + 2u) M + (8u + 2u + u) M + 9u M = 72u M, in units of M
   /// and kSunReach: within kDepth.
 
@@ -61,6 +65,11 @@ struct ContourBounds {
   /// The same where differences and the apex are exact: u + u, u, and 2u. Nothing is rounded, if
   /// the sum is below 2^53 of their units.
   static constexpr double kPlaneOfExact = 5.1 * kUnit;
+  /// The same of a far lamp, whose apex is off by 3.1u: 10.1u.
+  static constexpr double kFarPlane = 10.4 * kUnit;
+  /// apex . c of a far lamp in units of the sum of A_k |c_k|, A_k = |d_k| + t: d_k is off by 2u and
+  /// the difference d_k - t a_k by u A_k, its product and sums by 3u.
+  static constexpr double kFarApex = 6.2 * kUnit;
 };
 
 }  // namespace gnomon

@@ -4,9 +4,9 @@
 //
 // The area of the triangle between corner c of a polygon R and the points in which the rays r(s)
 // and r(t) of an edge meet R's plane is, in units that all stretches over R share, det(c, r(s),
-// r(t)) / (w(s) w(t)) with w the depth of R's plane on a ray, which is 1 at c (point lights; of a
-// sun the rays themselves are points of a chart and there is no w). As r is linear, r(s) x r(t) =
-// (t - s) n with the line n of the edge, so that this is (t - s) (n . c) / (w(s) w(t)).
+// r(t)) / (w(s) w(t)) with w the depth n / h of R's plane on a ray, which is 1 at c (point lights;
+// of a sun the rays themselves are points of a chart and there is no w). As r is linear, r(s) x
+// r(t) = (t - s) n with the line n of the edge, so that this is (t - s) (n . c) / (w(s) w(t)).
 #ifndef GNOMON_ALGORITHMS_CONTOUR_CONTOUR_INTEGRALS_H
 #define GNOMON_ALGORITHMS_CONTOUR_CONTOUR_INTEGRALS_H
 
@@ -77,6 +77,36 @@ inline double ContourWalk<Numbers, Sides>::share_error(std::uint32_t q, double r
          (sum + (depth_error < 0x1p-10 * least ? 2.1 : 3) * size * width * depth_error * inverse);
 }
 
+/// w of a plane behind edge k at two places of it. Of a far lamp it is 1 + perspective (height - z)
+/// at the edge's ends, whose second term is off by that much of what a height is off by, of the
+/// rounding of the difference and the product (2u), and of perspective (5u) and z (2u) besides; 1 +
+/// that rounds by u, and in between by 3u.
+template <class Numbers, class Sides>
+auto ContourWalk<Numbers, Sides>::quotients(std::uint32_t k, const Behind<Numbers>& receiver,
+                                            const PlaceOnEdge& low, const PlaceOnEdge& high) const
+    -> Quotients {
+  if (light_->heights.empty()) {
+    return {depth_at(receiver, low), depth_at(receiver, high), kDepthBetween * receiver.depth_error,
+            T(receiver.depth_to - receiver.depth_from)};
+  }
+  const FacingPolygon& own = polygons_->polygons[p_];
+  const T& z_from = light_->heights[polygons_->vertex(own, k)];
+  const T& z_to = light_->heights[polygons_->vertex(own, k + 1 == own.count ? 0 : k + 1)];
+  const T from = T(1 + light_->perspective * T(receiver.depth_from - z_from));
+  const T to = T(1 + light_->perspective * T(receiver.depth_to - z_to));
+  Quotients result;
+  result.change = T(to - from);
+  result.low = T(from + low.t * result.change);
+  result.high = T(from + high.t * result.change);
+  if constexpr (Numbers::kCertified) {
+    const double size = std::max(std::fabs(receiver.depth_from) + std::fabs(z_from),
+                                 std::fabs(receiver.depth_to) + std::fabs(z_to));
+    result.error = 1.01 * light_->perspective * (receiver.depth_error + 10 * Ball::kUnit * size) +
+                   4.1 * Ball::kUnit * std::max(std::fabs(from), std::fabs(to));
+  }
+  return result;
+}
+
 template <class Numbers, class Sides>
 void ContourWalk<Numbers, Sides>::take_from(std::uint32_t k, const Behind<Numbers>& receiver,
                                             const PlaceOnEdge& low, const PlaceOnEdge& high) {
@@ -89,12 +119,10 @@ void ContourWalk<Numbers, Sides>::take_from(std::uint32_t k, const Behind<Number
   T share = T(T(low.t - high.t) * rate);
   double error = 0;
   if (!light_->directional) {
-    const T depth_low = depth_at(receiver, low), depth_high = depth_at(receiver, high);
-    share = T(share / T(depth_low * depth_high));
+    const Quotients w = quotients(k, receiver, low, high);
+    share = T(share / T(w.low * w.high));
     if constexpr (Numbers::kCertified) {
-      error = share_error(q, rate, value_error, low, high, depth_low, depth_high,
-                          kDepthBetween * receiver.depth_error,
-                          receiver.depth_to - receiver.depth_from);
+      error = share_error(q, rate, value_error, low, high, w.low, w.high, w.error, w.change);
     }
   } else if constexpr (Numbers::kCertified) {
     error = share_error(q, rate, value_error, low, high, 1, 1, 0, 0);
@@ -124,9 +152,8 @@ void ContourWalk<Numbers, Sides>::take_perhaps(std::uint32_t k, const Behind<Num
     if (light_->directional) {
       error = share_error(q, rate, value_error, first, last, 1, 1, 0, 0);
     } else {
-      error = share_error(q, rate, value_error, first, last, depth_at(receiver, low),
-                          depth_at(receiver, high), kDepthBetween * receiver.depth_error,
-                          receiver.depth_to - receiver.depth_from);
+      const Quotients w = quotients(k, receiver, low, high);
+      error = share_error(q, rate, value_error, first, last, w.low, w.high, w.error, w.change);
     }
     double share = 0;
     if (!(error <= kLeast)) sharpen(k, &receiver, low, high, true, share, error);

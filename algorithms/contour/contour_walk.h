@@ -168,6 +168,15 @@ class ContourWalk {
 
   // Sums.
   T value_of(std::uint32_t k, std::uint32_t q, double& error) const;
+  /// Of a lamp: n / h of a receiver at two places of an edge, what each is off by, and how much it
+  /// changes from one end of the edge to the other.
+  struct Quotients {
+    T low{}, high{};
+    double error = 0;
+    T change{};
+  };
+  Quotients quotients(std::uint32_t k, const Behind<Numbers>& receiver, const PlaceOnEdge& low,
+                      const PlaceOnEdge& high) const;
   void add_own(std::uint32_t k, const Segment<Numbers>& segment);
   double share_error(std::uint32_t q, double rate, double line_value_error, const PlaceOnEdge& low,
                      const PlaceOnEdge& high, double depth_low, double depth_high,

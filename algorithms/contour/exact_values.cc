@@ -14,7 +14,7 @@ namespace gnomon {
 // d_z^2 2^(3 (b + e - s)).
 ExactValues::ExactValues(const LightIntegers& light, unsigned ray_bits)
     : light_(light), shift_(3 * static_cast<long>(light.q_bits)) {
-  if (!light.light.directional) return;
+  if (!light.is_parallel()) return;
   const long b = static_cast<long>(light.grid_bits()), e = static_cast<long>(light.light_bits);
   shift_ = 2 * b + e;
   const double d_z = to_double_scaled(light.light.grid[static_cast<std::size_t>(light.axes.z)], e);
@@ -27,10 +27,11 @@ auto ExactValues::line_of(VertexId a, VertexId b) const {
   const ExactGeometry<Position> exact(*light_.geometry);
   const Vector3<Position> l = light_.position<Position>();
   const Vector3<Position> p = exact.position(a), q = exact.position(b);
-  return [=, directional = light_.light.directional](VertexId v) {
+  return [=, to_light = light_.far ? difference(l, p) : l,
+          parallel = light_.is_parallel()](VertexId v) {
     const Vector3<Position> r = exact.position(v);
-    return directional ? determinant<Int>(l, difference(q, p), difference(r, p))
-                       : determinant<Int>(difference(l, p), difference(l, q), difference(l, r));
+    return parallel ? determinant<Int>(to_light, difference(q, p), difference(r, p))
+                    : determinant<Int>(difference(l, p), difference(l, q), difference(l, r));
   };
 }
 

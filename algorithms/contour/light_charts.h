@@ -2,9 +2,10 @@
 // Boxes of the polygons in charts of the light's directions, for the search for pairs, and ranges
 // of their depths.
 //
-// A sun has one chart. A lamp has one where all polygons are in front of some plane through it: the
-// directions r with m . r > 0 at (r . a, r . b) / (m . r). Else it has the six faces of a cube
-// around it, and a polygon a box in each face that it reaches.
+// A sun has one chart, and a far lamp another like it. Any other lamp has one where all polygons
+// are in front of some plane through it: the directions r with m . r > 0 at (r . a, r . b) / (m .
+// r). Else it has the six faces of a cube around it, and a polygon a box in each face that it
+// reaches.
 //
 // Guarantee: a box holds its polygon's directions (all of the face, in a face); ranges hold its
 // depths. Polygons whose boxes overlap in no chart do not overlap as seen from the light. Of
@@ -58,6 +59,10 @@ class LightCharts {
   /// Where a direction is in the one chart. Requires: is_one().
   std::array<float, 2> place(const Direction& ray) const {
     if (directional_) return {static_cast<float>(ray[0]), static_cast<float>(ray[1])};
+    if (of_heights_) {
+      const double z = 1 / std::fabs(ray[2]);
+      return {static_cast<float>(ray[0] * z), static_cast<float>(ray[1] * z)};
+    }
     const double z = 1 / dot_product(frame_.w, ray);
     return {static_cast<float>(dot_product(frame_.u, ray) * z),
             static_cast<float>(dot_product(frame_.v, ray) * z)};
@@ -76,7 +81,7 @@ class LightCharts {
   /// Adds the boxes of a polygon in the faces of the cube.
   void add_to_faces(std::span<const Direction> corners, std::uint32_t owner);
 
-  bool directional_ = false;
+  bool directional_ = false, of_heights_ = false;
   Frame frame_{};  // of a lamp's one chart
   BoxArrays one_;
   std::array<BoxArrays, 6> faces_;
@@ -139,7 +144,7 @@ bool LightCharts::fill_one_chart(const FacingPolygons<Numbers>& polygons,
       const FacingPolygon& p = polygons.polygons[i];
       constexpr double kInfinity = std::numeric_limits<double>::infinity();
       double low_u = kInfinity, low_v = kInfinity, high_u = -kInfinity, high_v = -kInfinity;
-      double low_z = kInfinity, high_z = -kInfinity, most = 0;
+      double low_z = kInfinity, high_z = -kInfinity, most = 0, least_third = kInfinity;
       const Direction depth = direction_of(light.depths[p.plane]);
       for (std::uint32_t k = 0; k < p.count; ++k) {
         const Direction r = direction_of(polygons.corner(p, k));
@@ -149,6 +154,14 @@ bool LightCharts::fill_one_chart(const FacingPolygons<Numbers>& polygons,
           v = r[1];
           z = dot_product(depth, r);
           most = std::fabs(r[2]);  // the same of all corners
+        } else if (light.of_heights) {
+          // As of a sun, but for a quotient: off by 11u / |r_z| of what |r_z| >= 1/4 leaves.
+          const double inverse = 1 / std::fabs(r[2]);
+          u = r[0] * inverse;
+          v = r[1] * inverse;
+          z = dot_product(depth, r) * inverse;
+          most = 1;
+          least_third = std::min(least_third, std::fabs(r[2]));
         } else {
           const double w = dot_product(frame.w, r);
           const double size = std::fabs(r[0]) + std::fabs(r[1]) + std::fabs(r[2]);
@@ -168,7 +181,7 @@ bool LightCharts::fill_one_chart(const FacingPolygons<Numbers>& polygons,
         low_z = std::min(low_z, z);
         high_z = std::max(high_z, z);
       }
-      if (light.directional) {
+      if (light.of_heights) {
         most = std::max(
             {most, std::fabs(low_u), std::fabs(high_u), std::fabs(low_v), std::fabs(high_v)});
       }
@@ -185,6 +198,11 @@ bool LightCharts::fill_one_chart(const FacingPolygons<Numbers>& polygons,
       if (light.directional) {
         z_margin = Numbers::kCertified ? light.depth_error[p.plane] * polygons.reach[i]
                                        : 0x1p-47 * most * largest(depth);
+      } else if (light.of_heights) {
+        z_margin = Numbers::kCertified
+                       ? 1.1 * light.depth_error[p.plane] * polygons.reach[i] / least_third
+                       : 0x1p-45 * most * largest(depth);
+        z_margin += 0x1p-50 * std::max(std::fabs(low_z), std::fabs(high_z));
       }
       if (high_z - low_z + z_margin < kInfinity) {
         depths_[i] = {float_below(low_z - z_margin), float_above(high_z + z_margin)};
@@ -200,7 +218,8 @@ void LightCharts::find(const FacingPolygons<Numbers>& polygons, const LightRays<
   depths_.assign(polygons.size(), {});
   charts_.clear();
   directional_ = light.directional;
-  if ((light.directional || choose_frame(polygons, frame_)) &&
+  of_heights_ = light.of_heights;
+  if ((light.of_heights || choose_frame(polygons, frame_)) &&
       fill_one_chart(polygons, light, frame_, jobs)) {
     charts_.push_back(one_.view());
     return;

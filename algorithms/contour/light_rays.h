@@ -10,6 +10,12 @@
 // The depth of a plane is a linear function of rays that is larger where the plane is nearer to the
 // light. Of a point light it is n / h, so that it is 1 at the vertices of the plane itself (q is
 // the vector to the light); of a directional one it is the height towards the light.
+//
+// A far lamp (LightIntegers::far) has the rays of LightIntegers::far_ray(), which are a sun's but
+// for what the third component loses with the height z of the vertex, and its depths are heights.
+// All that a sun's numbers are is the same for it, and its bounds differ by what that component is
+// off by; only areas need to know that it is no sun: the quotient n / h is 1 + perspective (height
+// - z).
 #ifndef GNOMON_ALGORITHMS_CONTOUR_LIGHT_RAYS_H
 #define GNOMON_ALGORITHMS_CONTOUR_LIGHT_RAYS_H
 
@@ -39,11 +45,18 @@ struct LightRays {
   using T = typename Numbers::T;
 
   bool directional = false;
-  /// Certified, of a sun: positions as doubles, exactly, scaled to [0, 1], along the axes of its
-  /// rays; empty where they are no doubles.
+  /// Depths are heights, of a sun or a far lamp; else they are 1 at a plane's own vertices.
+  bool of_heights = false;
+  /// Of a far lamp: the height of each vertex as its own plane's depth has it, and the factor of
+  /// what another plane's depth has more. heights is empty for all other lights.
+  std::vector<T> heights;
+  T perspective{};
+  double nearness = 0;  // certified, of a far lamp: of z in the third component of a ray
+  /// Certified, of a sun or a far lamp: positions as doubles, exactly, scaled to [0, 1], along the
+  /// axes of its rays; empty where they are no doubles.
   std::vector<Vector<double>> positions;
   std::array<int, 3> axes{0, 1, 2};  // of positions
-  Vector<double> to_light{};         // of a sun, as its rays have it, along the same axes
+  Vector<double> to_light{};         // of a sun or far lamp, as rays have it, along the same axes
 
   /// Certified: the plane of each edge. None where the grid is wide, and of a lamp's exact rays,
   /// whose lines are no worse where they are not exact, either.
@@ -81,24 +94,33 @@ struct LightRays {
   std::vector<double> depth_error;  // certified: of depth . r for |r_k| <= 1; infinite: unknown
 };
 
-/// With c = (b - a) x (v - a) of rays, or of positions, it is r_a . c of a lamp, d . c of a sun.
+/// With c = (b - a) x (v - a) of rays, or of positions, it is r_a . c of a lamp, d . c of a sun,
+/// and (d - nearness a) . c of a far lamp.
 template <class Numbers>
 double LightRays<Numbers>::sharp_value(VertexId a, VertexId b, VertexId v, double most,
                                        double& error) const {
   if (exact_rays || !positions.empty()) {
     const std::vector<Vector<double>>& points = exact_rays ? rays : positions;
     const Vector<double>&at = points[a], &to = points[b], &p = points[v];
-    const Vector<double>& apex = exact_rays ? at : to_light;
+    Vector<double> apex = exact_rays ? at : to_light, most_of_apex = apex;
+    for (int k = 0; nearness > 0 && k < 3; ++k) {
+      most_of_apex[k] = std::fabs(apex[k]) + nearness;
+      apex[k] -= nearness * at[k];
+    }
     const Vector<double> d{to[0] - at[0], to[1] - at[1], to[2] - at[2]};
     const Vector<double> s{p[0] - at[0], p[1] - at[1], p[2] - at[2]};
     const Vector<double> c = cross_product(d, s);
     const double size = largest(d) * largest(s);
     const double x = apex[0] * c[0], y = apex[1] * c[1], z = apex[2] * c[2];
     const double value = x + y + z;
-    error = apex_terms * (std::fabs(x) + std::fabs(y) + std::fabs(z));
+    error = nearness > 0 ? apex_terms * (most_of_apex[0] * std::fabs(c[0]) +
+                                         most_of_apex[1] * std::fabs(c[1]) +
+                                         most_of_apex[2] * std::fabs(c[2]))
+                         : apex_terms * (std::fabs(x) + std::fabs(y) + std::fabs(z));
     if (!(size < exact_cross)) {
-      error += ContourBounds::kCross * size *
-               (std::fabs(apex[0]) + std::fabs(apex[1]) + std::fabs(apex[2]));
+      error +=
+          ContourBounds::kCross * size *
+          (std::fabs(most_of_apex[0]) + std::fabs(most_of_apex[1]) + std::fabs(most_of_apex[2]));
     }
     if (error <= most * std::fabs(value)) return value;
   }
@@ -109,12 +131,14 @@ double LightRays<Numbers>::sharp_value(VertexId a, VertexId b, VertexId v, doubl
 
 namespace contour_detail {
 
-/// q of a point p as seen from a light l, in a kernel's own numbers; see orientation.h.
+/// q of a point p as seen from a light l, in a kernel's own numbers; see orientation.h. Of a sun or
+/// a far lamp, with the z of p as the third component has it: 0, or the unit of l.
 template <class T>
-Vector<T> ray_of(bool directional, const LightAxes& axes, const Vector<T>& l, const Vector<T>& p) {
-  if (!directional) return {T(l[0] - p[0]), T(l[1] - p[1]), T(l[2] - p[2])};
+Vector<T> ray_of(bool parallel, const LightAxes& axes, const Vector<T>& l, const Vector<T>& p,
+                 const T& nearness) {
+  if (!parallel) return {T(l[0] - p[0]), T(l[1] - p[1]), T(l[2] - p[2])};
   const auto [x, y, z] = axes;
-  return {T(p[x] * l[z] - p[z] * l[x]), T(p[y] * l[z] - p[z] * l[y]), l[z]};
+  return {T(p[x] * l[z] - p[z] * l[x]), T(p[y] * l[z] - p[z] * l[y]), T(l[z] - nearness * p[z])};
 }
 
 template <class T>
@@ -124,23 +148,35 @@ Vector<T> difference_of(const Vector<T>& a, const Vector<T>& b) {
 
 /// Positions and the light in a kernel's own numbers: rationals on the grid, or rounded and scaled
 /// by a power of two to a size of 1, so that products of three of them neither over- nor underflow.
+/// A far lamp is scaled by itself, and both are seen from the corner of the grid.
 template <class T>
 class ScaledScene {
  public:
-  ScaledScene(const Geometry& geometry, const LightPoint& light) : geometry_(geometry) {
+  ScaledScene(const Geometry& geometry, const LightPoint& light, bool far) : geometry_(geometry) {
     if constexpr (!std::is_same_v<T, mpq_class>) {
+      for (int k = 0; far && k < 3; ++k) {
+        corner_[k] = geometry.origin[static_cast<std::size_t>(k)].get_d();
+      }
       double most = 0, most_of_light = 0;
-      for (const std::array<double, 3>& p : geometry.positions) most = std::max(most, largest(p));
-      most_of_light = largest(light.nearest);
-      if (!light.directional) most = most_of_light = std::max(most, most_of_light);
+      for (const std::array<double, 3>& p : geometry.positions) {
+        most = std::max(most, largest({p[0] - corner_[0], p[1] - corner_[1], p[2] - corner_[2]}));
+      }
+      const std::array<double, 3>& l = light.nearest;
+      most_of_light = largest({l[0] - corner_[0], l[1] - corner_[1], l[2] - corner_[2]});
+      if (!light.directional && !far) most = most_of_light = std::max(most, most_of_light);
       scale_ = power_below(most);
       light_scale_ = power_below(most_of_light);
+      nearness_ = far ? T(light_scale_ / scale_) : T(0);
+    } else if (far) {
+      // Rays are to be doubles for boxes, however far it is.
+      mpq_div_2exp(nearness_.get_mpq_t(), mpq_class(1).get_mpq_t(), bits_of(light.grid));
     }
     for (int k = 0; k < 3; ++k) {
       if constexpr (std::is_same_v<T, mpq_class>) {
         light_[k] = light.grid[k];
+        if (far) light_[k] *= nearness_;
       } else {
-        light_[k] = static_cast<T>(light.nearest[k] * light_scale_);
+        light_[k] = static_cast<T>((light.nearest[k] - corner_[k]) * light_scale_);
       }
     }
   }
@@ -150,20 +186,24 @@ class ScaledScene {
       if constexpr (std::is_same_v<T, mpq_class>) {
         p[k] = geometry_.grid.at(v, k);
       } else {
-        p[k] = static_cast<T>(geometry_.positions[v][k] * scale_);
+        p[k] = static_cast<T>((geometry_.positions[v][k] - corner_[k]) * scale_);
       }
     }
     return p;
   }
   const Vector<T>& light() const { return light_; }
   double scale() const { return scale_; }
+  /// Of z in the third component of a ray: 0 but for a far lamp.
+  const T& nearness() const { return nearness_; }
 
  private:
   static double power_below(double size) {
     return size > 0x1p-900 && size < 0x1p900 ? std::ldexp(1.0, -std::ilogb(size)) : 1;
   }
   const Geometry& geometry_;
+  std::array<double, 3> corner_{};
   double scale_ = 1, light_scale_ = 1;
+  T nearness_{};
   Vector<T> light_;
 };
 
@@ -177,14 +217,22 @@ void make_light_rays(const Geometry& geometry, const LightPoint& light, double t
                      LightRays<Numbers>& result) requires(!Numbers::kCertified) {
   using T = typename Numbers::T;
   using namespace contour_detail;
+  const LightIntegers integers(geometry, light);
+  const bool parallel = integers.is_parallel();
   result.directional = light.directional;
-  const LightAxes axes = LightAxes::of(light);
-  const ScaledScene<T> scaled(geometry, light);
+  result.of_heights = parallel;
+  const LightAxes axes = integers.axes;
+  const ScaledScene<T> scaled(geometry, light, integers.far);
   const Vector<T>& l = scaled.light();
+  const T& nearness = scaled.nearness();
   thickness *= scaled.scale();
+  result.heights.resize(integers.far ? geometry.positions.size() : 0);
+  if (integers.far) result.perspective = T(nearness / (l[axes.z] < 0 ? T(-l[axes.z]) : l[axes.z]));
   result.rays.resize(geometry.positions.size());
   for (VertexId v = 0; v < result.rays.size(); ++v) {
-    result.rays[v] = ray_of(light.directional, axes, l, scaled.position(v));
+    const Vector<T> p = scaled.position(v);
+    result.rays[v] = ray_of(parallel, axes, l, p, nearness);
+    if (integers.far) result.heights[v] = l[axes.z] < 0 ? T(-p[axes.z]) : p[axes.z];
   }
   result.lines.resize(geometry.edges.size());
   result.line_error.assign(geometry.edges.size(), 0);
@@ -196,8 +244,11 @@ void make_light_rays(const Geometry& geometry, const LightPoint& light, double t
       if (thickness == 0) continue;
       // A value of the line is a distance from its plane times this.
       Vector<T> normal = result.lines[e];
-      if (light.directional) {
-        normal = cross_product(difference_of(scaled.position(to), scaled.position(from)), l);
+      if (parallel) {
+        const Vector<T> at = scaled.position(from);
+        const Vector<T> towards{T(l[0] - nearness * at[0]), T(l[1] - nearness * at[1]),
+                                T(l[2] - nearness * at[2])};
+        normal = cross_product(difference_of(scaled.position(to), at), towards);
         for (T& x : normal) x *= l[axes.z] * l[axes.z];
       }
       result.line_error[e] =
@@ -211,10 +262,13 @@ void make_light_rays(const Geometry& geometry, const LightPoint& light, double t
     const Vector<T> a = scaled.position(triple.a);
     const Vector<T> n = cross_product(difference_of(scaled.position(triple.b), a),
                                       difference_of(scaled.position(triple.c), a));
-    const T height = light.directional ? dot_product(n, l) : dot_product(n, difference_of(l, a));
+    const T height =
+        parallel ? dot_product(n, Vector<T>{T(l[0] - nearness * a[0]), T(l[1] - nearness * a[1]),
+                                            T(l[2] - nearness * a[2])})
+                 : dot_product(n, difference_of(l, a));
     if (sign_of_value(height) == 0) continue;
     T unit = 1;  // of depths, in scene units along the normal
-    if (!light.directional) {
+    if (!parallel) {
       for (int k = 0; k < 3; ++k) result.depths[id][k] = T(n[k] / height);
     } else {
       const auto [x, y, z] = axes;
@@ -239,20 +293,28 @@ std::uint32_t size_of(const Array& array) {
   return static_cast<std::uint32_t>(array.size());
 }
 
-/// Rays and lines from integers of the type Int, scaled by 2^-scale; of a directional light the
-/// third component is d_z 2^b times that, as in the light space of kernel `plane`.
+/// Magnitude bits of the rays.
+inline unsigned ray_bits(const LightIntegers& light) {
+  return light.far ? light_space_bits(true, light.grid_bits(), light.light_bits) : light.q_bits;
+}
+
+/// Rays and lines from integers of the type Int, scaled by 2^-ray_bits(); of a directional light or
+/// a far lamp the third component is d_z 2^b times that, as in the light space of kernel `plane`.
 template <class Int>
 void fill_certified(const LightIntegers& light, unsigned jobs,
                     LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   const Geometry& geometry = *light.geometry;
   const bool directional = light.light.directional;
-  const auto scaled = [&, scale = std::ldexp(1.0, -static_cast<int>(light.q_bits))](const Int& x) {
+  const unsigned bits = ray_bits(light);
+  const auto scaled = [&, scale = std::ldexp(1.0, -static_cast<int>(bits))](const Int& x) {
     if constexpr (std::is_same_v<Int, std::int64_t> || std::is_same_v<Int, Int128>) {
       return static_cast<double>(x) * scale;
     } else {
-      return to_double_scaled(x, static_cast<long>(light.q_bits));
+      return to_double_scaled(x, static_cast<long>(bits));
     }
   };
+  const double stretch = light.far ? std::ldexp(1.0, static_cast<int>(light.grid_bits())) : 1;
+  const auto ray = [&](VertexId v) { return light.far ? light.far_ray<Int>(v) : light.q<Int>(v); };
   double third = 0;
   if (directional) {
     third =
@@ -261,17 +323,16 @@ void fill_certified(const LightIntegers& light, unsigned jobs,
   }
   in_parallel(jobs, size_of(result.rays), kRayGrain, [&](std::uint32_t begin, std::uint32_t end) {
     for (VertexId v = begin; v < end; ++v) {
-      const Vector3<Int> q = light.q<Int>(v);
-      result.rays[v] = {scaled(q[0]), scaled(q[1]), directional ? third : scaled(q[2])};
+      const Vector3<Int> q = ray(v);
+      result.rays[v] = {scaled(q[0]), scaled(q[1]), directional ? third : stretch * scaled(q[2])};
     }
   });
   // Rays of at most 52 bits are exactly their doubles, and so are the differences of two.
-  const bool exact_rays = light.narrow && light.q_bits <= 52;
-  if (!directional && exact_rays) {
-    const int bits = static_cast<int>(light.q_bits);
+  const bool exact_rays = light.narrow && bits <= 52;
+  if (!light.is_parallel() && exact_rays) {
     result.exact_rays = true;
-    result.exact_cross = std::ldexp(1.0, 51 - 2 * bits);
-    result.exact_size = std::ldexp(1.0, 50 - 3 * bits);
+    result.exact_cross = std::ldexp(1.0, 51 - 2 * static_cast<int>(bits));
+    result.exact_size = std::ldexp(1.0, 50 - 3 * static_cast<int>(bits));
     result.apex_terms = ContourBounds::kApex;
   }
   in_parallel(jobs, size_of(geometry.edges), kRayGrain,
@@ -283,9 +344,9 @@ void fill_certified(const LightIntegers& light, unsigned jobs,
                   if (exact_rays) {
                     d = difference_of(result.rays[to], a);
                   } else {
-                    const Vector3<Int> difference =
-                        gnomon::difference(light.q<Int>(to), light.q<Int>(from));
+                    const Vector3<Int> difference = gnomon::difference(ray(to), ray(from));
                     for (int k = 0; k < (directional ? 2 : 3); ++k) d[k] = scaled(difference[k]);
+                    d[2] *= stretch;
                   }
                   result.lines[e] = cross_product(a, d);
                   result.line_error[e] = ContourBounds::kLine * largest(a) * largest(d);
@@ -300,7 +361,7 @@ inline bool is_of_doubles(const LightPoint& light) {
   });
 }
 
-/// The same for a sun, from positions that are exactly doubles.
+/// The same for a sun or a far lamp, from positions that are exactly doubles.
 inline void fill_certified_sun(const LightIntegers& light, unsigned jobs,
                                LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   const Geometry& geometry = *light.geometry;
@@ -309,25 +370,28 @@ inline void fill_certified_sun(const LightIntegers& light, unsigned jobs,
   in_parallel(jobs, size_of(result.rays), kRayGrain, [&](std::uint32_t begin, std::uint32_t end) {
     for (VertexId v = begin; v < end; ++v) {
       const Vector<double>& p = result.positions[v];
-      result.rays[v] = {p[0] * d[2] - p[2] * d[0], p[1] * d[2] - p[2] * d[1], d[2]};
+      result.rays[v] = {p[0] * d[2] - p[2] * d[0], p[1] * d[2] - p[2] * d[1],
+                        d[2] - result.nearness * p[2]};
     }
   });
-  in_parallel(jobs, size_of(geometry.edges), kRayGrain,
-              [&](std::uint32_t begin, std::uint32_t end) {
-                for (EdgeId e = begin; e < end; ++e) {
-                  const auto [from, to] = geometry.edges[e];
-                  const Vector<double>& at = result.positions[from];
-                  const Vector<double> step = difference_of(result.positions[to], at);
-                  const double size = largest(step);
-                  const Vector<double> of_rays{step[0] * d[2] - step[2] * d[0],
-                                               step[1] * d[2] - step[2] * d[1], 0};
-                  result.lines[e] = cross_product(result.rays[from], of_rays);
-                  result.line_error[e] = ContourBounds::kSunLine * size;
-                }
-              });
+  in_parallel(
+      jobs, size_of(geometry.edges), kRayGrain, [&](std::uint32_t begin, std::uint32_t end) {
+        for (EdgeId e = begin; e < end; ++e) {
+          const auto [from, to] = geometry.edges[e];
+          const Vector<double>& at = result.positions[from];
+          const Vector<double> step = difference_of(result.positions[to], at);
+          const double size = largest(step);
+          const Vector<double> of_rays{step[0] * d[2] - step[2] * d[0],
+                                       step[1] * d[2] - step[2] * d[1], -result.nearness * step[2]};
+          result.lines[e] = cross_product(result.rays[from], of_rays);
+          result.line_error[e] =
+              (light.far ? ContourBounds::kFarLine : ContourBounds::kSunLine) * size;
+        }
+      });
 }
 
-/// Positions as doubles, for a sun, where each is one. Kept from sun to sun of the same axes.
+/// Positions as doubles, for a sun or a far lamp, where each is one. Kept from one to the next of
+/// the same axes.
 inline void fill_positions(const LightIntegers& light,
                            LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   constexpr unsigned kDoubleBits = 53;
@@ -337,7 +401,7 @@ inline void fill_positions(const LightIntegers& light,
     result.to_light[k] =
         to_double_scaled(light.light.grid[axes[k]], static_cast<long>(light.light_bits));
   }
-  if (!light.light.directional || geometry.grid.bits() > kDoubleBits) {
+  if (!light.is_parallel() || geometry.grid.bits() > kDoubleBits) {
     result.positions.clear();
     return;
   }
@@ -352,6 +416,84 @@ inline void fill_positions(const LightIntegers& light,
   }
 }
 
+/// The heights of vertices under a far lamp, each off by at most 2u of itself.
+inline void fill_heights(const LightIntegers& light,
+                         LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
+  result.nearness = 0;
+  result.heights.clear();
+  if (!light.far) return;
+  const GridPositions& grid = light.geometry->grid;
+  const int b = static_cast<int>(grid.bits()), e = static_cast<int>(light.light_bits);
+  // Rays from integers are scaled by one bit more than those from positions, and so are depths.
+  const double scale = result.positions.empty() ? 0.5 : 1;
+  const double sign = result.to_light[2] < 0 ? -scale : scale;
+  result.nearness = std::ldexp(1.0, b - e);
+  result.perspective = result.nearness / std::fabs(result.to_light[2]) / scale;
+  result.heights.resize(grid.size());
+  for (VertexId v = 0; v < result.heights.size(); ++v) {
+    const double z = grid.is_narrow()
+                         ? std::ldexp(static_cast<double>(grid.narrow(v, light.axes.z)), -b)
+                         : to_double_scaled(grid.wide(v, light.axes.z), b);
+    result.heights[v] = sign * z;
+  }
+}
+
+/// Of a far lamp: the way to it from vertices of a narrow grid, times 2^-light_bits, along its
+/// axes.
+class FarApex {
+ public:
+  FarApex(const LightIntegers& light, const Vector<double>& to_light)
+      : light_(light),
+        to_light_(to_light),
+        nearness_(std::ldexp(1.0, -static_cast<int>(light.light_bits))) {
+    const std::array<int, 3> axes{light.axes.x, light.axes.y, light.axes.z};
+    constexpr unsigned kShort = 62, kDoubleBits = 53;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const mpz_class& x = light.light.grid[static_cast<std::size_t>(axes[k])];
+      axes_[k] = axes[k];
+      if (bits_of(x) <= kShort) {
+        how_[k] = How::kShort;
+        short_[k] = x.get_si();
+      } else {
+        how_[k] = light.grid_bits() <= kDoubleBits ? How::kDoubles : How::kIntegers;
+      }
+    }
+  }
+  /// Each component off by 3.1u of itself: by u; by 2u and u, since the lamp's has 62 bits at least
+  /// and the vertex's 53 at most; by 2u.
+  Vector<double> operator()(VertexId v) const {
+    const std::int64_t* p = light_.geometry->grid.narrow_point(v);
+    Vector<double> result;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int64_t x = p[axes_[k]];
+      switch (how_[k]) {
+        case How::kShort:
+          // |x| < 2^63 - 1 and |l| < 2^62: their difference may have 64 bits.
+          result[k] = static_cast<double>(Int128{short_[k]} - x) * nearness_;
+          break;
+        case How::kDoubles:
+          result[k] = to_light_[k] - static_cast<double>(x) * nearness_;
+          break;
+        case How::kIntegers:
+          result[k] =
+              to_double_scaled(mpz_class(light_.light.grid[static_cast<std::size_t>(axes_[k])] -
+                                         static_cast<long>(x)),
+                               static_cast<long>(light_.light_bits));
+      }
+    }
+    return result;
+  }
+
+ private:
+  enum class How : std::uint8_t { kShort, kDoubles, kIntegers };
+  const LightIntegers& light_;
+  Vector<double> to_light_;
+  double nearness_;  // of a grid's step
+  std::array<int, 3> axes_{};
+  std::array<How, 3> how_{};
+  std::array<std::int64_t, 3> short_{};
+};
+
 /// The planes of edges, from a narrow grid. Requires: rays and lines.
 inline void fill_planes(const LightIntegers& light, unsigned jobs,
                         LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
@@ -359,27 +501,34 @@ inline void fill_planes(const LightIntegers& light, unsigned jobs,
   const bool directional = light.light.directional;
   const auto g = static_cast<int>(light.grid_bits()), q = static_cast<int>(light.q_bits);
   result.planes.clear();
-  if (!light.narrow || result.exact_rays) return;
+  if (!(light.far ? geometry.grid.is_narrow() : light.narrow) || result.exact_rays) return;
   if (!result.positions.empty()) {
     result.planes.start(geometry.edges.size(), result.positions);
-  } else if (directional) {
+  } else if (light.is_parallel()) {
     const std::array<int, 3> axes{light.axes.x, light.axes.y, light.axes.z};
     result.planes.start(geometry.edges.size(), geometry.grid, axes, std::ldexp(1.0, -g));
   } else {
     // Rays are the light less positions.
     result.planes.start(geometry.edges.size(), geometry.grid, {0, 1, 2}, -std::ldexp(1.0, -q));
   }
-  if (!result.positions.empty() && g < 53 && is_of_doubles(light.light)) {
+  if (light.far) {
+    result.planes.set_bounds(ContourBounds::kFarPlane, 0);
+  } else if (!result.positions.empty() && g < 53 && is_of_doubles(light.light)) {
     result.planes.set_bounds(ContourBounds::kPlaneOfExact,
                              std::ldexp(1.0, 52 - 2 * g - static_cast<int>(light.light_bits)));
   } else {
     result.planes.set_bounds(ContourBounds::kPlane, 0);
   }
+  std::optional<FarApex> far;
+  if (light.far) far.emplace(light, result.to_light);
   in_parallel(jobs, size_of(geometry.edges), kRayGrain,
               [&](std::uint32_t begin, std::uint32_t end) {
                 for (EdgeId e = begin; e < end; ++e) {
                   const EdgeEnds& ends = geometry.edges[e];
-                  result.planes.set(e, ends, directional ? result.to_light : result.rays[ends.a]);
+                  result.planes.set(e, ends,
+                                    far           ? (*far)(ends.a)
+                                    : directional ? result.to_light
+                                                  : result.rays[ends.a]);
                 }
               });
 }
@@ -393,21 +542,24 @@ void make_light_rays(const Space& space, const Geometry& geometry, const LightPo
                      unsigned jobs, LightRays<ContourNumbers<double, Trust::kCertified>>& result) {
   const LightIntegers integers(geometry, light);
   result.directional = light.directional;
+  result.of_heights = integers.is_parallel();
   result.rays.resize(geometry.positions.size());
   result.lines.resize(geometry.edges.size());
   result.line_error.resize(geometry.edges.size());
   result.exact_rays = false;
   result.exact_cross = result.exact_size = 0;
   contour_detail::fill_positions(integers, result);
+  contour_detail::fill_heights(integers, result);
   if (!result.positions.empty()) {
     contour_detail::fill_certified_sun(integers, jobs, result);
     result.exact_cross = std::ldexp(1.0, 51 - 2 * static_cast<int>(integers.grid_bits()));
-    result.apex_terms = ContourBounds::kSunApex;
+    result.apex_terms = integers.far ? ContourBounds::kFarApex : ContourBounds::kSunApex;
     result.exact.emplace(integers, integers.grid_bits() + integers.light_bits);
   } else {
-    result.exact.emplace(integers, integers.q_bits);
+    const unsigned bits = contour_detail::ray_bits(integers);
+    result.exact.emplace(integers, bits);
     result.reach = 0;
-    with_width(width_of(integers.narrow, integers.q_bits + 2),
+    with_width(width_of(integers.narrow, bits + 2),
                [&]<class Int>() { contour_detail::fill_certified<Int>(integers, jobs, result); });
   }
   contour_detail::fill_planes(integers, jobs, result);

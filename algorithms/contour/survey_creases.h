@@ -89,7 +89,7 @@ MaybeSign EdgeSurvey<Numbers, Sides>::crease_nearer(const Crease<Numbers>& creas
                                                     const Vector<T>& end, std::uint32_t p,
                                                     std::uint32_t q, T& by) const {
   const Vector<T>& own = light_->depths[polygons_->polygons[p].plane];
-  by = T((light_->directional ? dot_product(own, end) : T(1)) -
+  by = T((light_->of_heights ? dot_product(own, end) : T(1)) -
          dot_product(light_->depths[polygons_->polygons[q].plane], end));
   MaybeSign result{sign_of_value(by), true};
   if constexpr (Numbers::kCertified) {
@@ -106,7 +106,7 @@ double EdgeSurvey<Numbers, Sides>::crease_depth_error(const Crease<Numbers>& cre
   } else {
     const PlaneId own = polygons_->polygons[p].plane, other = polygons_->polygons[q].plane;
     const double size =
-        largest(light_->depths[other]) + (light_->directional ? largest(light_->depths[own]) : 0);
+        largest(light_->depths[other]) + (light_->of_heights ? largest(light_->depths[own]) : 0);
     return 1.1 * depth_over_error(p, q) + 3.1 * size * crease.end_error;
   }
 }

@@ -284,7 +284,7 @@ int EdgeSurvey<Numbers, Sides>::nearer(std::uint32_t q, std::uint32_t p, std::ui
   if constexpr (Numbers::kAsksKernel) {
     return sides_->of_support(q, p, j);
   } else {
-    const T difference = (light_->directional ? depth(p, p, j) : T(1)) - depth_of_other;
+    const T difference = (light_->of_heights ? depth(p, p, j) : T(1)) - depth_of_other;
     const double bound = Numbers::kCertified ? depth_over_error(p, q) : light_->depth_error[other];
     ++filtered_;
     if (difference > bound) return 1;
@@ -308,18 +308,18 @@ int EdgeSurvey<Numbers, Sides>::undecided_nearer(std::uint32_t q, std::uint32_t 
   return sides_->of_support(q, p, j);
 }
 
-// The depth at a polygon's own corner is 1 for a point light, exactly.
+// The depth at a polygon's own corner is 1 for a near lamp, exactly.
 template <class Numbers, class Sides>
 auto EdgeSurvey<Numbers, Sides>::depth_over(std::uint32_t p, std::uint32_t q, std::uint32_t j) const
     -> T {
-  return T((light_->directional ? depth(p, p, j) : T(1)) - depth(q, p, j));
+  return T((light_->of_heights ? depth(p, p, j) : T(1)) - depth(q, p, j));
 }
 
 // The difference rounds by u of at most 3 M R of each depth (kDepth has room for it).
 template <class Numbers, class Sides>
 double EdgeSurvey<Numbers, Sides>::depth_over_error(std::uint32_t p, std::uint32_t q) const {
   double bound = 1.1 * light_->depth_error[polygons_->polygons[q].plane];
-  if (light_->directional) bound += 1.1 * light_->depth_error[polygons_->polygons[p].plane];
+  if (light_->of_heights) bound += 1.1 * light_->depth_error[polygons_->polygons[p].plane];
   return bound * polygons_->reach[p] + Ball::kUnit;
 }
 

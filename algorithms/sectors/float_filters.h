@@ -22,7 +22,7 @@ void SectorTree<Space>::locate(const LightChart& chart, SectorItem& item) const 
   std::array<double, 3> high{-kInfinity, -kInfinity, -kInfinity};
   bool known = true;
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
-    const ChartPoint p = space_.chart_point(chart, loop.corner(i));
+    const ChartPoint p = chart_point(chart, loop.corner(i));
     low = {std::min(low[0], p.u - p.uv_error), std::min(low[1], p.v - p.uv_error),
            std::min(low[2], p.z - p.z_error)};
     high = {std::max(high[0], p.u + p.uv_error), std::max(high[1], p.v + p.uv_error),
@@ -47,7 +47,7 @@ ChartBox SectorTree<Space>::box_of(const LightChart& chart, const LoopView<Verte
   double low_u = kInfinity, low_v = kInfinity, high_u = -kInfinity, high_v = -kInfinity;
   double error = 0;
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
-    const ChartPoint p = space_.chart_point(chart, loop.corner(i));
+    const ChartPoint p = chart_point(chart, loop.corner(i));
     low_u = std::min(low_u, p.u);
     low_v = std::min(low_v, p.v);
     high_u = std::max(high_u, p.u);

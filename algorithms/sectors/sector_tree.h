@@ -124,13 +124,21 @@ class SectorTree {
   };
 
   SectorTree(const SectorContext& context, Space space)
-      : context_(&context), space_(std::move(space)) {}
+      : context_(&context), space_(std::move(space)), is_far_(far_chart().has_value()) {}
 
   const SectorContext& context() const { return *context_; }
   Space& space() { return space_; }
   SectorOutput& output() { return output_; }
   LoopStore<Vertex>& loops() { return loops_; }
 
+  /// The one chart of a far lamp, where the kernel has one.
+  std::optional<LightChart> far_chart() const {
+    if constexpr (requires { space_.far_chart(); }) {
+      return space_.far_chart();
+    } else {
+      return std::nullopt;
+    }
+  }
   /// Adds the ten planes between the sectors. Call it once, before the space is forked.
   void add_sector_planes();
   /// Takes over the planes of another tree, whose space this tree's space is a fork of.
@@ -234,6 +242,13 @@ class SectorTree {
   }
 
   ChartBox box_of(const LightChart& chart, const LoopView<Vertex>& loop) const;
+  ChartPoint chart_point(const LightChart& chart, const Corner<Vertex>& corner) const {
+    if constexpr (requires { space_.far_chart_point(chart, corner); }) {
+      if (is_far_) return space_.far_chart_point(chart, corner);
+    }
+    return space_.chart_point(chart, corner);
+  }
+  PlaneRef add_split_plane(const ChartSplit& split, const LightChart& chart);
   std::uint32_t cull(std::uint32_t begin, std::uint32_t end);
   std::uint32_t move_decided_last(std::uint32_t begin, std::uint32_t end);
   bool covers(const SectorItem& item) const;
@@ -263,6 +278,7 @@ class SectorTree {
 
   const SectorContext* context_;
   Space space_;
+  bool is_far_;  // a far lamp, whose chart is far_chart()
   SectorOutput output_;
   std::array<PlaneRef, 10> sector_planes_;
   std::uint32_t first_cell_plane_ = 0;

@@ -30,7 +30,7 @@ void SectorTree<Space>::add_sector_planes() {
     plane.n[static_cast<std::size_t>(other)] = other_sign;
     return space_.add_prefix_plane(plane);
   };
-  if (context_->light.directional) {
+  if (context_->light.directional || is_far_) {
     // There are no sectors, but a plane is added so that cell planes have a first number.
     sector_planes_[0] = add(0, 1, 2, 0);
     first_cell_plane_ = sector_planes_[0].index();
@@ -53,8 +53,21 @@ SectorCell SectorTree<Space>::root_cell() const {
     cell.level = SectorCell::kChart;
     const int z = LightAxes::of(context_->light).z;
     cell.chart = {0, 1, 2, sgn(context_->light.grid[static_cast<std::size_t>(z)])};
+  } else if (const std::optional<LightChart> chart = far_chart()) {
+    cell.level = SectorCell::kChart;
+    cell.chart = *chart;
   }
   return cell;
+}
+
+template <SectorSpaceModel Space>
+PlaneRef SectorTree<Space>::add_split_plane(const ChartSplit& split, const LightChart& chart) {
+  const PrefixPlane plane = plane_of(split, chart, context_->light.directional || is_far_,
+                                     context_->scene.geometry.grid.bits());
+  if constexpr (requires { space_.add_plane_of_far_chart(plane); }) {
+    if (is_far_) return space_.add_plane_of_far_chart(plane);
+  }
+  return space_.add_prefix_plane(plane);
 }
 
 template <SectorSpaceModel Space>
@@ -215,9 +228,7 @@ bool SectorTree<Space>::split_by_axis(Frame& frame, std::uint32_t open_end) {
   const std::uint32_t size = open_end - frame.begin;
   const std::optional<ChartSplit> chosen = chooser_.choose({items_.data() + frame.begin, size});
   if (!chosen) return false;
-  const PlaneRef plane =
-      space_.add_prefix_plane(plane_of(*chosen, frame.cell.chart, context_->light.directional,
-                                       context_->scene.geometry.grid.bits()));
+  const PlaneRef plane = add_split_plane(*chosen, frame.cell.chart);
   frame.front_cell = frame.back_cell = frame.cell;
   partition(frame, open_end, plane, &*chosen);
   // Boxes are only bounds, and the plane's value was rounded: the plane may separate nothing, and

@@ -43,9 +43,16 @@ ImplicitImageSpace<Stats>::ImplicitImageSpace(const Geometry& geometry, const Im
 
 template <class Stats>
 ImageLight ImplicitImageSpace<Stats>::add_light(const LightPoint& light) {
-  for (const mpz_class& x : light.grid) {
-    unsigned& bits = light.directional ? direction_bits_ : grid_bits_;
-    bits = std::max(bits, bits_of(x));
+  if (light.directional) {
+    direction_bits_ = std::max(direction_bits_, bits_of(light.grid));
+  } else {
+    grid_bits_ = std::max(grid_bits_, bits_of(light.grid));
+    // Differences of points of the grid and a far lamp below it.
+    const auto is_below = [](const LightPoint& other) {
+      return !other.directional &&
+             std::ranges::any_of(other.grid, [](const mpz_class& x) { return sgn(x) < 0; });
+    };
+    if (is_below(light) && std::ranges::none_of(lights_, is_below)) ++grid_bits_;
   }
   lights_.push_back(light);
   return {static_cast<std::uint32_t>(lights_.size() - 1)};

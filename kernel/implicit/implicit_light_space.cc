@@ -36,8 +36,10 @@ Sign ImplicitLightSpace<Stats>::exact_side_of_input(PlaneRef plane, VertexId ver
     return stages_.exact(width_of(light.narrow, light.side_bits), 0, [&]<class, class Int>() {
       using Position = PositionFor<Int>;
       const ExactGeometry<Position> exact(geometry());
-      return side_of_shadow_plane<Int>(light.light.directional, light.position<Position>(),
-                                       exact.position(ends.a), exact.position(ends.b),
+      const Vector3<Position> a = exact.position(ends.a);
+      Vector3<Position> l = light.position<Position>();
+      if (light.far) l = difference(l, a);  // then the side is as of a sun
+      return side_of_shadow_plane<Int>(light.is_parallel(), l, a, exact.position(ends.b),
                                        exact.position(vertex));
     });
   }
@@ -127,9 +129,8 @@ Sign ImplicitLightSpace<Stats>::exact_depth_of_crossing(PlaneId plane,
   const unsigned n = light.cut_bits, m = plane_bits(corner.before), l = plane_bits(corner.after);
   return stages_.exact(width_of(narrow, side_of_crossing_bits(n, m, l)), std::max({n, m, l}),
                        [&]<class Factor, class Int>() {
-                         const ExactGeometry<Factor> exact(geometry());
                          return sign_of_determinant<Int>(
-                             light.cut_normal(exact.plane(corner.support), exact.plane(plane)),
+                             light.cut_of_supports<Factor>(corner.support, plane),
                              exact_normal<Factor>(corner.before),
                              exact_normal<Factor>(corner.after));
                        });

@@ -16,7 +16,7 @@ namespace gnomon {
 
 LightPlanes::LightPlanes(const ScenePlanes& scene, const LightPoint& light)
     : shared_(std::make_shared<Shared>(scene, light)) {
-  shared_->stretch = light.directional ? static_cast<int>(integers().grid_bits()) : 0;
+  shared_->stretch = integers().is_parallel() ? static_cast<int>(integers().grid_bits()) : 0;
   shared_->edges.resize(geometry().edges.size());
   make_depth_planes();
 }
@@ -35,10 +35,16 @@ LightPlanes::FilteredPlane LightPlanes::filtered_from(const Vector3<Int>& normal
 }
 
 void LightPlanes::make_edge_planes(EdgeId begin, EdgeId end) {
-  // One bit more for the difference of two products.
-  with_width(width_of(integers().narrow, integers().edge_bits + 2), [&]<class Int>() {
+  const LightIntegers& exact = integers();
+  // One bit more for the difference of two products; a far lamp's plane has its offset.
+  const unsigned bits =
+      exact.far ? std::max(exact.edge_bits, 2 * exact.grid_bits() + exact.light_bits + 2)
+                : exact.edge_bits;
+  with_width(width_of(exact.narrow, bits + 2), [&]<class Int>() {
     for (EdgeId edge = begin; edge < end; ++edge) {
-      shared_->edges[edge] = filtered_from(integers().edge_normal<Int>(geometry().edges[edge]));
+      const EdgeEnds& ends = geometry().edges[edge];
+      shared_->edges[edge] =
+          filtered_from(exact.far ? exact.far_edge_plane<Int>(ends) : exact.edge_normal<Int>(ends));
     }
   });
 }
@@ -60,8 +66,14 @@ LightPlanes::DepthPlane LightPlanes::depth_plane(PlaneId id) const {
   // Scaled such that nothing of usual size over- or underflows.
   const unsigned b = exact_light.grid_bits();
   double h;
-  if (directional) {
+  if (exact_light.is_parallel()) {
     const auto [x, y, z] = exact_light.axes;
+    if (exact_light.far) {
+      for (std::int8_t k = 1; k < 3; ++k) {
+        const double size = std::fabs(to_double_scaled(normal[k], 2 * b));
+        if (size > std::fabs(to_double_scaled(normal[depth.steepest], 2 * b))) depth.steepest = k;
+      }
+    }
     h = to_double_scaled(height, 2 * b + exact_light.light_bits);
     const double sign = sgn(exact_light.light.grid[z]) < 0 ? -1 : 1;
     const Int offset = dot<Int>(normal, corner);
@@ -92,7 +104,7 @@ void LightPlanes::make_depth_planes() {
   const unsigned b = integers().grid_bits();
   // n . (L - A), n . d and the plane's offset n . A; one bit more for the difference in a normal.
   const unsigned bits =
-      2 * b + (integers().light.directional ? integers().light_bits : integers().q_bits);
+      2 * b + (integers().is_parallel() ? integers().light_bits : integers().q_bits);
   const unsigned most = std::max(bits, 3 * b) + 4;
   with_widths(width_of(integers().narrow, most), support_normal_bits(b) + 1,
               [&]<class Normal, class Int>() {
@@ -107,8 +119,12 @@ LightPlanes::Vertex LightPlanes::import_vertex(const ScenePlanes::Vertex& vertex
   result.source = vertex.source;
   if (vertex.source == kMadeVertex) return result;
   bool some = false;
-  with_width(width_of(integers().narrow, integers().q_bits + 1), [&]<class Int>() {
-    some = to_normalized(integers().q<Int>(vertex.source), {0, 0, stretch()}, result.ray);
+  const LightIntegers& light = integers();
+  const unsigned bits = light.far ? light.grid_bits() + light.light_bits + 1 : light.q_bits;
+  with_width(width_of(light.narrow, bits + 1), [&]<class Int>() {
+    some =
+        to_normalized(light.far ? light.far_ray<Int>(vertex.source) : light.q<Int>(vertex.source),
+                      {0, 0, stretch()}, result.ray);
   });
   result.bound = some ? LightBounds::input() : static_cast<float>(kUnknownError);
   return result;
@@ -131,7 +147,8 @@ void LightPlanes::release_planes(std::uint32_t mark) {
 }
 
 PlaneRef LightPlanes::add_explicit(Vector3<mpz_class> normal) {
-  const FilteredPlane plane = filtered_from(normal);
+  const FilteredPlane plane =
+      integers().far ? filtered_from(integers().in_far_rays(normal)) : filtered_from(normal);
   const unsigned bits = bits_of(normal);
   explicit_.push_back({std::move(normal), bits});
   return add(plane,

@@ -12,6 +12,11 @@
 // that is larger where the plane is nearer. Comparing two of them decides which polygon shadows
 // which; this is the exact form of a depth buffer's 1 / z.
 //
+// The doubles of a far lamp L (LightIntegers::far) are those of its far_ray() and in_far_rays(): q
+// would be the same for all vertices but for its last bits. A depth is then the height as of a sun,
+// L_z n / h . q less r_z: the difference of two depths is that of n / h, times L_z. Integers stay
+// those of q.
+//
 // Guarantee: every bound is proven (LightBounds). Planes and rays are scaled by powers of two so
 // that the largest component is in [1/2, 1) (made rays: at most 2); what cannot be scaled so has an
 // infinite bound. Reference: Chin & Feiner 1989, sec. 4; docs/exactness.md.
@@ -22,6 +27,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -51,6 +57,7 @@ class LightPlanes {
     std::array<double, 3> n{};  // each off by at most LightBounds::kDepthPlane |n_k|
     double magnitude = 0;       // largest |n_k|; infinite: the doubles say nothing
     Sign at_light = Sign::kZero;
+    std::int8_t steepest = 0;  // of a far lamp: the axis of the support normal's largest component
   };
   const DepthPlane& depth_plane(PlaneId plane) const { return shared_->depths[plane]; }
 
@@ -73,6 +80,15 @@ class LightPlanes {
   /// A fragment edge is its own shadow plane.
   PlaneRef shadow_plane(PlaneRef edge, const Vertex&, const Vertex&) { return edge; }
   PlaneRef add_prefix_plane(const PrefixPlane& plane) { return add_explicit(plane.n); }
+  /// The one chart of a far lamp, as that of a sun, for far_chart_point(); none of other lights.
+  std::optional<LightChart> far_chart() const {
+    if (!integers().far) return std::nullopt;
+    return LightChart{0, 1, 2, sgn(integers().light.grid[integers().axes.z])};
+  }
+  /// A plane of that chart, as a sun's would be given. Requires: far_chart().
+  PlaneRef add_plane_of_far_chart(const PrefixPlane& plane) {
+    return add_explicit(integers().from_far_rays(plane.n));
+  }
   /// The front is the part of `first` in front of `second`. Degree: 5.
   PlaneRef cut_of_supports(PlaneId first, PlaneId second);
   /// Where the edge `edge`, leaving the front of `plane` (kFront first) or entering it, meets it.
@@ -117,7 +133,7 @@ class LightPlanes {
 
     const ScenePlanes* scene;
     LightIntegers integers;
-    int stretch = 0;                   // z of the doubles is scaled by 2^stretch (directional)
+    int stretch = 0;                   // z of the doubles is scaled by 2^stretch (is_parallel())
     std::vector<FilteredPlane> edges;  // by EdgeId
     std::vector<DepthPlane> depths;    // by PlaneId
   };
@@ -174,6 +190,7 @@ class LightPlanes {
     vertex.bound = LightBounds::made(m.slack, n.slack);
     return vertex;
   }
+  /// From a plane of rays; of a far lamp of far_ray().
   template <class Int>
   FilteredPlane filtered_from(const Vector3<Int>& normal) const;
   void make_depth_planes();
@@ -200,8 +217,7 @@ Vector3<Int> LightPlanes::exact_normal(PlaneRef ref) const {
   } else if (const LightPlaneSource& from = source(ref); from.is_explicit()) {
     for (int k = 0; k < 3; ++k) n[k] = integer_from<Int>(explicit_[from.a].n[k]);
   } else {
-    const ExactGeometry<Int> exact(geometry());
-    n = integers().cut_normal(exact.plane(from.a), exact.plane(from.b));
+    n = integers().cut_of_supports<Int>(from.a, from.b);
   }
   if (ref.flipped()) {
     for (Int& x : n) x = -x;

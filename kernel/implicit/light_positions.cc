@@ -15,7 +15,11 @@ LightPositions::LightPositions(const ScenePlanes& scene, const LightPoint& light
   if (integers().narrow) {
     frame->grid_scale = std::ldexp(1.0, -static_cast<int>(integers().q_bits));
   }
-  const unsigned shift = light.directional ? integers().light_bits : grid.bits();
+  const unsigned shift = integers().is_parallel() ? integers().light_bits : grid.bits();
+  if (is_far()) {
+    frame->nearness =
+        std::ldexp(1.0, static_cast<int>(grid.bits()) - static_cast<int>(integers().light_bits));
+  }
   for (int k = 0; k < 3; ++k) {
     const double value = to_double_scaled(light.grid[k], shift);
     frame->light[k] = Ball(value, 2 * Ball::kUnit * std::fabs(value) + Ball::kTiny);
@@ -41,6 +45,119 @@ unsigned LightPositions::ray_bits(const Corner<Vertex>& corner) const {
   return std::max(plane_bits(corner.before) + plane_bits(corner.after) + 2, integers().q_bits);
 }
 
+// --- Far lamps. ---
+
+// With M the largest component of the depth plane, a ray off by e and of size m, and |d_k| <= 1 off
+// by 2u: g is off by LightBounds::depth(), g d_k by that and 3u |g|, a numerator by e and u of
+// itself besides, and t by e, nearness times the error of g, and u of itself.
+LightPositions::FarPoint LightPositions::far_point(const Corner<Vertex>& corner) const {
+  const std::array<double, 3>& r = corner.vertex.ray;
+  const DepthPlane& plane = depth(corner.support);
+  const double error = error_of(corner.vertex);
+  const double size = corner.vertex.source == kMadeVertex ? LightBounds::kMadeMagnitude : 1;
+  const auto [x, y, z] = integers().axes;
+  const std::array<Ball, 3>& d = frame_->light;
+  const double g =
+      (plane.n[0] * r[0] + plane.n[1] * r[1] + plane.n[2] * r[2]) * (d[z].middle < 0 ? -1 : 1);
+  const double g_error = LightBounds::depth(plane.magnitude, error, size);
+  FarPoint point;
+  point.over[x] = r[0] + g * d[x].middle;
+  point.over[y] = r[1] + g * d[y].middle;
+  point.over[z] = g * d[z].middle;
+  point.under = r[2] + frame_->nearness * g;
+  constexpr double kUnit = Ball::kUnit;
+  point.over_error = 1.01 * (error + g_error + kUnit * (4 * std::fabs(g) + size));
+  point.under_error =
+      1.01 * (error + frame_->nearness * (g_error + kUnit * std::fabs(g)) + kUnit * size);
+  return point;
+}
+
+PlanarPoint LightPositions::far_planar_point(const Corner<Vertex>& corner) const {
+  const auto [u, v] = kept_under_far(depth(corner.support));
+  PlanarPoint result;
+  if (corner.vertex.source != kMadeVertex) {
+    const double scale = std::ldexp(1.0, -static_cast<int>(geometry().grid.bits()));
+    const auto along = [&](int axis) {
+      const GridPositions& grid = geometry().grid;
+      return grid.is_narrow()
+                 ? static_cast<double>(grid.narrow(corner.vertex.source, axis)) * scale
+                 : to_double_scaled(grid.wide(corner.vertex.source, axis), long{grid.bits()});
+    };
+    result.x = along(u);
+    result.y = along(v);
+    result.error = 2 * Ball::kUnit * std::max(result.x, result.y);
+    return result;
+  }
+  const FarPoint point = far_point(corner);
+  result.error = kUnknownError;
+  const double inverse = 1 / point.under, relative = point.under_error * std::fabs(inverse);
+  if (!(relative < LightBounds::kMostRelative)) return result;
+  result.x = point.over[static_cast<std::size_t>(u)] * inverse;
+  result.y = point.over[static_cast<std::size_t>(v)] * inverse;
+  const double most = std::max(std::fabs(result.x), std::fabs(result.y));
+  result.error = 1.01 * (point.over_error * std::fabs(inverse) + most * relative) +
+                 LightBounds::kQuotient * most;
+  return result;
+}
+
+// In a chart of q, for methods that divide what is around a lamp: q_z = r_z and q_x = (r_z d_x -
+// nearness r_x) / d_z, |d_x| <= |d_z| and 1/2 <= |d_z|, off by at most twice e and 2u from d, u
+// from roundings of three products, a difference and a quotient, of a size of at most 2.
+ChartPoint LightPositions::chart_point_of_lamp(const LightChart& chart,
+                                               const Corner<Vertex>& corner) const {
+  const auto [x, y, z] = integers().axes;
+  const std::array<Ball, 3>& d = frame_->light;
+  const std::array<double, 3>& r = corner.vertex.ray;
+  std::array<double, 3> q;
+  q[static_cast<std::size_t>(x)] = (r[2] * d[x].middle - frame_->nearness * r[0]) / d[z].middle;
+  q[static_cast<std::size_t>(y)] = (r[2] * d[y].middle - frame_->nearness * r[1]) / d[z].middle;
+  q[static_cast<std::size_t>(z)] = r[2];
+  const FarPoint at = far_point(corner);
+  const double error = 2.1 * error_of(corner.vertex) + 40 * Ball::kUnit;
+  const double w = chart.sign * q[static_cast<std::size_t>(chart.w)];
+  ChartPoint point;
+  point.uv_error = point.z_error = kUnknownError;
+  if (!(error < w * LightBounds::kMostRelative)) return point;
+  const double inverse = 1 / w, relative = error * inverse;
+  point.u = chart.sign * q[static_cast<std::size_t>(chart.u)] * inverse;
+  point.v = chart.sign * q[static_cast<std::size_t>(chart.v)] * inverse;
+  point.z = at.under / d[z].middle * inverse;  // n / h . q on the plane itself, where that is 1
+  const double most = std::max(std::fabs(point.u), std::fabs(point.v));
+  point.uv_error = 1.01 * (1 + most) * relative + LightBounds::kQuotient * most;
+  point.z_error = 1.01 * at.under_error / std::fabs(d[z].middle) * inverse +
+                  std::fabs(point.z) * (1.01 * relative + 2 * LightBounds::kQuotient);
+  return point;
+}
+
+template <class Normal, class Int, class Ray>
+std::array<Int, 4> LightPositions::far_quotients(const Vector3<Ray>& ray, PlaneId support) const {
+  using Position = PositionFor<Int>;
+  const ExactGeometry<Position> exact(geometry());
+  const Vector3<Normal> n = exact.template normal<Normal>(support);
+  const Vector3<Position> a = exact.position(geometry().planes[support].a);
+  const Vector3<Position> l = integers().position<Position>();
+  const Int height = dot<Int>(n, difference(l, a)), slope = dot<Int>(n, ray);
+  std::array<Int, 4> result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    result[k] = Int(multiply<Int>(l[k], slope) - multiply<Int>(height, ray[k]));
+  }
+  result[3] = slope;
+  return result;
+}
+
+template <class Factor, class Int>
+LightPositions::PairPoint LightPositions::pair_far_point(const Corner<Vertex>& corner) const {
+  const std::array<Int, 4> quotients =
+      far_quotients<Factor, Int>(exact_ray<Factor, Int>(corner), corner.support);
+  const DoubleDouble under = double_double(quotients[3]);
+  PairPoint point;
+  for (std::size_t k = 0; k < 3; ++k) {
+    point.x[k] = double_double(quotients[k]) / under;
+    point.terms[k] = std::fabs(point.x[k].high);
+  }
+  return point;
+}
+
 // --- In a frame of the support plane. ---
 
 // q = h r / (n . r) of the ray r, the plane's normal n and its value h at the light, up to one
@@ -48,10 +165,19 @@ unsigned LightPositions::ray_bits(const Corner<Vertex>& corner) const {
 // cancels; unbounded integers may be beyond doubles, and give their powers of two away first.
 template <class Normal, class Int, class Ray>
 PlanarPoint LightPositions::quotient_on_plane(const Vector3<Ray>& ray, PlaneId support) const {
-  const auto [u, v] = kept_axes(depth(support));
+  const auto [u, v] = is_far() ? kept_under_far(depth(support)) : kept_axes(depth(support));
   std::array<double, 4> value;
   long power;
-  if (is_directional()) {
+  if (is_far()) {
+    const std::array<Int, 4> quotients = far_quotients<Normal, Int>(ray, support);
+    const Int &first = quotients[static_cast<std::size_t>(u)],
+              &second = quotients[static_cast<std::size_t>(v)];
+    const long top = std::max(excess_bits(first), excess_bits(second)),
+               low = excess_bits(quotients[3]);
+    value = {to_double_scaled(first, top), to_double_scaled(second, top),
+             to_double_scaled(quotients[3], low), 1};
+    power = top - low - static_cast<long>(geometry().grid.bits());
+  } else if (is_directional()) {
     const long top = std::max(excess_bits(ray[0]), excess_bits(ray[1])), low = excess_bits(ray[2]);
     value = {to_double_scaled(ray[0], top), to_double_scaled(ray[1], top),
              to_double_scaled(ray[2], low), 1};
@@ -80,12 +206,13 @@ PlanarPoint LightPositions::quotient_on_plane(const Vector3<Ray>& ray, PlaneId s
 PlanarPoint LightPositions::accurate_planar_point(const Corner<Vertex>& corner) const {
   const VertexId input = corner.vertex.source;
   if (input != kMadeVertex) {
+    if (is_far()) return far_planar_point(corner);
     if (integers().narrow && !is_directional()) return input_planar_point(corner);
     return quotient_on_plane<mpz_class, mpz_class>(integers().q<mpz_class>(input), corner.support);
   }
   const unsigned normal_bits = 2 * geometry().grid.bits() + 1;
   PlanarPoint point;
-  with_widths(width_of(is_narrow_corner(corner), ray_bits(corner) + normal_bits + 3),
+  with_widths(width_of(is_narrow_corner(corner), ray_bits(corner) + normal_bits + 3 + far_bits()),
               factor_bits(corner), [&]<class Factor, class Int>() {
                 point =
                     quotient_on_plane<Factor, Int>(exact_ray<Factor, Int>(corner), corner.support);
@@ -96,14 +223,20 @@ PlanarPoint LightPositions::accurate_planar_point(const Corner<Vertex>& corner) 
 // As quotient_on_plane().
 template <class Normal, class Int, class Ray>
 PlanarPair LightPositions::pair_quotient(const Vector3<Ray>& ray, PlaneId support) const {
-  const auto [u, v] = kept_axes(depth(support));
+  const auto [u, v] = is_far() ? kept_under_far(depth(support)) : kept_axes(depth(support));
   const auto is_moderate = [](double x) { return std::fabs(x) < 0x1p800; };
   PlanarPair point;
   point.error = kUnknownError;
   DoubleDouble over{1, 0}, under;
   long power = -stretch();
   std::array<DoubleDouble, 2> r = {double_double(ray[0]), double_double(ray[1])};
-  if (is_directional()) {
+  if (is_far()) {
+    const std::array<Int, 4> quotients = far_quotients<Normal, Int>(ray, support);
+    under = double_double(quotients[3]);
+    r = {double_double(quotients[static_cast<std::size_t>(u)]),
+         double_double(quotients[static_cast<std::size_t>(v)])};
+    power = -static_cast<long>(geometry().grid.bits());
+  } else if (is_directional()) {
     under = double_double(ray[2]);
   } else {
     using Position = PositionFor<Int>;
@@ -140,6 +273,15 @@ PlanarPair LightPositions::pair_quotient(const Vector3<Ray>& ray, PlaneId suppor
 PlanarPair LightPositions::pair_planar_point(const Corner<Vertex>& corner) const {
   const VertexId input = corner.vertex.source;
   if (input != kMadeVertex) {
+    if (is_far() && geometry().grid.is_narrow()) {
+      const auto [u, v] = kept_under_far(depth(corner.support));
+      const double scale = std::ldexp(1.0, -static_cast<int>(geometry().grid.bits()));
+      const auto along = [&](int axis) {
+        const DoubleDouble pair = double_double(geometry().grid.narrow(input, axis));
+        return DoubleDouble{pair.high * scale, pair.low * scale};
+      };
+      return {along(u), along(v), 0};
+    }
     if (!integers().narrow || is_directional()) {
       return pair_quotient<mpz_class, mpz_class>(integers().q<mpz_class>(input), corner.support);
     }
@@ -153,7 +295,7 @@ PlanarPair LightPositions::pair_planar_point(const Corner<Vertex>& corner) const
   }
   const unsigned normal_bits = 2 * geometry().grid.bits() + 1;
   PlanarPair point;
-  with_widths(width_of(is_narrow_corner(corner), ray_bits(corner) + normal_bits + 3),
+  with_widths(width_of(is_narrow_corner(corner), ray_bits(corner) + normal_bits + 3 + far_bits()),
               factor_bits(corner), [&]<class Factor, class Int>() {
                 point = pair_quotient<Factor, Int>(exact_ray<Factor, Int>(corner), corner.support);
               });
@@ -180,6 +322,18 @@ std::array<Ball, 3> LightPositions::position(const Corner<Vertex>& corner) const
   std::array<Ball, 3> r;
   for (int k = 0; k < 3; ++k) r[k] = Ball(vertex.ray[k], static_cast<double>(vertex.bound));
   Ball height = plane[0] * l[0] + plane[1] * l[1] + plane[2] * l[2];
+  if (is_far()) {
+    // As far_point().
+    const auto [x, y, z] = integers().axes;
+    const Ball nearness(frame_->nearness);
+    height = height - nearness * plane[3];
+    const Ball g = (plane[3] * r[2] - plane[x] * r[0] - plane[y] * r[1]) / height;
+    const Ball t = r[2] + nearness * g;
+    point[x] = (r[0] + g * l[x]) / t;
+    point[y] = (r[1] + g * l[y]) / t;
+    point[z] = g * l[z] / t;
+    return point;
+  }
   if (!is_directional()) {
     height = height - plane[3];
     const Ball s = height / (plane[0] * r[0] + plane[1] * r[1] + plane[2] * r[2]);
@@ -306,10 +460,11 @@ std::optional<std::array<double, 3>> LightPositions::nearest_position(
   // Of a direction or a position, and of a normal.
   const unsigned longest = std::max(2 * geometry().grid.bits() + 1, integers().light_bits + 1);
   PairPoint point;
-  with_widths(width_of(is_narrow_corner(corner), ray_bits(corner) + longest + 3),
+  with_widths(width_of(is_narrow_corner(corner), ray_bits(corner) + longest + 3 + 2 * far_bits()),
               factor_bits(corner), [&]<class Factor, class Int>() {
-                point = is_directional() ? pair_point_along<Factor, Int>(corner)
-                                         : pair_point<Factor, Int>(corner);
+                point = is_far()           ? pair_far_point<Factor, Int>(corner)
+                        : is_directional() ? pair_point_along<Factor, Int>(corner)
+                                           : pair_point<Factor, Int>(corner);
               });
   std::array<double, 3> result;
   for (int k = 0; k < 3; ++k) {

@@ -33,9 +33,16 @@ struct PlanarPair {
 class LightPositions : public LightPlanes {
  public:
   /// Certified for every vertex whose doubles say something.
-  ChartPoint chart_point(const LightChart& chart, const Corner<Vertex>& corner) const;
+  ChartPoint chart_point(const LightChart& chart, const Corner<Vertex>& corner) const {
+    return is_far() ? chart_point_of_lamp(chart, corner) : chart_point_of_ray(chart, corner);
+  }
+  /// The same in far_chart().
+  ChartPoint far_chart_point(const LightChart& chart, const Corner<Vertex>& corner) const {
+    return chart_point_of_ray(chart, corner);
+  }
   /// The corner's point in a frame of its support plane: two components of q, scaled; for a
-  /// directional light the chart's, which is an affine map of the plane.
+  /// directional light the chart's, which is an affine map of the plane; for a far lamp two
+  /// coordinates on the grid's scale.
   PlanarPoint planar_point(const Corner<Vertex>& corner) const;
   /// The same, computed from integers: relative error LightBounds::kAccurate whatever meets there
   /// at what angle.
@@ -61,7 +68,9 @@ class LightPositions : public LightPlanes {
     std::array<DoubleDouble, 3> origin;               // of the grid, scene units
     std::array<std::optional<std::int64_t>, 3> zero;  // coordinate 0, if it is on the grid
     DoubleDouble step;                                // scene units per grid unit
-    std::array<Ball, 3> light;  // position times 2^-b, or direction times a power of two
+    std::array<Ball, 3> light;  // position times 2^-b, or direction times a power of two; of a far
+                                // lamp position times 2^-light_bits
+    double nearness = 0;        // of a far lamp: 2^(b - light_bits)
   };
   /// A corner in pairs of doubles, in grid units, and the sums of the magnitudes of its terms.
   struct PairPoint {
@@ -70,8 +79,31 @@ class LightPositions : public LightPlanes {
   };
 
   bool is_directional() const { return integers().light.directional; }
+  bool is_far() const { return integers().far; }
   bool is_narrow_corner(const Corner<Vertex>& corner) const {
     return integers().narrow && is_narrow(corner.before) && is_narrow(corner.after);
+  }
+  /// Of a corner under a far lamp: where its ray meets its plane, with the ray's height g there.
+  /// With t = r_z + nearness g, which is d_z on the scale of the ray, the point is ((r_x + g d_x) /
+  /// t, (r_y + g d_y) / t, g d_z / t), on the grid's scale.
+  struct FarPoint {
+    std::array<double, 3> over{};  // times t, by axes of the scene
+    double under = 0;              // t
+    double over_error = 0, under_error = 0;
+  };
+  FarPoint far_point(const Corner<Vertex>& corner) const;
+  PlanarPoint far_planar_point(const Corner<Vertex>& corner) const;
+  ChartPoint chart_point_of_lamp(const LightChart& chart, const Corner<Vertex>& corner) const;
+  ChartPoint chart_point_of_ray(const LightChart& chart, const Corner<Vertex>& corner) const;
+  /// The point's numerators and their denominator, from integers: L (n . r) - h r and n . r.
+  template <class Normal, class Int, class Ray>
+  std::array<Int, 4> far_quotients(const Vector3<Ray>& ray, PlaneId support) const;
+  template <class Factor, class Int>
+  PairPoint pair_far_point(const Corner<Vertex>& corner) const;
+  /// The two axes of the scene that are kept in the frame of a plane under a far lamp.
+  static std::array<int, 2> kept_under_far(const DepthPlane& plane) {
+    const int k = plane.steepest;
+    return {k == 2 ? 0 : k + 1, k == 0 ? 2 : k - 1};
   }
   /// Of an input vertex and a point light: two components of L - v, each converted once.
   PlanarPoint input_planar_point(const Corner<Vertex>& corner) const {
@@ -96,6 +128,8 @@ class LightPositions : public LightPlanes {
                                   vertex.source == kMadeVertex ? LightBounds::kMadeMagnitude : 1);
   }
   unsigned factor_bits(const Corner<Vertex>& corner) const;
+  /// How many bits far_quotients() has more than n . r.
+  unsigned far_bits() const { return is_far() ? integers().light_bits + 2 : 0; }
   unsigned ray_bits(const Corner<Vertex>& corner) const;
   template <class Normal, class Int, class Ray>
   PlanarPoint quotient_on_plane(const Vector3<Ray>& ray, PlaneId support) const;
@@ -114,8 +148,8 @@ class LightPositions : public LightPlanes {
 // In the chart a direction is (r_u, r_v) / |r_w|, and the depth plane gives z. With e the error of
 // a component and w = |r_w|, e / w <= 2^-10, quotients err by (1 + |u|) e / w (1 + 2^-9) and three
 // roundings.
-inline ChartPoint LightPositions::chart_point(const LightChart& chart,
-                                              const Corner<Vertex>& corner) const {
+inline ChartPoint LightPositions::chart_point_of_ray(const LightChart& chart,
+                                                     const Corner<Vertex>& corner) const {
   const std::array<double, 3>& r = corner.vertex.ray;
   const DepthPlane& plane = depth(corner.support);
   const double error = error_of(corner.vertex);
@@ -137,6 +171,7 @@ inline ChartPoint LightPositions::chart_point(const LightChart& chart,
 
 // On the ray r the plane is met in q = r / (depth . r); errors as in chart_point.
 inline PlanarPoint LightPositions::planar_point(const Corner<Vertex>& corner) const {
+  if (is_far()) return far_planar_point(corner);
   const std::array<double, 3>& r = corner.vertex.ray;
   const double error = error_of(corner.vertex);
   PlanarPoint point;

@@ -68,7 +68,7 @@ decltype(auto) with_width(IntegerWidth width, F&& f) {
 
 /// Calls f.template operator()<Factor, Int>(): Int as with_width() has it, and Factor the narrowest
 /// type, at most Int, in which vectors with components below 2^factor_bits may be kept for
-/// determinant<Int>(): std::int64_t, Int128, 192 bits, 256 bits or Int.
+/// determinant<Int>(): std::int64_t, Int128, 192 bits, 256 bits, 384 bits or Int.
 template <class F>
 decltype(auto) with_widths(IntegerWidth width, unsigned factor_bits, F&& f) {
   return with_width(width, [&]<class Int>() {
@@ -84,9 +84,30 @@ decltype(auto) with_widths(IntegerWidth width, unsigned factor_bits, F&& f) {
     }
     if constexpr (kLimbs == 16) {
       if (factor_bits <= 254) return f.template operator()<WideInteger<4>, Int>();
+      if (factor_bits <= 382) return f.template operator()<WideInteger<6>, Int>();
     }
     return f.template operator()<Int, Int>();
   });
+}
+
+/// Calls f.template operator()<Factor>() with the narrowest of these types, at most Int, that holds
+/// values below 2^factor_bits and twice that, with a sign. Requires: Int is of fixed width.
+template <class Int, class F>
+decltype(auto) with_factor(unsigned factor_bits, F&& f) {
+  constexpr std::size_t kLimbs = kLimbsOf<Int>;
+  if constexpr (kLimbs > 1) {
+    if (factor_bits <= 62) return f.template operator()<std::int64_t>();
+  }
+  if constexpr (kLimbs > 2) {
+    if (factor_bits <= 126) return f.template operator()<Int128>();
+  }
+  if constexpr (kLimbs > 3) {
+    if (factor_bits <= 190) return f.template operator()<WideInteger<3>>();
+  }
+  if constexpr (kLimbs > 4) {
+    if (factor_bits <= 254) return f.template operator()<WideInteger<4>>();
+  }
+  return f.template operator()<Int>();
 }
 
 template <class Int>

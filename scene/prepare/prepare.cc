@@ -157,6 +157,59 @@ auto with_integers(const PreparedScene& out, std::size_t most_corners, const F& 
   return f(mpz_class{});
 }
 
+/// The grid starts at the lower corner of all points. A lamp far beyond the vertices, which are the
+/// first `inputs` points, would give their coordinates as many bits as its own: then it starts at
+/// the corner of the vertices, and lamps may be below it. Requires: lights are prepared, and none
+/// has an area.
+void start_at_vertices(std::size_t inputs, ExactGrid& grid, PreparedScene& out) {
+  constexpr unsigned kFarBits = 12;
+  std::array<mpz_class, 3> low, high;
+  const auto find_box = [&](const auto& coordinates) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto least = coordinates[k], most = coordinates[k];
+      for (std::size_t i = k; i < 3 * inputs; i += 3) {
+        if (coordinates[i] < least) least = coordinates[i];
+        if (most < coordinates[i]) most = coordinates[i];
+      }
+      low[k] = least;
+      high[k] = most;
+    }
+  };
+  if (grid.is_narrow) {
+    find_box(grid.narrow);
+  } else {
+    find_box(grid.wide);
+  }
+  unsigned bits = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const mpz_class size = high[k] - low[k];
+    if (size != 0)
+      bits = std::max(bits, static_cast<unsigned>(mpz_sizeinbase(size.get_mpz_t(), 2)));
+  }
+  if (bits + kFarBits > grid.bits) return;
+  std::vector<mpz_class> wide;
+  std::vector<std::int64_t> narrow;
+  const bool is_narrow = bits <= GridPositions::kNarrowBits;
+  for (std::size_t i = 0; i < 3 * inputs; ++i) {
+    mpz_class moved = grid.at(i / 3, static_cast<int>(i % 3)) - low[i % 3];
+    if (is_narrow) {
+      narrow.push_back(moved.get_si());
+    } else {
+      wide.push_back(std::move(moved));
+    }
+  }
+  grid.is_narrow = is_narrow;
+  grid.narrow = std::move(narrow);
+  grid.wide = std::move(wide);
+  grid.bits = bits;
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.geometry.origin[k] += out.geometry.step * low[k];
+    for (PreparedLight& light : out.lights) {
+      if (!light.is_directional()) light.point.grid[k] -= low[k];
+    }
+  }
+}
+
 /// Positions on their grid, and the lights if they are wanted.
 Expected<Corners> prepare_positions(const Scene& scene, bool with_lights, PreparedScene& out) {
   std::vector<const Position*> points;
@@ -185,6 +238,9 @@ Expected<Corners> prepare_positions(const Scene& scene, bool with_lights, Prepar
   if (with_lights) {
     if (auto error = scene_detail::prepare_lights(scene, grid, inputs, out)) {
       return tl::unexpected(std::move(*error));
+    }
+    if (inputs > 0 && std::ranges::none_of(scene.lights, &Light::has_area)) {
+      start_at_vertices(inputs, grid, out);
     }
   }
   scene_detail::reserve_in_large_pages(out.vertex_of_input, scene.vertices.size());

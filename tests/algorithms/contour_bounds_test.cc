@@ -54,11 +54,14 @@ struct BothRays {
     const bool from_doubles = !rays.positions.empty();
     const int b = static_cast<int>(integers.grid_bits()), e = static_cast<int>(integers.light_bits);
     const int q = static_cast<int>(integers.q_bits);
-    const mpq_class scale = power_of_two(from_doubles ? -(b + e) : -q);
+    const mpq_class scale = power_of_two(from_doubles   ? -(b + e)
+                                         : integers.far ? -(b + e + 1)
+                                                        : -q);
     for (VertexId v = 0; v < rays.rays.size(); ++v) {
-      const Vector3<mpz_class> at = integers.q<mpz_class>(v);
+      const Vector3<mpz_class> at =
+          integers.far ? integers.far_ray<mpz_class>(v) : integers.q<mpz_class>(v);
       Exact3 ray{mpq_class(at[0]) * scale, mpq_class(at[1]) * scale, mpq_class(at[2]) * scale};
-      if (point.directional) ray[2] *= power_of_two(b);
+      if (integers.is_parallel()) ray[2] *= power_of_two(b);
       exact.push_back(ray);
     }
   }
@@ -67,10 +70,11 @@ struct BothRays {
     const Vector3<mpz_class>& l = point.grid;
     const int b = static_cast<int>(integers.grid_bits()), e = static_cast<int>(integers.light_bits);
     Exact3 depth;
-    if (point.directional) {
+    if (integers.is_parallel()) {
       const auto [x, y, z] = integers.axes;
-      const mpq_class factor =
-          power_of_two(e) * (sgn(l[z]) < 0 ? -1 : 1) / mpq_class(dot(plane.n, l));
+      const mpz_class height =
+          integers.far ? mpz_class(dot(plane.n, l) - plane.d) : mpz_class(dot(plane.n, l));
+      const mpq_class factor = power_of_two(e) * (sgn(l[z]) < 0 ? -1 : 1) / mpq_class(height);
       return {-factor * plane.n[x], -factor * plane.n[y], factor * plane.d * power_of_two(-b)};
     }
     const mpq_class height = dot(plane.n, l) - plane.d;
@@ -80,17 +84,25 @@ struct BothRays {
     return depth;
   }
 
-  /// The determinant of three rays, of a sun less its unit.
+  /// n / h of a plane at a vertex, from its depth there.
+  double quotient(PlaneId id, VertexId v, double& error) const {
+    const double reach = rays.reach > 0 ? rays.reach : largest(rays.rays[v]);
+    const double height = dot_product(rays.depths[id], rays.rays[v]);
+    error = rays.perspective * (rays.depth_error[id] * reach + 1e-15 * std::fabs(height)) + 1e-15;
+    return 1 + rays.perspective * (height - rays.heights[v]);
+  }
+  /// The determinant of three rays, of a sun or a far lamp less its unit.
   mpq_class determinant(VertexId a, VertexId b, VertexId v) const {
     mpq_class result = exact_dot(exact_cross(exact[a], exact[b]), exact[v]);
-    if (point.directional) result /= unit_of_sun();
+    if (integers.is_parallel()) result /= unit_of_sun();
     return result;
   }
   mpq_class unit_of_sun() const {
     const mpq_class d_z = mpq_class(point.grid[static_cast<std::size_t>(integers.axes.z)]) *
                           power_of_two(-static_cast<int>(integers.light_bits));
-    const int s = static_cast<int>(
-        rays.positions.empty() ? integers.q_bits : integers.grid_bits() + integers.light_bits);
+    const int s =
+        static_cast<int>(rays.positions.empty() ? integers.grid_bits() + integers.light_bits + 1
+                                                : integers.grid_bits() + integers.light_bits);
     const int one = static_cast<int>(integers.grid_bits() + integers.light_bits);
     return d_z * d_z * power_of_two(3 * (one - s));
   }
@@ -110,7 +122,7 @@ struct BothRays {
   /// sharp_value() and the kernels' integers, against the determinant of three rays.
   void hold_sharp(VertexId a, VertexId b, VertexId v) const {
     const mpq_class truth = determinant(a, b, v);
-    if (point.directional) {
+    if (integers.is_parallel()) {
       const mpq_class unit = unit_of_sun();
       ASSERT_LE(abs(mpq_class(rays.exact->unit()) - unit), mpq_class(ExactValues::kUnit) * unit);
     }
@@ -150,8 +162,11 @@ struct BothRays {
   std::vector<Exact3> exact;
 };
 
+/// `kFar`: as many times the scene's size away as `far_bits` says, in any direction.
+enum class Kind { kLamp, kSun, kFar };
+
 /// Triangles of random corners with so many bits, and a light: a lamp or a sun of as many.
-PreparedScene random_scene(Random& random, int bits, bool sun) {
+PreparedScene random_scene(Random& random, int bits, Kind kind, int far_bits) {
   Scene scene;
   const auto coordinate = [&] {
     const auto value = static_cast<double>(random.below(std::uint64_t{1} << bits));
@@ -167,21 +182,35 @@ PreparedScene random_scene(Random& random, int bits, bool sun) {
   }
   Light light;
   light.id = "light";
-  light.type = sun ? LightType::kDirectional : LightType::kPoint;
+  light.type = kind == Kind::kSun ? LightType::kDirectional : LightType::kPoint;
   light.position = {coordinate(), coordinate(), coordinate()};
+  if (kind == Kind::kFar) {
+    // One coordinate is large, the others are large, of the scene's size, or 0.
+    const std::uint64_t largest = random.below(3);
+    for (std::uint64_t k = 0; k < 3; ++k) {
+      double x = std::ldexp(0.5 + unit(random) / 2, bits + far_bits);
+      if (k != largest && random.below(2) == 0) x = std::ldexp(unit(random), bits);
+      if (k != largest && random.below(4) == 0) x = 0;
+      light.position[k] = Number(std::round(random.below(2) == 0 ? -x : x));
+    }
+  }
   scene.lights.push_back(light);
   return prepare(scene).value();
 }
 
-class ContourBoundsTest : public testing::TestWithParam<std::tuple<int, bool>> {};
+class ContourBoundsTest : public testing::TestWithParam<std::tuple<int, Kind>> {};
 
 TEST_P(ContourBoundsTest, HoldLinesAndDepths) {
-  const auto [bits, sun] = GetParam();
-  Random random(static_cast<std::uint64_t>(bits) * 2 + (sun ? 1 : 0));
+  const auto [bits, kind] = GetParam();
+  const bool sun = kind != Kind::kLamp;
+  Random random(static_cast<std::uint64_t>(bits) * 2 + static_cast<std::uint64_t>(kind));
   double closest = 0, closest_plane = 0;
   for (int round = 0; round < 20; ++round) {
-    const PreparedScene scene = random_scene(random, bits, sun);
+    constexpr std::array kFarBits = {14, 30, 50, 51, 52, 80, 500};
+    const PreparedScene scene = random_scene(
+        random, bits, kind, kFarBits[static_cast<std::size_t>(round) % kFarBits.size()]);
     const BothRays both(scene, 0);
+    ASSERT_EQ(both.integers.far, kind == Kind::kFar);
     const LightRays<Numbers>& rays = both.rays;
     for (EdgeId edge = 0; edge < scene.geometry.edges.size(); ++edge) {
       const auto [from, to] = scene.geometry.edges[edge];
@@ -213,7 +242,17 @@ TEST_P(ContourBoundsTest, HoldLinesAndDepths) {
         const mpq_class off = abs(exact_dot(depth, both.exact[v]) -
                                   mpq_class(dot_product(rays.depths[id], rays.rays[v])));
         ASSERT_LE(off, mpq_class(rays.depth_error[id] * reach)) << id << ' ' << v;
-        if (!both.point.directional) {
+        if (both.integers.far) {
+          const ExactPlane<mpz_class> plane = ExactGeometry<mpz_class>(scene.geometry).plane(id);
+          const mpq_class truth = mpq_class(dot(plane.n, both.integers.q<mpz_class>(v))) /
+                                  mpq_class(dot(plane.n, both.point.grid) - plane.d);
+          double error;
+          const double quotient = both.quotient(id, v, error);
+          ASSERT_LE(abs(truth - mpq_class(quotient)),
+                    mpq_class(error + 1e-15 * std::fabs(quotient)));
+          ASSERT_LE(abs(truth - mpq_class(rays.exact->depth(id, v))),
+                    mpq_class(ExactValues::kDepth) * abs(truth));
+        } else if (!both.point.directional) {
           const mpq_class sharp = exact_dot(depth, both.exact[v]);
           ASSERT_LE(abs(sharp - mpq_class(rays.exact->depth(id, v))),
                     mpq_class(ExactValues::kDepth) * abs(sharp));
@@ -232,7 +271,8 @@ TEST_P(ContourBoundsTest, HoldLinesAndDepths) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BitsAndLights, ContourBoundsTest,
-                         testing::Combine(testing::Values(4, 20, 40, 52, 61), testing::Bool()));
+                         testing::Combine(testing::Values(4, 20, 40, 52, 61),
+                                          testing::Values(Kind::kLamp, Kind::kSun, Kind::kFar)));
 
 TEST(ZeroBetween, IsOffByLessThanItsError) {
   Random random(7);

@@ -67,6 +67,12 @@ std::array<mpz_class, 3> q(const Geometry& geometry, const LightPoint& light, Ve
   const GridPositions& grid = geometry.grid;
   const std::array<mpz_class, 3> p = {grid.at(v, 0), grid.at(v, 1), grid.at(v, 2)};
   const auto& l = light.grid;
+  if (LightIntegers(geometry, light).far) {
+    LightPoint direction = light;
+    direction.directional = true;
+    const auto [x, y, z] = LightAxes::of(direction);
+    return {p[x] * l[z] - p[z] * l[x], p[y] * l[z] - p[z] * l[y], l[z] - p[z]};
+  }
   if (!light.directional) return {l[0] - p[0], l[1] - p[1], l[2] - p[2]};
   const auto [x, y, z] = LightAxes::of(light);
   return {p[x] * l[z] - p[z] * l[x], p[y] * l[z] - p[z] * l[y], l[z]};
@@ -163,19 +169,35 @@ TEST(FilterConstants, OfVolumes) {
             VolumeBounds::turn(Ball::kUnit) / Ball::kUnit);
 }
 
-class FilterBound : public testing::TestWithParam<std::tuple<unsigned, bool>> {};
+/// A far lamp is as a sun, and stands on any side of the scene.
+enum class Kind { kLamp, kSun, kFarLamp };
+std::string name_of(Kind kind) {
+  return kind == Kind::kLamp ? "Point" : kind == Kind::kSun ? "Directional" : "Far";
+}
+
+class FilterBound : public testing::TestWithParam<std::tuple<unsigned, Kind>> {};
 
 TEST_P(FilterBound, RaysOfVerticesAndCrossings) {
-  const auto [bits, directional] = GetParam();
-  Random random(bits + (directional ? 1000 : 0));
+  const auto [bits, kind] = GetParam();
+  const bool directional = kind == Kind::kSun, parallel = kind != Kind::kLamp;
+  Random random(bits + 1000 * static_cast<unsigned>(kind));
   for (int round = 0; round < 20; ++round) {
     const Geometry geometry = random_geometry(random, bits, 12);
     LightPoint light;
     light.directional = directional;
     for (mpz_class& x : light.grid) x = random_integer(random, bits) + 1;
+    if (kind == Kind::kFarLamp) {
+      for (mpz_class& x : light.grid) {
+        const std::uint64_t how = random.below(4);
+        if (how < 2) x = random_integer(random, bits + 30 + 40 * static_cast<unsigned>(round));
+        if (how % 2 == 0) x = -x;
+      }
+      light.grid[random.below(3)] =
+          random_integer(random, 2 * bits + 14) + (mpz_class(1) << (bits + 13));
+    }
     Space::SceneSpace scene(geometry, {});
     Space space(scene, light, {});
-    const unsigned stretch = directional ? geometry.grid.bits() : 0;
+    const unsigned stretch = parallel ? geometry.grid.bits() : 0;
     const SceneEdges names = scene.edges();
     std::vector<PlaneRef> planes;
     std::vector<Rational3> exact_planes;
@@ -183,8 +205,10 @@ TEST_P(FilterBound, RaysOfVerticesAndCrossings) {
       planes.push_back(space.import_edge(names.of_edge(edge, false), 0, false, {}, {}));
       const auto [a, b] = geometry.edges[edge];
       std::array<mpz_class, 3> normal = cross(q(geometry, light, a), q(geometry, light, b));
-      if (directional) {  // the common factor
-        for (mpz_class& x : normal) x /= abs(light.grid[LightAxes::of(light).z]);
+      if (parallel) {  // the common factor
+        LightPoint direction = light;
+        direction.directional = true;
+        for (mpz_class& x : normal) x /= abs(light.grid[LightAxes::of(direction).z]);
       }
       exact_planes.push_back(normalized(normal, {stretch, stretch, 0}));
     }
@@ -212,9 +236,9 @@ TEST_P(FilterBound, RaysOfVerticesAndCrossings) {
 INSTANTIATE_TEST_SUITE_P(AllMagnitudes, FilterBound,
                          testing::Combine(testing::Values(2u, 10u, 20u, 31u, 40u, 63u, 64u, 130u,
                                                           400u),
-                                          testing::Bool()),
+                                          testing::Values(Kind::kLamp, Kind::kSun, Kind::kFarLamp)),
                          [](const auto& info) {
-                           return (std::get<1>(info.param) ? "Directional" : "Point") +
+                           return name_of(std::get<1>(info.param)) +
                                   std::to_string(std::get<0>(info.param));
                          });
 
