@@ -60,17 +60,18 @@ double depth_inside(const OrderedPiece& piece, const Vector& eye, const Vector& 
     to.push_back({point[0] - eye[0], point[1] - eye[1], point[2] - eye[2]});
   }
   double least = HUGE_VAL, most = -HUGE_VAL;
-  Vector middle{};
+  Vector area{};
   for (std::size_t i = 0; i < to.size(); ++i) {
     const Vector normal = cross(to[i], to[(i + 1) % to.size()]);
     const double value =
         dot(normal, direction) / std::sqrt(dot(normal, normal) * dot(direction, direction));
     least = std::min(least, value);
     most = std::max(most, value);
-    for (std::size_t k = 0; k < 3; ++k) middle[k] += to[i][k];
+    for (std::size_t k = 0; k < 3; ++k) area[k] += normal[k];
   }
   const double inside = std::max(least, -most);
-  return dot(middle, direction) > 0 ? inside : std::min(inside, -1.0);
+  const bool is_ahead = dot(area, to[0]) * dot(area, direction) > 0;
+  return is_ahead ? inside : std::min(inside, -1.0);
 }
 
 /// The part on top where a ray meets the picture; nothing near a border.
