@@ -43,6 +43,8 @@ const char* name_of(ShadowReason reason) {
       return "light-in-plane";
     case ShadowReason::kBehindLight:
       return "behind-light";
+    case ShadowReason::kOutsideRegion:
+      return "outside-region";
   }
   return "";
 }
@@ -71,8 +73,9 @@ std::optional<Side> side_by_name(std::string_view name) {
 }
 
 std::optional<ShadowReason> shadow_reason_by_name(std::string_view name) {
-  return value_named(
-      {ShadowReason::kFacesAway, ShadowReason::kLightInPlane, ShadowReason::kBehindLight}, name);
+  return value_named({ShadowReason::kFacesAway, ShadowReason::kLightInPlane,
+                      ShadowReason::kBehindLight, ShadowReason::kOutsideRegion},
+                     name);
 }
 
 std::optional<Cover> cover_by_name(std::string_view name) {

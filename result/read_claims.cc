@@ -63,6 +63,9 @@ Expected<ClaimedFragment> Reader::fragment(const Json& value, const std::string&
     if (!own) return tl::unexpected(own.error());
     *text = std::move(*own);
   }
+  Expected<std::vector<std::string>> casters = fields_.texts(value, "casters", false, pointer);
+  if (!casters) return tl::unexpected(casters.error());
+  result.casters = std::move(*casters);
   return result;
 }
 

@@ -75,6 +75,10 @@ class GroupRun {
 
   /// Puts out what becomes of a loop on the present target, and counts nothing.
   void classify(const Loop& loop, ClassifiedLoops<Vertex>& output) {
+    light_.clip_to_region(loop, output,
+                          [&](const Loop& inside) { classify_inside(inside, output); });
+  }
+  void classify_inside(const Loop& loop, ClassifiedLoops<Vertex>& output) {
     if (const VolumeId cover = find_near_uncounted(loop); cover != kNoVolume) {
       output.add_shadow(loop, volumes_.caster(cover));
     } else {
@@ -84,6 +88,10 @@ class GroupRun {
   /// Calls put(inside) for each shadow polygon on a loop on the present target.
   template <class Put>
   void paint(const Loop& loop, const Put& put) {
+    light_.clip_and_paint(loop, put, [&](const Loop& inside) { paint_inside(inside, put); });
+  }
+  template <class Put>
+  void paint_inside(const Loop& loop, const Put& put) {
     if (find_near_uncounted(loop) != kNoVolume) {
       put(loop);
     } else {
@@ -135,6 +143,7 @@ class GroupRun {
   /// Phase 1: what of a target is in the shadow of the volumes so far.
   void receive(Target& target) {
     const Loop loop = view(target);
+    if (light_.region.place(loop.part) != RegionPlace::kInside) return receive_inside(target);
     const std::span<const VolumeId> candidates = candidates_.at(target.place);
     candidates_.count_target(candidates.size());
     const VolumeId cover = find_near(loop, candidates, counts_);
@@ -144,6 +153,24 @@ class GroupRun {
       put_out_covered(loop, cover);
     } else {
       put_out(loop);
+    }
+  }
+
+  /// Of a target that is partly outside of the light's region, which casts whatever covers the
+  /// rest.
+  void receive_inside(const Target& target) {
+    const std::size_t before = tiling_.fragments.size();
+    light_.clip_to_region(view(target), tiling_, [&](const Loop& inside) {
+      const std::span<const VolumeId> candidates = candidates_.at(target.place);
+      candidates_.count_target(candidates.size());
+      const VolumeId cover = find_near(inside, candidates, counts_);
+      cover != kNoVolume ? put_out_covered(inside, cover) : put_out(inside);
+    });
+    if (!overlays()) return;
+    for (std::size_t i = before; i < tiling_.fragments.size(); ++i) {
+      const ClassifiedLoop& own = tiling_.fragments[i];
+      if (own.reason == ShadowReason::kNone) continue;
+      painted_.add_outside(tiling_.loops.view(own.loop, light_.plane_of(own.loop.part)));
     }
   }
 
@@ -201,7 +228,7 @@ class GroupRun {
 
   /// Phase 2: the target becomes a volume; those that it holds are no longer needed.
   void cast(Target& target, CastSteps steps) {
-    if (!light_.part(target.loop.part).casts || target.covered || target.inserted) return;
+    if (!light_.casts(target.loop.part) || target.covered || target.inserted) return;
     if (target.volume == kNoVolume) {
       target.volume = volumes_.add(view(target));
       ++counts_[Counter::kVolumes];

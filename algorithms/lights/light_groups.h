@@ -67,7 +67,10 @@ RunOutcome for_each_group(const LightScene<Space>& light,
     pieces.clear();
     for (std::uint32_t k = 0; k < node.count; ++k) {
       const std::uint32_t piece = bsp.node_pieces[node.first + k];
-      if (light.facing.facing[bsp.pieces[piece].part].faces()) pieces.push_back(piece);
+      const std::uint32_t part = bsp.pieces[piece].part;
+      if (light.facing.facing[part].faces() && !light.region.is_dropped(part)) {
+        pieces.push_back(piece);
+      }
     }
     const RunOutcome outcome = visit(std::span<const std::uint32_t>(pieces));
     if (outcome != RunOutcome::kDone) return outcome;

@@ -7,7 +7,9 @@
 
 #include <cstdint>
 
+#include "algorithms/partition/classified_loop.h"
 #include "algorithms/partition/import_export.h"
+#include "algorithms/partition/light_region.h"
 #include "algorithms/partition/run_task.h"
 
 namespace gnomon {
@@ -26,12 +28,31 @@ struct LightScene {
         light(light_index),
         scene_space(scene_of_light),
         space(scene_of_light, task.scene.lights[light_index].point, task.options.kernel.options()),
-        facing(task.scene, space, task.rules) {}
+        facing(task.scene, space, task.rules),
+        // What lights leave together is told of all that they face.
+        region(task.scene, light_index, space, scene_of_light, facing,
+               task.combined.empty() ? RegionCull::kDrop : RegionCull::kKeep) {}
   LightScene(const LightScene&) = delete;
   LightScene& operator=(const LightScene&) = delete;
 
   const Part& part(std::uint32_t index) const { return scene.parts[index]; }
   PlaneId plane_of(std::uint32_t part) const { return scene.parts[part].plane; }
+  bool casts(std::uint32_t part) const {
+    return casts_under(scene.lights[light], scene.parts[part]);
+  }
+  /// Calls inside(loop) for what of a loop is in the light's region; the rest is put out.
+  template <class Inside>
+  void clip_to_region(const LoopView<Vertex>& loop, ClassifiedLoops<Vertex>& output,
+                      const Inside& inside) {
+    clip_.clip(
+        space, region, loop, [&](const LoopView<Vertex>& piece) { output.add_outside(piece); },
+        inside);
+  }
+  /// The same, where shadows are painted: put(loop) gets what is outside.
+  template <class Put, class Inside>
+  void clip_and_paint(const LoopView<Vertex>& loop, const Put& put, const Inside& inside) {
+    clip_.clip(space, region, loop, put, inside);
+  }
   const LightPoint& light_point() const { return scene.lights[light].point; }
 
   /// Appends a piece of a part that faces the light to `store`.
@@ -64,8 +85,10 @@ struct LightScene {
   SceneSpace& scene_space;
   Space space;
   FacingParts facing;
+  LightRegion region;
 
  private:
+  RegionClip<Space> clip_;
   LoopStore<SceneVertex> whole_;
 };
 

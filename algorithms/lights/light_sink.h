@@ -92,6 +92,12 @@ LightResult LightSink<Space>::finish(ClassifiedLoops<Vertex>& tiling,
     part.reason = light_.facing.facing[index].reason;
     part.first_fragment = static_cast<std::uint32_t>(result.fragments.size());
     std::span<ClassifiedLoop> own = tiles.of(index);
+    std::vector<ClassifiedLoop> outside;
+    if (part.reason == ShadowReason::kNone && light_.region.place(index) == RegionPlace::kOutside) {
+      outside.push_back({light_.import_part(index, tiling.loops), LightState::kShadow,
+                         Fragment::kNoCaster, ShadowReason::kOutsideRegion});
+      own = outside;
+    }
     if (light_.options.output.merge && own.size() > 1 &&
         std::all_of(own.begin(), own.end(),
                     [&](const ClassifiedLoop& f) { return f.is_like(own[0]); })) {
@@ -100,7 +106,7 @@ LightResult LightSink<Space>::finish(ClassifiedLoops<Vertex>& tiling,
       own = own.first(1);
     }
     measure(part, exactly ? &result.exact_fractions[index] : nullptr, own, tiling.loops);
-    if (painted != nullptr) {
+    if (painted != nullptr && outside.empty()) {
       put_out(part, shadows.of(index), painted->loops, result);
     } else {
       put_out(part, own, tiling.loops, result);
@@ -119,6 +125,8 @@ void LightSink<Space>::put_out(PartResult& part, std::span<const ClassifiedLoop>
     Fragment fragment;
     fragment.state = f.state;
     fragment.caster = f.caster;
+    fragment.reason = f.reason;
+    fragment.casters = f.casters;
     if (light_.options.keeps_any_points()) {
       export_loop(light_.space, light_.scene.geometry, light_.options,
                   loops.view(f.loop, light_.plane_of(part.part)), fragment, result.points,

@@ -30,9 +30,12 @@ struct ClassifiedLoop {
   LoopRange loop;
   LightState state = LightState::kLit;
   std::uint32_t caster = Fragment::kNoCaster;
+  ShadowReason reason = ShadowReason::kNone;
+  std::uint32_t casters = Fragment::kNoCaster;  // as Fragment::casters
 
   bool is_like(const ClassifiedLoop& other) const {
-    return state == other.state && caster == other.caster;
+    return state == other.state && caster == other.caster && reason == other.reason &&
+           casters == other.casters;
   }
 };
 
@@ -44,6 +47,11 @@ struct ClassifiedLoops : FilteredLoops<Vertex, ClassifiedLoop> {
   void add_lit(const LoopView<Vertex>& loop) { add(loop, LightState::kLit, Fragment::kNoCaster); }
   void add_shadow(const LoopView<Vertex>& loop, std::uint32_t caster) {
     add(loop, LightState::kShadow, caster);
+  }
+  /// What the light's region does not hold.
+  void add_outside(const LoopView<Vertex>& loop) {
+    add(loop, LightState::kShadow, Fragment::kNoCaster);
+    this->fragments.back().reason = ShadowReason::kOutsideRegion;
   }
 };
 

@@ -36,6 +36,7 @@ struct SideResult {
   std::vector<Fragment> fragments;
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<mpq_class, 3>> exact_points;
+  std::vector<std::vector<std::uint32_t>> caster_sets;  // of the fragments
 };
 
 /// A side without fragments: all of it is in shadow for that reason.
@@ -85,11 +86,44 @@ class FragmentSink {
     area_ = area;
     loops_.clear();
     pieces_.clear();
+    sets_.clear();
   }
   void add(const PieceClass& state, const Loop& loop) {
     pieces_.push_back({state, loops_.append(loop)});
   }
   std::size_t size() const { return pieces_.size(); }
+  /// Puts the input polygon in the place of pieces that are all alike (1989, sec. 6). `whole`: the
+  /// part's own loop.
+  void collapse(const Loop& whole) {
+    if (!options_->output.merge || pieces_.size() < 2 ||
+        !std::all_of(pieces_.begin(), pieces_.end(),
+                     [&](const Piece& piece) { return piece.state == pieces_.front().state; })) {
+      return;
+    }
+    pieces_.resize(1);
+    pieces_.front().loop = loops_.append(whole);
+  }
+  /// Calls name(caster, loop) for every piece with a witness. Where it returns parts, they stand in
+  /// the witness's place: one, or a set.
+  template <class Name>
+  void name_witnesses(const Name& name) {
+    for (Piece& piece : pieces_) {
+      if (piece.state.caster == Fragment::kNoCaster) continue;
+      std::vector<std::uint32_t> casters =
+          name(piece.state.caster, loops_.view(piece.loop, scene_->parts[part_].plane));
+      if (casters.empty()) continue;
+      const auto polygon_of = [&](std::uint32_t part) { return scene_->parts[part].polygon; };
+      if (std::ranges::all_of(casters, [&](std::uint32_t part) {
+            return polygon_of(part) == polygon_of(casters.front());
+          })) {
+        piece.state.caster = casters.front();
+        continue;
+      }
+      piece.state.caster = Fragment::kNoCaster;
+      piece.state.casters = static_cast<std::uint32_t>(sets_.size());
+      sets_.push_back(std::move(casters));
+    }
+  }
   /// `whole`: the part's own loop.
   SideResult finish(const Space& space, const Loop& whole);
 
@@ -115,6 +149,7 @@ class FragmentSink {
   bool area_ = true;
   LoopStore<Vertex> loops_;
   std::vector<Piece> pieces_;
+  std::vector<std::vector<std::uint32_t>> sets_;  // of casters
 };
 
 template <VolumeSpaceModel Space>
@@ -122,13 +157,7 @@ SideResult FragmentSink<Space>::finish(const Space& space, const Loop& whole) {
   SideResult result;
   result.part.part = part_;
   result.part.side = side_;
-  if (options_->output.merge && pieces_.size() > 1 &&
-      std::all_of(pieces_.begin(), pieces_.end(),
-                  [&](const Piece& piece) { return piece.state == pieces_.front().state; })) {
-    // The input polygon as it was (1989, sec. 6).
-    pieces_.resize(1);
-    pieces_.front().loop = loops_.append(whole);
-  }
+  collapse(whole);
   if (pieces_.size() > 1) {
     std::erase_if(pieces_, [&](const Piece& piece) {
       return !fragment_stays(space, loops_.view(piece.loop, scene_->parts[part_].plane), *rules_);
@@ -143,6 +172,7 @@ SideResult FragmentSink<Space>::finish(const Space& space, const Loop& whole) {
     fragment.state = piece.state.state;
     fragment.reason = piece.state.reason;
     fragment.caster = piece.state.caster;
+    fragment.casters = piece.state.casters;
     if (keep) {
       export_volume_loop(space, *options_, loops_.view(piece.loop, plane), side_ == Side::kBack,
                          fragment, result.points, result.exact_points);
@@ -150,6 +180,7 @@ SideResult FragmentSink<Space>::finish(const Space& space, const Loop& whole) {
     result.fragments.push_back(fragment);
   }
   result.part.fragment_count = static_cast<std::uint32_t>(result.fragments.size());
+  result.caster_sets = std::move(sets_);
   return result;
 }
 

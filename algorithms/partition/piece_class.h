@@ -13,6 +13,7 @@ struct PieceClass {
   LightState state = LightState::kLit;
   std::uint32_t caster = Fragment::kNoCaster;  // the witness
   ShadowReason reason = ShadowReason::kNone;
+  std::uint32_t casters = Fragment::kNoCaster;  // as Fragment::casters, of a FragmentSink's sets
   friend bool operator==(const PieceClass&, const PieceClass&) = default;
 };
 

@@ -55,17 +55,39 @@ inline std::int32_t descend(TreePlace& at, const NodeAt& node_at, const Placemen
   }
 }
 
-/// Nodes on the longest way from the root, which nodes[0] stands for, to a cell; links to nodes are
-/// not negative. Requires: a node comes after its parent. O(nodes).
+/// For each node how many there are on the way from the root, which nodes[0] stands for and does
+/// not count as, to it; links to nodes are not negative. Requires: a node comes after its parent.
+/// O(nodes).
 template <class Node>
-std::uint64_t depth_of(std::span<const Node> nodes) {
+std::vector<std::uint32_t> depths_of(std::span<const Node> nodes) {
   std::vector<std::uint32_t> depth(nodes.size(), 0);
-  std::uint32_t most = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    most = std::max(most, depth[i]);
     for (const std::int32_t link : {nodes[i].front, nodes[i].back}) {
       if (link >= 0) depth[static_cast<std::size_t>(link)] = depth[i] + 1;
     }
+  }
+  return depth;
+}
+inline std::uint64_t most_of(const std::vector<std::uint32_t>& depths) {
+  return *std::max_element(depths.begin(), depths.end());
+}
+/// The depth of the tree.
+template <class Node>
+std::uint64_t depth_of(std::span<const Node> nodes) {
+  return most_of(depths_of(nodes));
+}
+
+/// Nodes one below another, each the only one below the one before it. Requires and cost: as
+/// depths_of().
+template <class Node>
+std::uint64_t longest_chain_of(std::span<const Node> nodes) {
+  std::vector<std::uint32_t> chain(nodes.size(), 1);  // that ends in the node
+  std::uint32_t most = nodes.size() > 1 ? 1 : 0;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    if ((nodes[i].front >= 0) == (nodes[i].back >= 0)) continue;
+    const auto only = static_cast<std::size_t>(std::max(nodes[i].front, nodes[i].back));
+    chain[only] = chain[i] + 1;
+    most = std::max(most, chain[only]);
   }
   return most;
 }

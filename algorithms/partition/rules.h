@@ -42,6 +42,10 @@ struct Rules {
   /// The edges of a complete shadow volume stand above its support plane in the tree: what is in
   /// front of the plane then has no volume that goes on behind it ("Lit and in shadow").
   bool edges_above_supports = true;
+  /// A polygon's volume has a plane for every edge of its pieces, also for those that the scene BSP
+  /// made: what is beside a piece is beside its volume (1989, sec. 6, says that they need not
+  /// count).
+  bool edges_of_splits_bound_volumes = true;
   /// An edge on the line of another one has that polygon on one side only (docs/contour.md).
   bool edges_on_a_line_count = true;
   /// What hides an edge and what lies behind it are found among the same casters.

@@ -63,8 +63,10 @@ inline int thread_count(unsigned jobs) {
 
 /// The part of the public options that one light's run is told.
 inline RunOptions run_options_of(const ShadowOptions& options) {
-  return {options.output, options.limits, options.tuning, options.method.prefix,
-          options.control.interrupted};
+  RunOptions own{options.output, options.limits, options.tuning, options.method.prefix,
+                 options.control.interrupted};
+  own.output.merge = own.output.merge && options.method.options.merge != MergeOf::kNone;
+  return own;
 }
 
 /// The result of a run on this kernel, before any light.

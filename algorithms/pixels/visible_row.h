@@ -46,6 +46,18 @@ Span part_on_side(Space& space, Span span, PlaneRef plane, PlaneRef on, std::uin
       space.guess_side(plane, on, row));
 }
 
+/// The part of a span, of samples on the support plane `on`, that is in the region of a light.
+template <class Space>
+Span part_in_region(Space& space, Span span, const PreparedLight& light, PlaneRef on,
+                    std::uint32_t row) {
+  for (const PlaneRef plane : light.region) {
+    if (plane.same_plane(on)) continue;
+    span = part_on_side(space, span, plane, on, row, Sign::kPositive);
+    if (span.empty()) break;
+  }
+  return span;
+}
+
 /// Draws a part into a row. Requires: the part covers the span.
 template <class Space>
 void draw_span(ImageScene<Space>& scene, std::uint32_t part, Span span, std::uint32_t row,

@@ -139,6 +139,9 @@ void CanonicalOrder::restore(LightResult& light) const {
     if (fragment.caster != Fragment::kNoCaster) fragment.caster = parts_[fragment.caster];
   }
   light.fragments = std::move(fragments);
+  for (std::vector<std::uint32_t>& casters : light.caster_sets) {
+    for (std::uint32_t& caster : casters) caster = parts_[caster];
+  }
 }
 
 void CanonicalOrder::restore(ShadowResult& result) const {

@@ -46,6 +46,20 @@ std::string distance_text(double value) {
 }
 
 constexpr std::array kOptions = {
+    MethodOption{.name = "casters",
+                 .values = "polygons|solids",
+                 .summary = "closed convex solids cast polygon by polygon, or as wholes",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<CastersAre>(
+                           v.casters, t,
+                           {{"polygons", CastersAre::kPolygons}, {"solids", CastersAre::kSolids}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.casters == CastersAre::kPolygons ? "polygons"
+                                                                             : "solids");
+                     }},
     MethodOption{
         .name = "cells",
         .values = "on|off",
@@ -79,12 +93,42 @@ constexpr std::array kOptions = {
                        return cover.has_value();
                      },
                  .text = [](const MethodOptionValues& v) { return std::string(name_of(v.cover)); }},
+    MethodOption{.name = "edges",
+                 .values = "own|all",
+                 .summary = "which edges of a fragment become nodes: its own, or all, as in a "
+                            "program that does not know what cut it",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<EdgesInTree>(
+                           v.edges, t, {{"own", EdgesInTree::kOwn}, {"all", EdgesInTree::kAll}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.edges == EdgesInTree::kOwn ? "own" : "all");
+                     }},
     MethodOption{
         .name = "far",
         .values = "0..1e15",
         .summary = "with z-fail: the plane beyond which no wall is drawn, scene units; 0: none",
         .read = [](MethodOptionValues& v, std::string_view t) { return read_distance(v.far, t); },
         .text = [](const MethodOptionValues& v) { return distance_text(v.far); }},
+    MethodOption{.name = "merge",
+                 .values = "siblings|convex|off",
+                 .summary = "which fragments become one: children of a split, also neighbours that "
+                            "are convex together, none",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<MergeOf>(v.merge, t,
+                                                 {{"siblings", MergeOf::kSiblings},
+                                                  {"convex", MergeOf::kConvex},
+                                                  {"off", MergeOf::kNone}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.merge == MergeOf::kSiblings ? "siblings"
+                                          : v.merge == MergeOf::kConvex ? "convex"
+                                                                        : "off");
+                     }},
     MethodOption{
         .name = "near",
         .values = "0..1e15",

@@ -30,7 +30,11 @@ constexpr std::array<std::string_view, 3> kTilingOptions = {"tiles", "cover", "p
 constexpr std::array<std::string_view, 1> kSvbspFullOptions = {"order"};
 constexpr std::array<std::string_view, 1> kSectorsOptions = {"split"};
 constexpr std::array<std::string_view, 2> kTwoPassOptions = {"cells", "cover"};
-constexpr std::array kSvbspCounters = {kScenePieces, kShadowPolygons, kNodes, kDepth};
+constexpr std::array<std::string_view, 2> kSvbspOptions = {"edges", "merge"};
+constexpr std::array<std::string_view, 1> kReceiverOptions = {"casters"};
+constexpr std::array kSvbspCounters = {kScenePieces,  kShadowPolygons,  kNodes, kDepth,
+                                       kLongestChain, kMeanFilterDepth, kMerged};
+constexpr std::array kReceiverCounters = {kVolumes, kSolids, kVolumePlanes};
 constexpr std::array kBasicCounters = {kScenePieces, kVolumes, kTests,  kCovered,
                                        kDied,        kClips,   kNulled, kShadowPolygons};
 constexpr std::array kTilingCounters = {
@@ -79,6 +83,7 @@ constexpr std::array kObjectMethods = {
            .combines_lights = true,
            .explains = true,
            .leaves_out_steps = true,
+           .options = kSvbspOptions,
            .counters = kSvbspCounters},
     Method{.id = MethodId::kReceiver,
            .name = "receiver",
@@ -87,7 +92,9 @@ constexpr std::array kObjectMethods = {
            .lights = {.point = true, .area = true},
            .combines_lights = true,
            .explains = true,
-           .threads = true},
+           .threads = true,
+           .options = kReceiverOptions,
+           .counters = kReceiverCounters},
     Method{.id = MethodId::kMerged,
            .name = "merged",
            .summary = "two trees of all casters",

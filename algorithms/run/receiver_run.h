@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <deque>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -28,6 +29,7 @@
 #include "algorithms/shadow_volumes/light_in_space.h"
 #include "algorithms/volume_trees/light_by_planes.h"
 #include "algorithms/volume_trees/penumbra_and_umbra.h"
+#include "gnomon/algorithms/components.h"
 #include "kernel/concept/kernel_model.h"
 #include "kernel/signs/fp_environment.h"
 
@@ -57,7 +59,9 @@ class ReceiverRun {
         light_geometry_(make_light_geometry(scene)),
         scene_space_(light_geometry_.geometry, options.kernel.options()),
         space_(scene_space_, options.kernel.options()),
-        tree_(light_geometry_.geometry, scene, casters(scene)) {}
+        tree_(light_geometry_.geometry, scene, casters(scene)) {
+    if (options.method.options.casters == CastersAre::kSolids) find_solids();
+  }
 
   /// Lights that results are wanted of one by one, and those that fragments are combined of.
   Expected<ShadowResult> run(const LightList& lights, const LightList& combined);
@@ -67,11 +71,24 @@ class ReceiverRun {
 
   static std::vector<std::uint32_t> casters(const PreparedScene& scene) {
     std::vector<std::uint32_t> parts;
+    const bool all = std::ranges::any_of(scene.lights, &PreparedLight::is_eye);
     for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
-      if (scene.parts[i].casts) parts.push_back(i);
+      if (all || scene.parts[i].casts) parts.push_back(i);
     }
     return parts;
   }
+  void find_solids() {
+    solids_.of_part.assign(scene_.parts.size(), SolidCasters::kNone);
+    for (Component& component : find_components(scene_)) {
+      const auto casts = [&](std::uint32_t part) { return scene_.parts[part].casts; };
+      if (!component.is_convex || !std::ranges::all_of(component.parts, casts)) continue;
+      for (const std::uint32_t part : component.parts) {
+        solids_.of_part[part] = static_cast<std::uint32_t>(solids_.solids.size());
+      }
+      solids_.solids.push_back(std::move(component.parts));
+    }
+  }
+  const SolidCasters* solids() const { return solids_.solids.empty() ? nullptr : &solids_; }
   /// Calls body(workspace, i) for [0, n). False if it was stopped.
   template <class Body>
   bool for_each(std::size_t n, double from, double to, const Body& body);
@@ -123,6 +140,7 @@ class ReceiverRun {
   SceneSpace scene_space_;
   Space space_;
   CasterTree tree_;
+  SolidCasters solids_;
   std::atomic<std::uint64_t> pieces_ = 0;
   std::atomic<bool> stopped_ = false, no_ieee_ = false;
   StageCounts stages_;
@@ -218,6 +236,12 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
           return count_piece();
         });
     if (stopped_) return sides;
+    sink.collapse(whole);
+    sink.name_witnesses([&](std::uint32_t caster, const Loop& piece) {
+      const std::uint32_t solid = light.solid_of(caster);
+      return solid == SolidCasters::kNone ? std::vector<std::uint32_t>()
+                                          : light.faces_hiding(workspace, piece, solid);
+    });
     sides.push_back(sink.finish(workspace.space, whole));
   }
   if (sides.empty())
@@ -263,9 +287,10 @@ template <VolumeSpaceModel Space>
 LightResult ReceiverRun<Space>::run_light(std::uint32_t index, double from, double to) {
   pieces_ = 0;
   const std::uint32_t mark = space_.plane_mark();
-  const LightInSpace<Space> light(space_, light_geometry_, tree_, index, rules_);
+  const LightInSpace<Space> light(space_, light_geometry_, tree_, index, rules_, solids());
   LightResult result;
   result.light = index;
+  light.count(result.work);
   result = run_light(light, std::move(result), from, to);
   space_.release_planes(mark);
   return result;
@@ -369,8 +394,12 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
           options_.output.points ? result.points.size() : result.exact_points.size());
       for (Fragment& fragment : side.fragments) {
         fragment.first += base;
+        if (fragment.casters != Fragment::kNoCaster) {
+          fragment.casters += static_cast<std::uint32_t>(result.caster_sets.size());
+        }
         result.fragments.push_back(fragment);
       }
+      std::ranges::move(side.caster_sets, std::back_inserter(result.caster_sets));
       result.points.insert(result.points.end(), side.points.begin(), side.points.end());
       std::move(side.exact_points.begin(), side.exact_points.end(),
                 std::back_inserter(result.exact_points));
@@ -403,7 +432,7 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
   std::deque<LightInSpace<Space>> lights;
   std::deque<std::optional<Trees>> trees;
   for (const std::uint32_t light : indices) {
-    lights.emplace_back(space_, light_geometry_, tree_, light, rules_);
+    lights.emplace_back(space_, light_geometry_, tree_, light, rules_, solids());
     trees.emplace_back();
   }
   if (std::ranges::any_of(lights, [&](const auto& light) { return has_trees(light); })) {

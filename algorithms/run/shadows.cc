@@ -236,6 +236,14 @@ std::uint64_t most_fragments_of_rounded(const PreparedScene& scene) {
   return std::max<std::uint64_t>(kLeast, scene.parts.size() * scene.loop_vertices.size());
 }
 
+/// Lights that contour does not know: with a region, and eyes where some parts cast no shadow.
+bool need_fragments(const PreparedScene& scene, const LightList& lights) {
+  const bool all_cast = std::ranges::all_of(scene.parts, &Part::casts);
+  return std::ranges::any_of(lights, [&](std::uint32_t light) {
+    return !scene.lights[light].region.empty() || (scene.lights[light].is_eye && !all_cast);
+  });
+}
+
 Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowOptions& options,
                                        const Rules& rules, const LightList& lights,
                                        MethodLookup lookup) {
@@ -272,7 +280,19 @@ Expected<ShadowResult> compute_with(const PreparedScene& scene, const ShadowOpti
                                     const Rules& rules, MethodLookup lookup) {
   const Expected<LightList> lights = select_lights(scene, options);
   if (!lights) return tl::unexpected<Error>(lights.error());
-  return compute_checked(scene, options, rules, *lights, lookup);
+  if (!need_fragments(scene, *lights)) {
+    return compute_checked(scene, options, rules, *lights, lookup);
+  }
+  if (options.method.point == MethodId::kContour) {
+    return fail(ErrorCode::kUsage,
+                "contour knows neither regions of lights nor polygons that hide and cast nothing",
+                "another method, such as sectors");
+  }
+  ShadowOptions own = options;
+  if (own.method.point == MethodId::kAutomatic) {
+    own.method.point = own.output.combined ? MethodId::kSvbsp : MethodId::kSectors;
+  }
+  return compute_checked(scene, own, rules, *lights, lookup);
 }
 
 Expected<ShadowResult> compute_shadows(const PreparedScene& scene, const ShadowOptions& options) {

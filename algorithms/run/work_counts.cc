@@ -21,6 +21,9 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kShadowPolygons, "shadow polygons", "pieces of targets inside volumes", kSum},
     {Counter::kNodes, "nodes", "of the tree of planes", kSum},
     {Counter::kDepth, "depth", "of the tree of planes", kMost},
+    {Counter::kLongestChain, "longest chain", "nodes below each other without a branch", kMost},
+    {Counter::kMeanFilterDepth, "mean filter depth", "of the cells that loops came to", kMost,
+     kMillion},
     {Counter::kTileWrites, "tile writes", "entries made in tiles", kSum},
     {Counter::kClosedTiles, "closed tiles", "tiles that one volume holds wholly", kSum},
     {Counter::kTileBytes, "tile bytes", "memory of the tiles", kMost},
@@ -53,6 +56,9 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kWallBytes, "wall bytes", "memory of walls and caps", kMost},
     {Counter::kDepthComplexity, "depth complexity", "polygons that cover a sample, on average",
      kMost, kMillion},
+    {Counter::kSolids, "solids", "closed convex ones that cast as wholes", kSum},
+    {Counter::kVolumePlanes, "volume planes", "of all shadow volumes", kSum},
+    {Counter::kMerged, "merged", "fragments that went into neighbours", kSum},
 }};
 
 }  // namespace

@@ -32,13 +32,28 @@ void SectorTree<Space>::join(Range children) {
 template <SectorSpaceModel Space>
 void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
   if (context_->leaf_method == LeafMethod::kCount) return put_counted(loop, state);
+  const RegionPlace place =
+      context_->region == nullptr ? RegionPlace::kInside : context_->region->place(loop.part);
+  if (place == RegionPlace::kInside) return emit_inside(loop, state);
+  if (place == RegionPlace::kOutside) return emit_outside(loop);
+  const std::uint32_t loops_mark = loops_.size(), planes_mark = space_.plane_mark();
+  region_clip_.clip(
+      space_, *context_->region, view(loop),
+      [&](const LoopView<Vertex>& piece) { emit_outside(loops_.append(piece)); },
+      [&](const LoopView<Vertex>& piece) { emit_inside(loops_.append(piece), state); });
+  loops_.truncate(loops_mark);
+  space_.release_planes(planes_mark);
+}
+
+template <SectorSpaceModel Space>
+void SectorTree<Space>::emit_inside(const LoopRange& loop, SectorState state, ShadowReason reason) {
   if (!fragment_stays(space_, view(loop), context_->rules)) return;
   if (++output_.piece_count % kPieceBatch == 0 &&
       context_->pieces.fetch_add(kPieceBatch, std::memory_order_relaxed) + kPieceBatch >
           context_->options.limits.fragments) {
     context_->stopped.store(true, std::memory_order_relaxed);
   }
-  const bool lit = state == kAllLit;
+  const bool lit = state == kAllLit && reason == ShadowReason::kNone;
   if (!lit) ++output_.work[Counter::kShadowPolygons];
   // On an exact kernel the lit fraction gives the shadowed one.
   if (lit || !Space::kExact) emit_area(loop, lit);
@@ -47,6 +62,7 @@ void SectorTree<Space>::emit(const LoopRange& loop, SectorState state) {
   SectorOutput::Piece piece{loop.part, {}};
   piece.fragment.state = lit ? LightState::kLit : LightState::kShadow;
   piece.fragment.caster = state;
+  piece.fragment.reason = reason;
   export_loop(space_, context_->scene.geometry, options, view(loop), piece.fragment, output_.points,
               output_.exact_points);
   output_.pieces.push_back(piece);

@@ -68,6 +68,8 @@ class SectorRun {
   /// Cells are split by planes through edges of the contour of what casts, not at values of axes.
   /// Call it before run().
   void split_by_contour();
+  /// Only in this region of the light's, by which the facing parts were chosen.
+  void shine_in(LightRegion region) { region_ = std::move(region); }
   /// `progress` gets the share of the work that is done, from one thread at a time.
   RunOutcome run(const std::function<void(double)>& progress);
   LightResult finish();
@@ -98,11 +100,12 @@ class SectorRun {
     }
   }
   /// Twice the area of a whole part, good for fractions of it.
-  Ball enclosed_area(const LoopView<Vertex>& loop) const {
+  Ball enclosed_area(const LoopView<Vertex>& loop) const { return enclosed_area_of(space_, loop); }
+  Ball enclosed_area_of(const Space& space, const LoopView<Vertex>& loop) const {
     constexpr double kNarrow = PartMeasure<Space>::kWidest / 16;
-    const Ball area = twice_area(space_, charts_, loop, std::numeric_limits<double>::infinity());
+    const Ball area = twice_area(space, charts_, loop, std::numeric_limits<double>::infinity());
     if (area.radius < kNarrow * area.middle) return area;
-    return twice_area(space_, charts_, loop, 0);
+    return twice_area(space, charts_, loop, 0);
   }
   /// The same in pairs of doubles, of kernels that have their points in them.
   static constexpr bool kHasPairs = requires(const Space& space, const Corner<Vertex>& corner) {
@@ -112,6 +115,7 @@ class SectorRun {
     return twice_pair_area(loop,
                            [&](const auto& corner) { return space_.pair_planar_point(corner); });
   }
+  void put_out_dropped(Tree& planner);
   SectorCell common_cell(Tree& planner, std::span<const SectorItem> items);
 
   LeafMethod leaf_method_;
@@ -124,6 +128,7 @@ class SectorRun {
   unsigned jobs_;
   Space space_;
   FacingParts facing_;
+  LightRegion region_;
   PlaneCharts charts_;
   std::vector<Ball> areas_;
   std::vector<PairBall> pair_areas_;
@@ -250,8 +255,21 @@ RunOutcome SectorRun<Space>::run(const std::function<void(double)>& progress) {
   std::atomic<bool> stopped = false, no_ieee = false;
   LoopStore<Vertex> loops;
   std::vector<SectorItem> items = import(loops);
-  const SectorContext context{scene_,      options_, rules_, facing_, charts_,      light_,  areas_,
-                              pair_areas_, sums_,    pieces, stopped, leaf_method_, contour_};
+  const SectorContext context{scene_,
+                              options_,
+                              rules_,
+                              facing_,
+                              charts_,
+                              light_,
+                              areas_,
+                              pair_areas_,
+                              sums_,
+                              pieces,
+                              stopped,
+                              leaf_method_,
+                              contour_,
+                              region_.is_everywhere() ? nullptr : &region_,
+                              scene_.lights[result_.light].is_eye};
   Tree planner(context, std::move(space_));
   planner.add_sector_planes();
   planner.loops() = std::move(loops);
@@ -317,10 +335,32 @@ RunOutcome SectorRun<Space>::run(const std::function<void(double)>& progress) {
     if (!receives_.empty() && receives_[i] == 0) states_[i] = kUndecided;
     if (leaf_method_ == LeafMethod::kCount) continue;  // count_shares() has them
     if (states_[i] != kMixed && states_[i] != kUndecided) planner.emit_root(i);
+    // Its pieces are put out as what they are in the region.
+    if (region_.place(facing_.parts[i]) != RegionPlace::kInside) states_[i] = kMixed;
   }
+  put_out_dropped(planner);
   outputs_.back() = std::move(planner.output());
   count_rest(outputs_.back());
   return pieces > options_.limits.fragments ? RunOutcome::kTooManyFragments : RunOutcome::kDone;
+}
+
+/// Parts that were left out, since they are outside of the region with all of their shadow.
+template <SectorSpaceModel Space>
+void SectorRun<Space>::put_out_dropped(Tree& planner) {
+  if (region_.is_everywhere()) return;
+  LoopStore<typename SceneSpace::Vertex> whole;
+  for (std::uint32_t part = 0; part < scene_.parts.size(); ++part) {
+    if (!region_.is_dropped(part)) continue;
+    LoopStore<Vertex>& loops = planner.loops();
+    const LoopRange range{loops.size(), scene_.parts[part].count, part};
+    loops.resize(range.first + range.count);
+    const bool reversed = facing_.facing[part].side == Side::kBack;
+    import_loop(planner.space(), part_loop(scene_space_, scene_, part, whole), reversed, loops,
+                range.first);
+    areas_[part] = enclosed_area_of(planner.space(), loops.view(range, scene_.parts[part].plane));
+    planner.emit_outside(range);
+    loops.truncate(range.first);
+  }
 }
 
 template <SectorSpaceModel Space>
@@ -451,9 +491,11 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     Space space(scene_space, scene.lights[lights[i]].point, kernel_options);
     FacingParts facing(scene, space, task.rules);
+    LightRegion region(scene, lights[i], space, scene_space, facing, RegionCull::kDrop);
     SectorRun<Space> run(scene, run_options, task.rules, scene_space, lights[i], std::move(space),
                          std::move(facing), leaf_method, cover);
     if (options.method.options.split == CellSplit::kContour) run.split_by_contour();
+    run.shine_in(std::move(region));
     std::function<void(double)> progress;
     if (options.control.progress) {
       progress = [&](double share) {

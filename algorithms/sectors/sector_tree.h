@@ -33,6 +33,7 @@
 #include "algorithms/partition/cone_clip.h"
 #include "algorithms/partition/fraction_sums.h"
 #include "algorithms/partition/import_export.h"
+#include "algorithms/partition/light_region.h"
 #include "algorithms/partition/loop_store.h"
 #include "algorithms/partition/piece_fractions.h"
 #include "algorithms/partition/rules.h"
@@ -92,6 +93,10 @@ struct SectorContext {
   LeafMethod leaf_method = LeafMethod::kSubtract;
   /// Not empty: which planes of edges, by their numbers, are of the contour. They split cells then.
   std::span<const std::uint8_t> contour;
+  const LightRegion* region = nullptr;  // null: everywhere
+  bool all_cast = false;                // parts that cast no shadow, too: the light is an eye
+
+  bool casts(std::uint32_t part) const { return all_cast || scene.parts[part].casts; }
 };
 
 /// A cell of light space: which of the sector planes are still to come, and the chart after them.
@@ -161,6 +166,9 @@ class SectorTree {
   /// Joins the cells of plan() and returns the states of its items.
   std::span<const SectorState> finish();
   /// Puts out item i of plan() as a whole. Requires: finished, and its state is not kMixed.
+  void emit_outside(const LoopRange& loop) {
+    emit_inside(loop, Fragment::kNoCaster, ShadowReason::kOutsideRegion);
+  }
   void emit_root(std::uint32_t i) {
     emit({items_[i].first, items_[i].count, items_[i].part}, states_[i]);
   }
@@ -273,6 +281,8 @@ class SectorTree {
   void put_counted(const LoopRange& loop, std::uint32_t count);
   void join(Range children);
   void emit(const LoopRange& loop, SectorState state);
+  void emit_inside(const LoopRange& loop, SectorState state,
+                   ShadowReason reason = ShadowReason::kNone);
   PairBall fraction_of(const LoopView<Vertex>& loop) const;
   void emit_area(const LoopRange& loop, bool lit);
 
@@ -294,6 +304,7 @@ class SectorTree {
   // Workspace, kept to save allocations.
   SplitRecord record_;
   ConeClip<Space> clip_;
+  RegionClip<Space> region_clip_;
   ListClipping<Space> lists_;
   std::vector<Vertex> crossings_;
   std::vector<SectorItem> front_items_;

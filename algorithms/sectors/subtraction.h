@@ -86,7 +86,7 @@ std::uint32_t SectorTree<Space>::cull(std::uint32_t begin, std::uint32_t end) {
   for (std::uint32_t i = begin; i < end; ++i) {
     if (!items_[i].fresh) continue;
     items_[i].fresh = 0;
-    if (context_->scene.parts[items_[i].part].casts && covers(items_[i])) order_.push_back(i);
+    if (context_->casts(items_[i].part) && covers(items_[i])) order_.push_back(i);
   }
   if (order_.empty()) return end;
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -117,7 +117,7 @@ void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end, const Light
   }
   order_.clear();
   for (std::uint32_t i = begin; i < end; ++i) {
-    if (context_->scene.parts[items_[i].part].casts) order_.push_back(i);
+    if (context_->casts(items_[i].part)) order_.push_back(i);
   }
   if (context_->leaf_method == LeafMethod::kCount) {
     for (std::uint32_t i = begin; i < end && !stopped(); ++i) count_casters(i, order_, chart);

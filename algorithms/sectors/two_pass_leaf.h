@@ -25,8 +25,10 @@ void SectorTree<Space>::clip_lists(std::uint32_t begin, std::uint32_t end) {
     pieces_.push_back({{item.first, item.count, item.part}, i, item, nearest});
   }
   lists_.run(
-      {space_, context_->scene, context_->facing, loops_, context_->rules, output_.work}, pieces_,
-      [&](PlaneRef edge) { return is_cell_plane(edge); }, [&] { return stopped(); }, clipped_);
+      {space_, context_->scene, context_->facing, loops_, context_->rules, output_.work,
+       context_->all_cast},
+      pieces_, [&](PlaneRef edge) { return is_cell_plane(edge); }, [&] { return stopped(); },
+      clipped_);
   output_.vanished += lists_.take_vanished();
   static_assert(ClippedPiece::kLit == kAllLit);
   // What has one class and caster all over is decided as a whole; the cells above may join it.

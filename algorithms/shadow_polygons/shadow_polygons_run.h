@@ -82,7 +82,9 @@ class ShadowPolygonsRun {
   void light_run(std::uint32_t part, Span run, std::uint32_t row, std::size_t l,
                  const PixelSink::Row& out) {
     counters_[l].count(part, run, counts_, work_);
-    for (std::uint32_t i = run.begin; i < run.end; ++i) {
+    const Span inside = part_in_region(scene_.space(), run, task_.scene.lights[task_.lights[l]],
+                                       scene_.facing_eye(part), row);
+    for (std::uint32_t i = inside.begin; i < inside.end; ++i) {
       if (counts_[i] <= 0) out.lit_by[i] |= std::uint64_t{1} << l;
     }
     const std::span<std::int32_t> casters = task_.sink.casters(row, l);

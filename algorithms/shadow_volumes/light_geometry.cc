@@ -73,7 +73,7 @@ class Builder {
       geometry.positions.push_back(nearest);
     }
     geometry.grid = GridPositions::from(std::move(all));
-    geometry.light_vertices = static_cast<std::uint32_t>(added_.size());
+    geometry.light_vertices += static_cast<std::uint32_t>(added_.size());
   }
 
   void complete(LightFace& face) {

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -24,6 +25,7 @@
 #include "algorithms/shadow_volumes/light_geometry.h"
 #include "algorithms/shadow_volumes/receiver_cutter.h"
 #include "algorithms/shadow_volumes/shadow_volume.h"
+#include "algorithms/shadow_volumes/solid_casters.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "kernel/concept/kernel_concept.h"
 
@@ -67,11 +69,15 @@ class LightInSpace {
   using Loop = LoopView<Vertex>;
   using Workspace = ReceiverWorkspace<Space>;
 
-  /// Adds the planes of all volumes to `space`, which must be forked afterwards. `tree` and `scene`
-  /// must outlive it.
+  /// Adds the planes of all volumes to `space`, which must be forked afterwards. `tree`, `scene`
+  /// and `solids`, which may be null, must outlive it.
   LightInSpace(Space& space, const LightGeometry& scene, const CasterTree& tree,
-               std::uint32_t light, const Rules& rules)
-      : scene_(*scene.scene), light_(&scene.scene->lights[light]), tree_(&tree), rules_(rules) {
+               std::uint32_t light, const Rules& rules, const SolidCasters* solids = nullptr)
+      : scene_(*scene.scene),
+        light_(&scene.scene->lights[light]),
+        tree_(&tree),
+        rules_(rules),
+        solids_(solids) {
     const LightFace& face = scene.faces[light];
     for (std::size_t i = 0; i < face.loop.size(); ++i) {
       PlaneRef edge;
@@ -100,8 +106,21 @@ class LightInSpace {
   }
 
   bool has_area() const { return light_->has_area(); }
+  /// The solid that a witness stands for; kNone: it is a part.
+  std::uint32_t solid_of(std::uint32_t caster) const {
+    const auto parts = static_cast<std::uint32_t>(scene_.parts.size());
+    return caster == Fragment::kNoCaster || caster < parts ? SolidCasters::kNone : caster - parts;
+  }
+  /// Faces of a solid that together shadow all of a piece of the receiver that was prepared, none
+  /// of whose polygons is needless. Requires: the solid shadows all of the piece.
+  std::vector<std::uint32_t> faces_hiding(Workspace& workspace, const Loop& piece,
+                                          std::uint32_t solid) const;
+  /// Volumes and their planes.
+  void count(WorkCounts& counts) const;
   LightState in_shadow() const { return has_area() ? LightState::kUmbra : LightState::kShadow; }
   PlaneRef plane() const { return plane_; }
+  /// Of the region that it shines in, inside in front; none: everywhere.
+  std::span<const PlaneRef> region() const { return light_->region; }
   const VolumeStore& volumes() const { return store_; }
   /// The volumes of a part's sides, by index: two for a two-sided part whose plane cuts the light.
   std::pair<std::uint32_t, std::uint32_t> volumes_of(std::uint32_t part) const {
@@ -130,6 +149,19 @@ class LightInSpace {
   static constexpr double kNearestToLight = 1e-12;
 
   void make_volumes(Space& space);
+  void make_solid_volumes(Space& space, VolumeBuilder<Space>& builder);
+  /// The solid that casts in place of a part; kNone: the part casts.
+  std::uint32_t caster_of(std::uint32_t part) const {
+    if (solid_volumes_.empty() || solids_->of_part[part] == SolidCasters::kNone) {
+      return SolidCasters::kNone;
+    }
+    const std::uint32_t solid = solids_->of_part[part];
+    return solid_volumes_[solid] == SolidCasters::kNone ? SolidCasters::kNone : solid;
+  }
+  void add_solid(Workspace& workspace, std::uint32_t solid, std::uint32_t receiver) const;
+  template <class Emit, class Inside>
+  bool clip_to_region(Workspace& workspace, const Loop& piece, const Emit& emit,
+                      const Inside& inside) const;
   /// The box of a corner's position is as wide as what is known of it.
   UmbraReach umbra_reach(const Space& space, const Loop& light, const Box& receiver) const {
     if (!has_area()) return {};
@@ -181,6 +213,8 @@ class LightInSpace {
   PlaneRef plane_;  // of an area light; it emits to its front
   VolumeStore store_;
   std::vector<std::uint32_t> first_volume_;
+  const SolidCasters* solids_ = nullptr;
+  std::vector<std::uint32_t> solid_volumes_;  // by solid; kNone: its parts cast
 };
 
 /// The volumes of both sides of a part, for one shape of the light.
@@ -203,10 +237,105 @@ void LightInSpace<Space>::make_volumes(Space& space) {
   for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
     first_volume_.push_back(static_cast<std::uint32_t>(store_.size()));
     // A polygon in the light's plane casts nothing.
-    if (!scene_.parts[i].casts || scene_.parts[i].plane == plane_id_) continue;
+    if (!casts_under(*light_, scene_.parts[i]) || scene_.parts[i].plane == plane_id_) continue;
     add_part_volumes(builder, space, scene_, i, shape(), loops, store_);
   }
   first_volume_.push_back(static_cast<std::uint32_t>(store_.size()));
+  if (solids_ != nullptr && !has_area()) make_solid_volumes(space, builder);
+}
+
+/// One volume a solid, besides those of its faces, by which its witnesses are told. Of a light
+/// inside of a solid no face has the light in front.
+template <VolumeSpaceModel Space>
+void LightInSpace<Space>::make_solid_volumes(Space& space, VolumeBuilder<Space>& builder) {
+  const auto parts = static_cast<std::uint32_t>(scene_.parts.size());
+  solid_volumes_.assign(solids_->solids.size(), SolidCasters::kNone);
+  for (std::uint32_t solid = 0; solid < solids_->solids.size(); ++solid) {
+    LoopStore<Vertex> loops, one;
+    std::vector<LoopRange> ranges;
+    for (const std::uint32_t part : solids_->solids[solid]) {
+      if (!builder.is_in_front(plane_of_side(scene_.parts[part], Side::kFront), shape())) continue;
+      ranges.push_back(loops.append(part_loop(space, scene_, part, one)));
+    }
+    if (ranges.empty()) continue;
+    std::vector<typename VolumeBuilder<Space>::Face> faces;
+    for (const LoopRange& range : ranges) {
+      const Part& part = scene_.parts[range.part];
+      faces.push_back({loops.view(range, part.plane), plane_of_side(part, Side::kFront)});
+    }
+    solid_volumes_[solid] = static_cast<std::uint32_t>(store_.size());
+    builder.add_solid(faces, parts + solid, shape(), store_);
+  }
+}
+
+/// A face in the receiver's plane that the light is in front of has all of the solid behind that
+/// plane.
+template <VolumeSpaceModel Space>
+void LightInSpace<Space>::add_solid(Workspace& workspace, std::uint32_t solid,
+                                    std::uint32_t receiver) const {
+  const std::uint32_t volume = solid_volumes_[solid];
+  const auto is_there = [&](const VolumeToCut& other) { return other.volume == volume; };
+  if (std::ranges::any_of(workspace.volumes, is_there)) return;
+  for (const std::uint32_t part : solids_->solids[solid]) {
+    if (scene_.parts[part].plane == scene_.parts[receiver].plane &&
+        workspace.builder.is_in_front(plane_of_side(scene_.parts[part], Side::kFront), shape())) {
+      return;
+    }
+  }
+  workspace.volumes.push_back({volume, true});
+}
+
+template <VolumeSpaceModel Space>
+std::vector<std::uint32_t> LightInSpace<Space>::faces_hiding(Workspace& workspace,
+                                                             const Loop& piece,
+                                                             std::uint32_t solid) const {
+  std::vector<std::uint32_t> faces;
+  for (const std::uint32_t part : solids_->solids[solid]) {
+    if (workspace.builder.is_in_front(plane_of_side(scene_.parts[part], Side::kFront), shape())) {
+      faces.push_back(part);
+    }
+  }
+  const auto hide = [&](const std::vector<std::uint32_t>& parts) {
+    std::vector<VolumeToCut> volumes;
+    for (const std::uint32_t part : parts) {
+      for (std::uint32_t i = first_volume_[part]; i < first_volume_[part + 1]; ++i) {
+        volumes.push_back({i, true});
+      }
+    }
+    return workspace.cutter.cut(
+        piece, store_, volumes, in_shadow(),
+        [](const PieceClass& own, const Loop&) { return own.state != LightState::kLit; });
+  };
+  for (std::size_t i = 0; i < faces.size();) {
+    const std::uint32_t polygon = scene_.parts[faces[i]].polygon;
+    std::vector<std::uint32_t> others;
+    std::ranges::copy_if(faces, std::back_inserter(others),
+                         [&](std::uint32_t part) { return scene_.parts[part].polygon != polygon; });
+    if (!others.empty() && hide(others)) {
+      faces = std::move(others);
+      i = 0;
+    } else {
+      ++i;
+    }
+  }
+  return faces;
+}
+
+template <VolumeSpaceModel Space>
+void LightInSpace<Space>::count(WorkCounts& counts) const {
+  const auto add = [&](const ShadowVolume& volume) {
+    ++counts[Counter::kVolumes];
+    counts[Counter::kVolumePlanes] += volume.penumbra_count + volume.umbra_count;
+  };
+  for (std::uint32_t part = 0; part < scene_.parts.size(); ++part) {
+    if (caster_of(part) != SolidCasters::kNone) continue;
+    for (std::uint32_t i = first_volume_[part]; i < first_volume_[part + 1]; ++i) add(store_[i]);
+  }
+  for (const std::uint32_t volume : solid_volumes_) {
+    if (volume == SolidCasters::kNone) continue;
+    ++counts[Counter::kSolids];
+    add(store_[volume]);
+  }
 }
 
 template <VolumeSpaceModel Space>
@@ -290,6 +419,9 @@ void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Sid
   const auto add = [&](std::uint32_t part, bool may_cover) {
     const bool umbra = reach.may_reach(tree_->box(part));
     if (covered && !umbra) return;
+    if (const std::uint32_t solid = caster_of(part); solid != SolidCasters::kNone) {
+      return add_solid(workspace, solid, index);
+    }
     auto [begin, end] = volumes_of(part);
     if (cut) {
       // What hides nothing of the whole light hides nothing of a part of it.
@@ -345,7 +477,10 @@ void LightInSpace<Space>::drop_behind(Workspace& workspace, std::uint32_t receiv
                                       std::vector<std::uint32_t>& casters) const {
   std::erase_if(casters, [&](std::uint32_t other) {
     const Part& part = scene_.parts[other];
-    if (other == receiver || part.plane == scene_.parts[receiver].plane || !part.casts) return true;
+    if (other == receiver || part.plane == scene_.parts[receiver].plane ||
+        !casts_under(*light_, part)) {
+      return true;
+    }
     const Loop loop = part_loop(workspace.space, scene_, other, workspace.caster);
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
       if (workspace.space.side_of_plane(receiving, loop.corner(i)) == Side::kFront) return false;
@@ -354,12 +489,42 @@ void LightInSpace<Space>::drop_behind(Workspace& workspace, std::uint32_t receiv
   });
 }
 
+/// Emits what is outside of the region; inside(loop) gets the rest, if there is one.
+template <VolumeSpaceModel Space>
+template <class Emit, class Inside>
+bool LightInSpace<Space>::clip_to_region(Workspace& workspace, const Loop& piece, const Emit& emit,
+                                         const Inside& inside) const {
+  constexpr PieceClass kOutside{LightState::kShadow, Fragment::kNoCaster,
+                                ShadowReason::kOutsideRegion};
+  Loop rest = piece;
+  workspace.front.clear();
+  for (const PlaneRef plane : light_->region) {
+    const Placement placement = workspace.record.decide(workspace.space, plane, rest);
+    if (placement == Placement::kBack) return emit(kOutside, rest);
+    if (placement != Placement::kSpanning) continue;
+    LoopStore<Vertex> parent;  // the store may move what lies in it
+    const LoopRange range = parent.append(rest);
+    const SplitChildren children =
+        make_children(workspace.space, plane, parent.view(range, piece.support), workspace.record,
+                      workspace.crossings, workspace.front);
+    if (children.back.count >= 3 &&
+        !emit(kOutside, workspace.front.view(children.back, piece.support))) {
+      return false;
+    }
+    if (children.front.count < 3) return true;
+    rest = workspace.front.view(children.front, piece.support);
+  }
+  return inside(rest);
+}
+
 template <VolumeSpaceModel Space>
 template <class Emit>
 bool LightInSpace<Space>::cut(Workspace& workspace, const Loop& piece, const Emit& emit) const {
   const VolumeStore& store = workspace.own.size() > 0 ? workspace.own : store_;
   if (!has_area()) {
-    return workspace.cutter.cut(piece, store, workspace.volumes, in_shadow(), emit);
+    return clip_to_region(workspace, piece, emit, [&](const Loop& inside) {
+      return workspace.cutter.cut(inside, store, workspace.volumes, in_shadow(), emit);
+    });
   }
   constexpr PieceClass kBehind{LightState::kUmbra, Fragment::kNoCaster, ShadowReason::kBehindLight};
   switch (workspace.record.decide(workspace.space, plane_, piece)) {

@@ -23,6 +23,7 @@
 #ifndef GNOMON_ALGORITHMS_SHADOW_VOLUMES_SHADOW_VOLUME_H
 #define GNOMON_ALGORITHMS_SHADOW_VOLUMES_SHADOW_VOLUME_H
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -104,6 +105,36 @@ class VolumeBuilder {
       if (!make_point(caster, side, reversed, light)) return;
       store.add(caster.part, {}, umbra_);
     }
+  }
+
+  /// A face of a solid that the light is in front of, with its front.
+  struct Face {
+    Loop loop;
+    PlaneRef side;
+  };
+  /// Adds the volume of a convex solid under a point or directional light: `faces`, all that the
+  /// light is in front of. Their edges have names (PlaneRef::index() of scene space). `caster`: as
+  /// ShadowVolume has it.
+  void add_solid(std::span<const Face> faces, std::uint32_t caster, const LightShape<Vertex>& light,
+                 VolumeStore& store) {
+    umbra_.clear();
+    for (const Face& face : faces) umbra_.push_back(-face.side);
+    for (const Face& face : faces) {
+      for (std::uint32_t i = 0; i < face.loop.size(); ++i) {
+        const auto shares = [&](const Face& other) {
+          return &other != &face && std::ranges::any_of(other.loop.edges, [&](PlaneRef edge) {
+            return edge.same_plane(face.loop.edges[i]);
+          });
+        };
+        if (std::ranges::any_of(faces, shares)) continue;  // no contour
+        const CornerOf a = to(face.loop, false, i), b = from(face.loop, false, i);
+        const PlaneRef plane = light.direction != nullptr
+                                   ? space_->add_plane(a, b, *light.direction)
+                                   : space_->add_plane(a, b, light.loop.corner(0));
+        if (plane.valid()) umbra_.push_back(plane);
+      }
+    }
+    store.add(caster, {}, umbra_);
   }
 
   /// On which side of a support plane is the light: in front, all of it or some (area lights).

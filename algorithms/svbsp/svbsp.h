@@ -24,6 +24,7 @@
 #include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/svbsp/in_out_tree.h"
+#include "gnomon/algorithms/method_options.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "kernel/concept/kernel_concept.h"
 
@@ -35,12 +36,20 @@ struct FilterActions {
   bool insert = true;    // add the shadow volumes of lit fragments to the tree
 };
 
+/// What a tree is made of, where no class depends on it.
+struct TreeChoice {
+  bool merge_siblings = true;
+  EdgesInTree edges = EdgesInTree::kOwn;
+  /// Edges below this are the scene's; others were made by splits of the scene BSP.
+  std::uint32_t scene_edges = 0xffffffffu;
+};
+
 template <LightSpaceModel Space>
 class SvbspTree {
  public:
   using Vertex = typename Space::Vertex;
 
-  SvbspTree(Space& space, bool merge_siblings, const Rules& rules = {});
+  SvbspTree(Space& space, const TreeChoice& choice, const Rules& rules = {});
 
   /// Puts the balanced prefix at the top. Requires: nothing inserted yet.
   void plant(const PrefixTree& prefix) { plant_prefix(*space_, prefix, nodes_); }
@@ -50,7 +59,11 @@ class SvbspTree {
 
   std::uint64_t node_count() const { return nodes_.size() - 1; }
   /// Nodes on the longest way from the root to a cell. O(nodes).
-  std::uint64_t depth() const { return depth_of(std::span<const Node>(nodes_)); }
+  std::uint64_t depth() const { return most_of(depths_of(std::span<const Node>(nodes_))); }
+  /// Nodes one below another, each the only child of the one before it. O(nodes).
+  std::uint64_t longest_chain() const { return longest_chain_of(std::span<const Node>(nodes_)); }
+  /// Nodes above the cells that loops came to, on average; in millionths. O(nodes).
+  std::uint64_t mean_filter_depth() const;
   /// Children with fewer than three vertices that were dropped (rounded kernels).
   std::uint64_t vanished() const { return filter_.vanished(); }
 
@@ -67,8 +80,10 @@ class SvbspTree {
   void insert(TreePlace at, const LoopView<Vertex>& fragment, const LoopView<Vertex>& original);
 
   Space* space_;
+  TreeChoice choice_;
   Rules rules_;
-  std::vector<Node> nodes_;  // 0 is a sentinel whose front child is the root
+  std::vector<std::uint64_t> visits_;  // by node: loops that came to a cell below it
+  std::vector<Node> nodes_;            // 0 is a sentinel whose front child is the root
   PlaneTreeFilter<Space> filter_;
 };
 

@@ -11,8 +11,20 @@
 namespace gnomon {
 
 template <LightSpaceModel Space>
-SvbspTree<Space>::SvbspTree(Space& space, bool merge_siblings, const Rules& rules)
-    : space_(&space), rules_(rules), nodes_(1), filter_(merge_siblings) {}
+SvbspTree<Space>::SvbspTree(Space& space, const TreeChoice& choice, const Rules& rules)
+    : space_(&space), choice_(choice), rules_(rules), nodes_(1), filter_(choice.merge_siblings) {}
+
+template <LightSpaceModel Space>
+std::uint64_t SvbspTree<Space>::mean_filter_depth() const {
+  constexpr std::uint64_t kMillion = 1'000'000;
+  const std::vector<std::uint32_t> depths = depths_of(std::span<const Node>(nodes_));
+  std::uint64_t visits = 0, sum = 0;
+  for (std::size_t i = 0; i < visits_.size(); ++i) {
+    visits += visits_[i];
+    sum += visits_[i] * depths[i];
+  }
+  return visits == 0 ? 0 : sum * kMillion / visits;
+}
 
 template <LightSpaceModel Space>
 struct SvbspTree<Space>::Cells {
@@ -33,6 +45,8 @@ struct SvbspTree<Space>::Cells {
   }
   void at_cell(TreePlace at, const LoopView<Vertex>& fragment) const {
     const std::int32_t cell = tree.child(at);
+    if (tree.visits_.size() <= at.node) tree.visits_.resize(tree.nodes_.size(), 0);
+    ++tree.visits_[at.node];
     if (actions.classify) {
       if (cell == kOutCell) {
         output.add_lit(fragment);
@@ -55,8 +69,9 @@ void SvbspTree<Space>::insert(TreePlace at, const LoopView<Vertex>& fragment,
                               const LoopView<Vertex>& original) {
   for (std::uint32_t i = 0; i < fragment.size(); ++i) {
     const PlaneRef edge = fragment.edges[i];
+    if (!rules_.edges_of_splits_bound_volumes && edge.index() >= choice_.scene_edges) continue;
     // An edge that the original loop does not have was cut by an ancestor.
-    if (space_->knows_identity() &&
+    if (choice_.edges == EdgesInTree::kOwn && space_->knows_identity() &&
         std::find(original.edges.begin(), original.edges.end(), edge) == original.edges.end()) {
       continue;
     }

@@ -17,6 +17,7 @@
 #include "algorithms/lights/pipeline.h"
 #include "algorithms/svbsp/balanced_prefix.h"
 #include "algorithms/svbsp/by_svbsp.h"
+#include "algorithms/svbsp/convex_merge.h"
 #include "algorithms/svbsp/svbsp.h"
 #include "algorithms/svbsp/svbsp.inl.h"
 #include "kernel/concept/kernel_model.h"
@@ -30,8 +31,13 @@ class SvbspRun {
   using SceneVertex = typename Space::SceneSpace::Vertex;
   using Vertex = typename Space::Vertex;
 
-  explicit SvbspRun(LightScene<Space>& light)
-      : light_(light), tree_(light.space, light.options.output.merge, light.rules) {}
+  SvbspRun(LightScene<Space>& light, const MethodOptionValues& options)
+      : light_(light),
+        merge_(options.merge),
+        tree_(light.space,
+              {light.options.output.merge, options.edges,
+               static_cast<std::uint32_t>(light.scene.geometry.edges.size())},
+              light.rules) {}
 
   /// A space whose scene space has planes of fragments (build_scene_bsp) also says on which side of
   /// one the light is.
@@ -68,6 +74,15 @@ class SvbspRun {
     result.dropped_slivers = vanished_;
     counts_[Counter::kNodes] = tree_.node_count();
     counts_[Counter::kDepth] = tree_.depth();
+    counts_[Counter::kLongestChain] = tree_.longest_chain();
+    counts_[Counter::kMeanFilterDepth] = tree_.mean_filter_depth();
+    if constexpr (SectorSpaceModel<Space>) {
+      if (merge_ == MergeOf::kConvex && light_.options.output.merge) {
+        ConvexMerge<Space> merge(light_);
+        counts_[Counter::kMerged] = merge.run(output_);
+        result.caster_sets = merge.take_caster_sets();
+      }
+    }
     counts_[Counter::kShadowPolygons] = static_cast<std::uint64_t>(
         std::ranges::count(output_.fragments, LightState::kShadow, &ClassifiedLoop::state));
     result.work = counts_;
@@ -89,15 +104,24 @@ class SvbspRun {
     }
     const bool alone = pieces_.size() == 1 || !light_.rules.coplanar_classified_first;
     for (const LoopRange& piece : pieces_) {
-      filter(bsp, piece, {.classify = true, .insert = alone && light_.part(piece.part).casts});
+      const bool whole = light_.region.place(piece.part) == RegionPlace::kInside;
+      filter(bsp, piece, {.classify = true, .insert = alone && whole && light_.casts(piece.part)});
+      if (alone && !whole) insert(bsp, piece);
     }
     if (alone) return;
     for (const LoopRange& piece : pieces_) {
-      if (light_.part(piece.part).casts) filter(bsp, piece, {.classify = false, .insert = true});
+      insert(bsp, piece);
     }
   }
+  void insert(const SceneBsp<SceneVertex>& bsp, const LoopRange& piece) {
+    if (light_.casts(piece.part)) filter(bsp, piece, {.classify = false, .insert = true});
+  }
   void filter(const SceneBsp<SceneVertex>& bsp, const LoopRange& piece, FilterActions actions) {
-    tree_.filter(import(bsp, piece), actions, output_);
+    const LoopView<Vertex> loop = import(bsp, piece);
+    if (!actions.classify) return tree_.filter(loop, actions, output_);
+    light_.clip_to_region(loop, output_, [&](const LoopView<Vertex>& inside) {
+      tree_.filter(inside, actions, output_);
+    });
   }
 
   /// A fragment of a part that faces the light, by its own plane; one that does not is dark.
@@ -119,6 +143,7 @@ class SvbspRun {
   }
 
   LightScene<Space>& light_;
+  MergeOf merge_;
   SvbspTree<Space> tree_;
   ClassifiedLoops<Vertex> output_;
   WorkCounts counts_;
@@ -138,7 +163,7 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
   const auto bsp = order_scene(task, scene_space, lights, result);
   if (!bsp) return tl::unexpected<Error>(bsp.error());
   std::deque<SvbspRun<Space>> runs;
-  for (LightScene<Space>& light : lights) runs.emplace_back(light);
+  for (LightScene<Space>& light : lights) runs.emplace_back(light, options.method.options);
   std::optional<Pipeline<Space>> pipeline;
   if (!task.combined.empty()) {
     if (const auto few = check_light_count(runs.size()); !few) {
@@ -154,7 +179,9 @@ Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
         [&](std::uint32_t piece, Side side) {
           if (!pipeline) return;
           pipeline->filter(piece, side, i, [&](const auto& loop, auto& output) {
-            run.tree().filter(loop, {.classify = true, .insert = false}, output);
+            lights[i].clip_to_region(loop, output, [&](const auto& inside) {
+              run.tree().filter(inside, {.classify = true, .insert = false}, output);
+            });
           });
         });
     if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);

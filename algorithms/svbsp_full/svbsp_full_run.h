@@ -41,7 +41,7 @@ class SvbspFullRun {
     for (const std::uint32_t part : order) {
       if (const RunOutcome outcome = check(done); outcome != RunOutcome::kDone) return outcome;
       progress(done++);
-      if (!light_.part(part).casts) continue;
+      if (!light_.casts(part)) continue;
       ++counts_[Counter::kVolumes];
       tree_.insert(view(part));
       light_.space.release_planes(mark);  // cuts by support planes are no nodes
@@ -49,7 +49,9 @@ class SvbspFullRun {
     for (const std::uint32_t part : light_.facing.parts) {
       if (const RunOutcome outcome = check(done); outcome != RunOutcome::kDone) return outcome;
       progress(done++);
-      tree_.classify(view(part), output_);
+      light_.clip_to_region(view(part), output_, [&](const LoopView<Vertex>& inside) {
+        tree_.classify(inside, output_);
+      });
     }
     return check(0);
   }

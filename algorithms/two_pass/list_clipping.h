@@ -60,6 +60,11 @@ class ListClipping {
     LoopStore<Vertex>& loops;  // of the pieces; new ones are appended
     const Rules& rules;
     WorkCounts& counts;
+    bool all_cast = false;  // parts that cast no shadow, too
+
+    bool casts(const ListPiece& piece) const {
+      return all_cast || scene.parts[piece.loop.part].casts;
+    }
   };
 
   /// Appends what becomes of `list` to `output`. `bounds_all(edge)`: whether all pieces are inside
@@ -129,7 +134,7 @@ class ListClipping {
   std::uint32_t nearest_caster(const Setting& setting, std::uint32_t begin) const {
     std::uint32_t best = kNone;
     for (auto i = begin; i < pool_.size(); ++i) {
-      if (!setting.scene.parts[pool_[i].loop.part].casts) continue;
+      if (!setting.casts(pool_[i])) continue;
       if (best == kNone || pool_[i].nearest > pool_[best].nearest) best = i;
     }
     return best;
@@ -241,7 +246,7 @@ class ListClipping {
                  std::vector<ClippedPiece>& output) {
     std::uint32_t clip = kNone;
     for (std::uint32_t i = 0; i < near_.size(); ++i) {
-      if (!setting.scene.parts[near_[i].loop.part].casts) continue;
+      if (!setting.casts(near_[i])) continue;
       if (clip == kNone || near_[i].nearest > near_[clip].nearest) clip = i;
     }
     const auto size = static_cast<std::uint32_t>(near_.size() + coplanar_.size() + 1);

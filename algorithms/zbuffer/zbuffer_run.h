@@ -51,6 +51,9 @@ class ZbufferRun {
  private:
   void light_span(std::uint32_t part, Span run, std::uint32_t row, std::size_t l,
                   std::span<std::uint64_t> lit_by) {
+    run = part_in_region(scene_.space(), run, task_.scene.lights[task_.lights[l]],
+                         scene_.facing_eye(part), row);
+    if (run.empty()) return;
     std::fill(lit_.begin() + run.begin, lit_.begin() + run.end, std::uint8_t{1});
     std::uint32_t left = run.size();
     for (const std::uint32_t caster : casters_.of(part, l)) {

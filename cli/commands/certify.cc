@@ -52,6 +52,11 @@ constexpr std::uint32_t kFlips = 30;
 /// Every kernel under the policies of the default set, however slow; all of them count.
 constexpr std::string_view kAllKernels = "all";
 
+bool is_of_image_space(const std::string& algorithm) {
+  const std::string name = algorithm.substr(0, algorithm.find(':'));
+  return method_by_name(name, Domain::kImageSpace).has_value();
+}
+
 struct CertifyCommandOptions {
   SceneOptions scene;
   std::vector<std::string> kernels;
@@ -76,7 +81,13 @@ struct CertifyCommandOptions {
   CameraOptions camera;  // for pictures
   std::vector<std::string> pixel_files;
 
-  bool judges_pictures() const { return camera.given() || !pixel_files.empty(); }
+  bool raster = false;  // options of a picture's samples were given
+
+  /// --eye alone asks what is seen of each polygon; with a raster, or by a method of image space,
+  /// it asks for samples.
+  bool judges_pictures() const {
+    return !pixel_files.empty() || (camera.given() && (raster || is_of_image_space(algorithm)));
+  }
 };
 
 Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& options,
@@ -461,8 +472,12 @@ int run_certify(const CertifyCommandOptions& options) {
   auto algorithms = chosen_algorithms(options);
   if (!algorithms) return report_error(algorithms.error());
   const ThreadLimit threads(options.scene.jobs);
-  auto loaded = load_scene(options.scene, true);
+  SceneOptions scene = options.scene;
+  scene.eye = options.camera.eye;
+  auto loaded = load_scene(scene, true);
   if (!loaded) return report_error(loaded.error());
+  // Lights are judged beside the eye only where fragments tell of all of them together.
+  if (options.camera.given() && !options.combined) choose_eye(*loaded);
   warn_of_intent(*loaded);
   drop_repeats(*algorithms, *loaded);
   const auto kernels = chosen_kernels(options, loaded->prepared.parts.size());
@@ -586,6 +601,7 @@ void add_certify_command(CLI::App& app, Action& action) {
       "    --sun-model energyplus --average-days 20\n"
       "  gnomon certify room.json --samples rays.csv --tolerance 0.02\n"
       "  gnomon certify room.json --pixels other.pixels.json\n"
+      "  gnomon certify room.json --eye 9,-7,6\n"
       "  gnomon certify room.json --eye 9,-7,6 --algorithm zbuffer\n"
       "  gnomon certify --corpus tests/regressions --candidate-command ./my-shadows");
   CLI::Option* scene = add_scene_options(command, options->scene);
@@ -656,12 +672,14 @@ void add_certify_command(CLI::App& app, Action& action) {
   repeatable(command.add_option("--pixels", options->pixel_files,
                                 "A file gnomon-pixels to judge, sample by sample (repeatable)"))
       ->type_name("FILE");
-  add_camera_options(command, options->camera, "--columns", "--rows");
+  const std::vector<CLI::Option*> raster =
+      add_camera_options(command, options->camera, "--columns", "--rows");
   command.add_flag("--times", options->times, "CPU times in the JSON, which then is not stable");
   options->sample_rules.add(command, options->samples, options->misses);
   options->table_rules.add(command, options->suns);
   const CorpusOptionRules rules = add_corpus_options(command, *options, scene);
-  command.callback([options, rules, &action] {
+  command.callback([options, rules, raster, &action] {
+    options->raster = std::ranges::any_of(raster, [](auto* option) { return option->count() > 0; });
     action = [options, rules]() -> int {
       const auto checked = rules.check(!options->corpus.corpus.empty());
       return checked ? run_certify(*options) : report_error(checked.error());

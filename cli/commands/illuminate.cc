@@ -126,6 +126,10 @@ Expected<void> ask_for_illumination(const IlluminateOptions& options, const Load
   }
   for (const std::uint32_t light : loaded.lights) {
     const Light& one = light_of(loaded, light);
+    if (!one.region.empty()) {
+      return fail(ErrorCode::kUsage, "--illuminate: light " + one.id + " shines in a region alone",
+                  "lights without a region; --light chooses some");
+    }
     if (!std::isfinite(one.intensity.nearest())) {
       return fail(ErrorCode::kUsage,
                   "--illuminate: the intensity of light " + one.id + " is beyond all doubles",

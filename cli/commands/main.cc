@@ -70,6 +70,7 @@ int run(int argc, char** argv) {
   add_verify_command(app, action);
   add_render_command(app, action);
   add_pixels_command(app, action);
+  add_visible_command(app, action);
   add_info_command(app, action);
   add_compare_command(app, action);
   add_tradeoff_command(app, action);

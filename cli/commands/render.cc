@@ -10,11 +10,13 @@
 #include "cli/commands/illuminate.h"
 #include "cli/common/algorithm_choice.h"
 #include "cli/common/commands.h"
+#include "cli/common/interrupt.h"
 #include "cli/common/jobs.h"
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
 #include "cli/common/scene_options.h"
 #include "gnomon/algorithms/painters_order.h"
+#include "gnomon/algorithms/shadows.h"
 #include "gnomon/result/read_claims.h"
 #include "report/pictures/picture.h"
 #include "report/pictures/shaded_picture.h"
@@ -32,7 +34,7 @@ struct RenderOptions {
   std::string eye, look_at, up;
   double field_of_view = 0;
   unsigned width = 960, height = 720;
-  bool fragments = false, backs = false, no_legend = false;
+  bool fragments = false, backs = false, no_legend = false, visible = false;
   IlluminateOptions illuminate;
   std::string output;
 };
@@ -142,12 +144,63 @@ Expected<void> render_illuminated(const RenderOptions& options, const LoadedScen
   return output->finish();
 }
 
+/// What --visible needs, and what it does not go with.
+Expected<void> check_visible(const RenderOptions& options) {
+  if (!options.visible) return {};
+  if (options.eye.empty()) {
+    return fail(ErrorCode::kUsage, "--visible without an eye that sees", "--eye x,y,z");
+  }
+  for (const auto& [option, given] : {std::pair("--backs", options.backs),
+                                      std::pair("--illuminate", options.illuminate.illuminate)}) {
+    if (given) return fail(ErrorCode::kUsage, std::string(option) + " is not of --visible");
+  }
+  return {};
+}
+
+/// What the eye sees, in no order: nothing of it hides anything else. The eye is the last light,
+/// and is none any more.
+Expected<std::vector<OrderedPiece>> visible_pieces(LoadedScene& loaded,
+                                                   const AlgorithmChoice& algorithm) {
+  ShadowOptions options;
+  algorithm.apply(options.method);
+  options.lights = {loaded.lights.back()};
+  options.output.points = true;
+  options.control.interrupted = &interrupted();
+  const auto result = compute_shadows(loaded.prepared, options);
+  if (!result) return tl::unexpected(result.error());
+  loaded.lights.pop_back();
+  const LightResult& eye = result->lights.front();
+  std::vector<OrderedPiece> pieces;
+  for (const PartResult& part : eye.parts) {
+    for (std::uint32_t f = 0; f < part.fragment_count; ++f) {
+      const Fragment& fragment = eye.fragments[part.first_fragment + f];
+      if (fragment.state != LightState::kLit) continue;
+      const auto first = eye.points.begin() + fragment.first;
+      pieces.push_back({part.part, {first, first + fragment.count}});
+    }
+  }
+  return pieces;
+}
+
 Expected<void> render(const RenderOptions& options) {
   auto algorithms = chosen_algorithms(options);
   if (!algorithms) return tl::unexpected(algorithms.error());
+  if (auto checked = check_visible(options); !checked) return checked;
   const ThreadLimit threads(options.scene.jobs);
-  auto loaded = load_scene(options.scene, true);
+  SceneOptions scene = options.scene;
+  if (options.visible) scene.eye = options.eye;
+  auto loaded = load_scene(scene, true);
   if (!loaded) return tl::unexpected(loaded.error());
+  std::vector<OrderedPiece> visible;
+  if (options.visible) {
+    auto pieces = visible_pieces(*loaded, algorithms->front());
+    if (!pieces) return tl::unexpected(pieces.error());
+    visible = *std::move(pieces);
+    if (loaded->lights.empty()) {
+      return fail(ErrorCode::kUsage, loaded->scene.file + ": there is no light to show",
+                  "one in the scene, or --point=x,y,z, --sun=x,y,z or --area=x,y,z:x,y,z:...");
+    }
+  }
   drop_repeats(*algorithms, *loaded);
   const auto camera = camera_of(options, loaded->prepared);
   if (!camera) return tl::unexpected(camera.error());
@@ -206,7 +259,8 @@ Expected<void> render(const RenderOptions& options) {
       if (panel.shown == nullptr) return missing_light(options.candidate, id);
     }
   }
-  const std::vector<OrderedPiece> pieces = back_to_front(loaded->prepared, camera->eye);
+  const std::vector<OrderedPiece> pieces =
+      options.visible ? std::move(visible) : back_to_front(loaded->prepared, camera->eye);
   auto output = Output::open(options.output);
   if (!output) return tl::unexpected(output.error());
   report::paint_scene(loaded->scene, loaded->prepared, pieces, panels, picture).write(*output);
@@ -252,6 +306,9 @@ void add_render_command(CLI::App& app, Action& action) {
   command.add_option("--candidate", options->candidate, "A result whose differences are marked")
       ->type_name("FILE");
   command.add_flag("--fragments", options->fragments, "Draw the borders of fragments");
+  command.add_flag("--visible", options->visible,
+                   "Paint what the eye sees, found exactly (gnomon visible), in no order, instead "
+                   "of all\npolygons back to front");
   command.add_flag("--backs", options->backs, "Paint the backs of one-sided polygons too");
   add_illuminate_options(command, options->illuminate,
                          "Paint what the surfaces receive from all lights chosen");

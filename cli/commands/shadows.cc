@@ -234,7 +234,7 @@ int run_shadows(const ShadowsOptions& options) {
                           {"--no-prefix", options.no_prefix, &Method::leaves_out_steps}});
   if (!algorithm) return report_error(algorithm.error());
   if (asks_for_shares_alone(options, *kernel) && algorithm->point == MethodId::kSectors) {
-    algorithm->point = MethodId::kContour;
+    algorithm->point = MethodId::kAutomatic;
   }
   if (options.pieces) {
     if (algorithm->point == MethodId::kReceiver) {

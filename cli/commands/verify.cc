@@ -109,7 +109,8 @@ int run_verify(const VerifyOptions& options) {
   witness_options.width = options.width;
   witness_options.strict = options.strict;
   // Lights left out by --light are not missed.
-  witness_options.subset = options.subset || !options.scene.lights.empty();
+  witness_options.subset =
+      options.subset || !options.scene.lights.empty() || !options.scene.eye.empty();
   witness_options.progress = progress.callback();
   witness_options.interrupted = &interrupted();
   const auto report =
@@ -147,6 +148,10 @@ void add_verify_command(CLI::App& app, Action& action) {
   command.add_option("RESULT", options->result, "The result file, with fragments")
       ->required()
       ->type_name("FILE");
+  command
+      .add_option("--eye", options->scene.eye,
+                  "The eye of a result that gnomon visible wrote, as it was given there")
+      ->type_name("x,y,z");
   command
       .add_option("--tolerance", options->tolerance,
                   "Share of a polygon that rounded loops may be wrong about")

@@ -153,8 +153,12 @@ std::string methods_that(bool Method::*ability) {
 }
 
 void drop_repeats(std::vector<AlgorithmChoice>& choices, const LoadedScene& loaded) {
+  const bool has_region = std::ranges::any_of(loaded.lights, [&](std::uint32_t light) {
+    return !loaded.prepared.lights[light].region.empty();
+  });
   std::vector<std::string> names;
   std::erase_if(choices, [&](const AlgorithmChoice& choice) {
+    if (has_region && choices.size() > 1 && choice.point == MethodId::kContour) return true;
     const std::string name = choice.name(loaded);
     if (std::ranges::count(names, name) > 0) return true;
     names.push_back(name);

@@ -70,7 +70,8 @@ std::vector<AlgorithmChoice> several_algorithms(std::string_view name,
 /// Names of the methods that can do this, joined by ", ".
 std::string methods_that(bool Method::*ability);
 
-/// Leaves out choices that are the same methods as one before for the lights that there are.
+/// Leaves out choices that are the same methods as one before for the lights that there are, and,
+/// of several, contour where a light has a region, which it does not know.
 void drop_repeats(std::vector<AlgorithmChoice>& choices, const LoadedScene& loaded);
 
 }  // namespace gnomon::cli

@@ -43,28 +43,30 @@ std::array<double, 3> nearest(const Position& position) {
 
 }  // namespace
 
-void add_camera_options(CLI::App& command, CameraOptions& options, const std::string& across,
-                        const std::string& down) {
+std::vector<CLI::Option*> add_camera_options(CLI::App& command, CameraOptions& options,
+                                             const std::string& across, const std::string& down) {
   command
       .add_option("--eye", options.eye,
                   "Where the eye is, exactly as its digits say [above a corner of the scene]")
       ->type_name("x,y,z");
-  command.add_option("--look-at", options.look_at, "What it looks at [the middle of the scene]")
-      ->type_name("x,y,z");
-  command.add_option("--up", options.up, "What is up [0,0,1]")->type_name("x,y,z");
-  command
-      .add_option("--fov", options.field_of_view,
-                  "Field of view across the larger side, degrees [shows all of the scene]")
-      ->check(CLI::Range(0.1, 179.0))
-      ->type_name("F");
-  command.add_option(across, options.width, "Samples in a row")
-      ->check(CLI::Range(1u, 1u << 20))
-      ->capture_default_str()
-      ->type_name("N");
-  command.add_option(down, options.height, "Rows of samples")
-      ->check(CLI::Range(1u, 1u << 20))
-      ->capture_default_str()
-      ->type_name("N");
+  return {
+      command
+          .add_option("--look-at", options.look_at, "What it looks at [the middle of the scene]")
+          ->type_name("x,y,z"),
+      command.add_option("--up", options.up, "What is up [0,0,1]")->type_name("x,y,z"),
+      command
+          .add_option("--fov", options.field_of_view,
+                      "Field of view across the larger side, degrees [shows all of the scene]")
+          ->check(CLI::Range(0.1, 179.0))
+          ->type_name("F"),
+      command.add_option(across, options.width, "Samples in a row")
+          ->check(CLI::Range(1u, 1u << 20))
+          ->capture_default_str()
+          ->type_name("N"),
+      command.add_option(down, options.height, "Rows of samples")
+          ->check(CLI::Range(1u, 1u << 20))
+          ->capture_default_str()
+          ->type_name("N")};
 }
 
 Expected<ExactCamera> camera_of(const CameraOptions& options, const LoadedScene& loaded) {

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 #include "cli/common/scene_options.h"
 #include "gnomon/scene/camera.h"
@@ -19,10 +20,11 @@ struct CameraOptions {
   bool given() const { return !eye.empty(); }
 };
 
-/// `across` and `down`: the names of the options that give the size.
-void add_camera_options(CLI::App& command, CameraOptions& options,
-                        const std::string& across = "--width",
-                        const std::string& down = "--height");
+/// `across` and `down`: the names of the options that give the size. The options of the raster,
+/// which are all but the eye, are returned.
+std::vector<CLI::Option*> add_camera_options(CLI::App& command, CameraOptions& options,
+                                             const std::string& across = "--width",
+                                             const std::string& down = "--height");
 
 /// The eye is read as the scene's numbers are; what is left out is chosen so that the scene is in
 /// view. Errors: kUsage, and those of make_camera().

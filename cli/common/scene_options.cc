@@ -121,6 +121,14 @@ CLI::Option* add_scene_options(CLI::App& command, SceneOptions& options) {
                   "Add the lights of a file that holds only lights")
       ->type_name("FILE");
   repeatable(
+      command.add_option("--cone", options.cones,
+                         "Point lights shine through this convex polygon alone (repeatable)"))
+      ->type_name("x,y,z:x,y,z:...");
+  repeatable(command.add_option("--flap", options.flaps,
+                                "Point and directional lights shine between two heights alone, as "
+                                "in z:0:3;\neither may be missing (repeatable)"))
+      ->type_name("axis:low:high");
+  repeatable(
       command.add_option("--light", options.lights, "Only the light with this id (repeatable)"))
       ->type_name("ID");
   return scene;
@@ -197,8 +205,27 @@ Expected<LoadedScene> load_scene_under(const SceneOptions& options,
   return loaded;
 }
 
+namespace {
+
+/// Adds the eye, and says where lights shine.
+Expected<void> complete_lights(const SceneOptions& options, Scene& scene) {
+  if (!options.eye.empty()) {
+    auto eye = parse_light_argument(LightType::kPoint, options.eye, scene.numbers, kEyeId);
+    if (!eye) {
+      eye.error().what = "--eye" + eye.error().what.substr(std::string("--point").size());
+      return tl::unexpected(std::move(eye.error()));
+    }
+    eye->is_eye = true;
+    if (auto added = add_lights(scene, {*std::move(eye)}); !added) return added;
+  }
+  return add_regions(scene, {options.cones, options.flaps});
+}
+
+}  // namespace
+
 Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) {
-  auto read = load_scene_under(options, [](Scene&) { return Expected<void>(); });
+  auto read =
+      load_scene_under(options, [&](Scene& scene) { return complete_lights(options, scene); });
   if (!read) return read;
   LoadedScene& loaded = *read;
   const std::vector<Light>& lights = loaded.scene.lights;
@@ -209,7 +236,7 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) 
     }
   }
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    const bool asked = options.lights.empty() ||
+    const bool asked = options.lights.empty() || lights[i].is_eye ||
                        std::ranges::find(options.lights, lights[i].id) != options.lights.end();
     if (asked) loaded.lights.push_back(i);
   }
@@ -218,6 +245,10 @@ Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) 
                 "one in the scene, or --point=x,y,z, --sun=x,y,z or --area=x,y,z:x,y,z:...");
   }
   return read;
+}
+
+void choose_eye(LoadedScene& loaded) {
+  loaded.lights = {static_cast<std::uint32_t>(loaded.scene.lights.size() - 1)};
 }
 
 void warn_of_intent(const LoadedScene& loaded) {

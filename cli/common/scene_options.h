@@ -22,12 +22,14 @@ struct SceneOptions {
   std::string numbers;
   std::vector<std::string> points, suns, areas;
   std::string lights_file;
-  std::vector<std::string> lights;  // ids; empty: all
-  unsigned jobs = 0;                // threads; 0: one a processor
-  bool two_sided = false;           // all polygons, whatever the file says
-  bool skip_bad = false;            // polygons that cannot be used are left out
-  bool keep_axes = false;           // of energy models, where the command turns its suns
-  std::string lod;                  // of CityJSON; empty: the highest
+  std::vector<std::string> lights;        // ids; empty: all
+  std::vector<std::string> cones, flaps;  // where point and directional lights shine
+  std::string eye;                        // x,y,z of a light `eye`, the last one; empty: none
+  unsigned jobs = 0;                      // threads; 0: one a processor
+  bool two_sided = false;                 // all polygons, whatever the file says
+  bool skip_bad = false;                  // polygons that cannot be used are left out
+  bool keep_axes = false;                 // of energy models, where the command turns its suns
+  std::string lod;                        // of CityJSON; empty: the highest
 };
 
 /// Also --jobs, since preparation takes all processors. The option of the scene's file is returned:
@@ -61,9 +63,15 @@ Expected<SceneAsRead> read_scene_with_lights(const SceneOptions& options);
 /// The options for reading that were asked for.
 ReadOptions read_options(const SceneOptions& options);
 
-/// The same, prepared and with the lights chosen. Errors: those of reading and preparing; kUsage
-/// for an unknown --light, and for a scene that is left without any light if `needs_light`.
+/// The id of the light that stands for an eye.
+inline constexpr const char* kEyeId = "eye";
+
+/// The same, prepared and with the lights chosen; the eye is, if there is one. Errors: those of
+/// reading and preparing; kUsage for an unknown --light, and for a scene that is left without any
+/// light if `needs_light`.
 Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light);
+/// Chooses the eye alone of the lights. Requires: there is one.
+void choose_eye(LoadedScene& loaded);
 /// The same with whatever lights `set_lights` gives the scene that was read. Errors: its, too.
 Expected<LoadedScene> load_scene_under(const SceneOptions& options,
                                        const std::function<Expected<void>(Scene&)>& set_lights);

@@ -68,7 +68,7 @@ std::string fragment_difference(const ClaimedPolygon& a, const ClaimedPolygon& b
   if (a.fragments.size() != b.fragments.size()) return "the number of fragments";
   for (std::size_t i = 0; i < a.fragments.size(); ++i) {
     const ClaimedFragment &f = a.fragments[i], &g = b.fragments[i];
-    if (f.state != g.state || f.caster != g.caster || f.loop != g.loop) {
+    if (f.state != g.state || f.caster != g.caster || f.casters != g.casters || f.loop != g.loop) {
       return "fragment " + std::to_string(i);
     }
   }

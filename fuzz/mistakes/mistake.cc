@@ -46,6 +46,8 @@ constexpr std::array kMistakes = {
     MistakeInfo{Mistake::kClosedTileKeepsDead, "closed-tile-keeps-dead",
                 "a closed tile goes on naming a volume that a later one made needless",
                 kSlater1992},
+    MistakeInfo{Mistake::kBspEdgesLeftOut, "bsp-edges-left-out",
+                "edges that the scene BSP made do not bound shadow volumes", kChin1989},
     MistakeInfo{Mistake::kSupportBeforeEdges, "support-before-edges",
                 "the support plane of a complete volume stands above its edges in the tree",
                 kChin1989},
@@ -157,6 +159,8 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kTileClosedEarly:
     case Mistake::kClosedTileKeepsDead:
       return method == MethodId::kTiling;
+    case Mistake::kBspEdgesLeftOut:
+      return svbsp;
     case Mistake::kSupportBeforeEdges:
       return method == MethodId::kSvbspFull;
     case Mistake::kCollinearLeftOut:
@@ -203,6 +207,7 @@ bool applies_to_area(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kCoplanarDiesEarly:
     case Mistake::kTileClosedEarly:
     case Mistake::kClosedTileKeepsDead:
+    case Mistake::kBspEdgesLeftOut:
     case Mistake::kSupportBeforeEdges:
     case Mistake::kCollinearLeftOut:
     case Mistake::kCasterSetsDiffer:

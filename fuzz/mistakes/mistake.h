@@ -33,6 +33,7 @@ enum class Mistake : std::uint8_t {
   kCoplanarDiesEarly,    // a volume dropped before all of the new one's plane have received it
   kTileClosedEarly,      // a tile closed before all of the new one's plane have received
   kClosedTileKeepsDead,  // a closed tile that keeps naming a volume that was dropped
+  kBspEdgesLeftOut,      // edges made by the scene BSP bound no shadow volume
   kSupportBeforeEdges,   // a support plane above the edges of its volume
   kCollinearLeftOut,     // a polygon with an edge on the line of another's counts as nothing there
   kCasterSetsDiffer,     // backs cast where edges act, and hide nothing

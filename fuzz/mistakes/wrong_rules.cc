@@ -71,6 +71,9 @@ Rules rules_of(Mistake mistake) {
     case Mistake::kClosedTileKeepsDead:
       rules.closed_tiles_pass_to_the_killer = false;
       break;
+    case Mistake::kBspEdgesLeftOut:
+      rules.edges_of_splits_bound_volumes = false;
+      break;
     case Mistake::kSupportBeforeEdges:
       rules.edges_above_supports = false;
       break;

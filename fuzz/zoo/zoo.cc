@@ -47,6 +47,8 @@ constexpr std::array kZoo = {
              "misclassified"},
     ZooEntry{"closed-tile-keeps-dead", Mistake::kClosedTileKeepsDead, "plane/tiling:tiles=32",
              "family-small-lattice", "misclassified"},
+    ZooEntry{"bsp-edges-left-out", Mistake::kBspEdgesLeftOut, "plane/svbsp", kPointScenes,
+             "misclassified"},
     ZooEntry{"support-before-edges", Mistake::kSupportBeforeEdges, "plane/svbsp-full", kPointScenes,
              "misclassified"},
     ZooEntry{"collinear-left-out", Mistake::kCollinearLeftOut, "plane/contour", kPointScenes,

@@ -114,6 +114,10 @@ LitSamples::Receiver LitSamples::receiver_of(std::uint32_t part) const {
 
 PointVisibility LitSamples::at(std::uint32_t part, const SampleRay& ray) {
   if (!faces(part)) return {Visibility::kShadow, std::nullopt};
+  if (!light_.region.empty()) {
+    const PointVisibility seen = exact_.at(part, seen_point(view_, seen_.plane(part), ray), {});
+    if (seen.visibility != Visibility::kLit) return seen;
+  }
   const Receiver& receiver = receivers_[part]->get([&] { return receiver_of(part); });
   // From the eye the point is q = t d, t = P(E) / -(n . d): off by the bound of n . d, relative,
   // and 8u from the value at the eye, the direction, the quotient and the product.

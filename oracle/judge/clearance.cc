@@ -83,7 +83,11 @@ class Decider {
  public:
   Decider(const PreparedScene& scene, const PreparedLight& light, std::uint32_t receiver,
           const RationalPoint& point)
-      : scene_(scene), receiver_(receiver), point_(point), directional_(light.point.directional) {
+      : scene_(scene),
+        receiver_(receiver),
+        point_(point),
+        directional_(light.point.directional),
+        is_eye_(light.is_eye) {
     for (int k = 0; k < 3; ++k) {
       light_[k] =
           directional_
@@ -119,7 +123,7 @@ class Decider {
     return loop;
   }
   bool casts(std::uint32_t part, const std::vector<RationalPoint>& loop) const {
-    if (part == receiver_ || !scene_.parts[part].casts) return false;
+    if (part == receiver_ || !(scene_.parts[part].casts || is_eye_)) return false;
     const RationalPoint normal = loop_normal(loop);
     const mpq_class height =
         directional_ ? dot(normal, light_) : dot(normal, minus(light_, loop[0]));
@@ -142,7 +146,7 @@ class Decider {
   RationalPoint point_, light_;
   std::vector<RationalPoint> own_loop_;
   Vector<double> near_point_{}, near_light_{};
-  bool directional_;
+  bool directional_, is_eye_;
   std::vector<std::uint32_t> near_casters_;
 };
 

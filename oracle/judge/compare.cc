@@ -506,13 +506,18 @@ std::string GroupComparison::describe_shadow(Witness& witness, const std::string
     return group_.light_in_plane ? " (the light is in its plane)" : " (it faces away)";
   }
   const PreparedScene& prepared = answer_.prepared();
+  bool outside = false;
   for (std::uint32_t part : group_.parts) {
     for (const ShadowPiece& piece : answer_.shadows(light_, part)) {
-      if (witness.caster.empty() && contains(piece.loop, point)) {
+      if (!witness.caster.empty() || !contains(piece.loop, point)) continue;
+      if (piece.caster == ShadowPiece::kOutsideRegion) {
+        outside = true;
+      } else {
         witness.caster = id_of(piece.caster);
       }
     }
   }
+  if (outside && witness.caster.empty()) return " (outside of the light's region)";
   const Decision decision =
       decide(prepared, prepared.lights[light_], group_.parts.front(), witness.point);
   if (!witness.clearance) witness.clearance = decision.clearance;

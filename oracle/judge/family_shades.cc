@@ -194,6 +194,15 @@ Shades& FamilyShades::wholly() {
   return *wholly_;
 }
 
+const std::vector<FlatHalf>& FamilyShades::outsides() {
+  if (outsides_) return *outsides_;
+  outsides_.emplace();
+  for (const ExactPlane& plane : light_.outside_grid_planes()) {
+    outsides_->push_back(half_of(plane, false));
+  }
+  return *outsides_;
+}
+
 const FlatHalf& FamilyShades::before_light() {
   if (!before_light_) {
     before_light_ = half_of(grid_plane(scene_.geometry, light_.area().before_light()), false);

@@ -75,6 +75,8 @@ class FamilyShades {
   Shades& partly();
   /// What is in umbra. Requires: an area light.
   Shades& wholly();
+  /// The planes of the light's region, outside in front.
+  const std::vector<FlatHalf>& outsides();
   /// What is inside, around the family; with its borders.
   PlanarLoop region_of(const Shade& shade) const;
   /// Requires: an area light.
@@ -97,6 +99,7 @@ class FamilyShades {
   long double area_ = 0, greatest_ = 0, error_ = 0;
   std::optional<Shades> partly_, wholly_;
   std::optional<FlatHalf> before_light_;
+  std::optional<std::vector<FlatHalf>> outsides_;
 };
 
 }  // namespace gnomon::oracle

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "oracle/geometry/group_overlay.h"
+#include "oracle/visibility/outside_planes.h"
 
 namespace gnomon::oracle {
 
@@ -35,6 +36,15 @@ LightVolumes::LightVolumes(const PreparedScene& scene, const PreparedLight& ligh
     if (standings_.back().casts) casters.push_back(part);
   }
   index_.emplace(scene, light, casters);
+  outside_planes_ = outside_planes(scene.geometry, light);
+  for (std::size_t i = 0; i < outside_planes_.size(); ++i) {
+    const Integers3& normal = outside_planes_[i].normal;
+    const VertexId on_plane = scene.geometry.planes[light.region[i].index()].a;
+    const Integers3 base{scene.geometry.grid.at(on_plane, 0), scene.geometry.grid.at(on_plane, 1),
+                         scene.geometry.grid.at(on_plane, 2)};
+    outsides_.emplace_back(RationalPoint{normal[0], normal[1], normal[2]},
+                           in_scene(scene.geometry, HomogeneousPoint{base, 1}));
+  }
   const Integers3& source = light.point.grid;
   source_ = light.point.directional
                 ? Integers4(std::array<mpz_class, 4>{source[0], source[1], source[2], 0})
@@ -130,9 +140,28 @@ bool LightVolumes::sees(std::uint32_t part, Side side) const {
 std::vector<Loop> LightVolumes::not_shadowed(const Piece& piece,
                                              std::optional<std::uint32_t> caster) const {
   std::vector<Loop> rest{piece.loop};
+  for (std::size_t i = 0; i < outsides_.size() && !caster && !rest.empty(); ++i) {
+    rest = without(std::move(rest), std::span(&outsides_[i], 1));
+  }
   const std::uint32_t first = caster ? scene_.first_part[*caster] : 0;
   const auto last =
       caster ? scene_.first_part[*caster + 1] : static_cast<std::uint32_t>(scene_.parts.size());
+  return without_shadows(piece, std::move(rest), first, last);
+}
+
+std::vector<Loop> LightVolumes::not_shadowed_by(const Piece& piece,
+                                                std::span<const std::uint32_t> casters) const {
+  std::vector<Loop> rest{piece.loop};
+  for (const std::uint32_t caster : casters) {
+    rest = without_shadows(piece, std::move(rest), scene_.first_part[caster],
+                           scene_.first_part[caster + 1]);
+  }
+  return rest;
+}
+
+/// Of parts [first, last).
+std::vector<Loop> LightVolumes::without_shadows(const Piece& piece, std::vector<Loop> rest,
+                                                std::uint32_t first, std::uint32_t last) const {
   for (std::uint32_t part = first; part < last && !rest.empty(); ++part) {
     // A part in the receiver's plane shadows nothing of it, and its shadow cuts nothing off.
     if (!standings_[part].casts || part == piece.part || solid(part).holds(solid(piece.part))) {
@@ -142,6 +171,15 @@ std::vector<Loop> LightVolumes::not_shadowed(const Piece& piece,
     rest = without(std::move(rest), shadow(part));
   }
   return rest;
+}
+
+Loop LightVolumes::inside_region(Loop loop) const {
+  for (const HalfSpace& outside : outsides_) {
+    const RationalPoint& n = outside.normal;
+    loop = cut(loop, HalfSpace({-n[0], -n[1], -n[2]}, outside.base));
+    if (loop.empty()) break;
+  }
+  return loop;
 }
 
 mpq_class LightVolumes::shadowed_by(const Piece& piece, std::uint32_t part) const {

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -46,10 +47,19 @@ class LightVolumes {
   AreaSolids& area() { return *area_; }
   bool sees(std::uint32_t part, Side side) const;
 
-  /// What of a piece is not in the shadow of the parts of one caster, or of any. Requires: a point
-  /// or directional light.
+  /// What of a piece is not in the shadow of the parts of one caster; or of any, and is inside of
+  /// the region. Requires: a point or directional light.
   std::vector<space::Loop> not_shadowed(const Piece& piece,
                                         std::optional<std::uint32_t> caster) const;
+  /// The same of several casters together.
+  std::vector<space::Loop> not_shadowed_by(const Piece& piece,
+                                           std::span<const std::uint32_t> casters) const;
+  /// What is strictly in front of one of them is outside of the light's region.
+  const std::vector<space::HalfSpace>& outsides() const { return outsides_; }
+  /// The same on the grid.
+  const std::vector<ExactPlane>& outside_grid_planes() const { return outside_planes_; }
+  /// What of a loop is inside of the region; any loop, convex or not, by its area.
+  space::Loop inside_region(space::Loop loop) const;
   /// What of a piece one part shadows, along the piece's normal. Requires: as above.
   mpq_class shadowed_by(const Piece& piece, std::uint32_t part) const;
   /// What of loops of a piece in front of the light is in no penumbra volume, or if `all` no umbra
@@ -88,12 +98,17 @@ class LightVolumes {
   }
 
  private:
+  std::vector<space::Loop> without_shadows(const Piece& piece, std::vector<space::Loop> rest,
+                                           std::uint32_t first, std::uint32_t last) const;
+
   const PreparedScene& scene_;
   const PreparedLight& own_;
   double diagonal_;
   mutable std::vector<MadeOnce<Solid>> solids_;  // by part
   std::vector<LightStanding> standings_;         // by part, without an area
   std::optional<AreaSolids> area_;
+  std::vector<ExactPlane> outside_planes_;
+  std::vector<space::HalfSpace> outsides_;
   std::optional<LightIndex> index_;                                       // without an area
   mutable std::vector<MadeOnce<std::vector<ExactPlane>>> shadow_planes_;  // by part
   mutable std::vector<MadeOnce<std::vector<Integers4>>> scene_planes_, scene_loops_;  // by part

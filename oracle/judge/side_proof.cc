@@ -200,7 +200,17 @@ bool SideProof::is_on_side(std::size_t fragment, const Shade& shade, std::size_t
   return true;
 }
 
+bool SideProof::is_inside_region(std::size_t fragment) {
+  return std::ranges::all_of(light_.outside_grid_planes(), [&](const ExactPlane& outside) {
+    const Integers4 plane = scene_plane(scene_.geometry, outside);
+    return std::ranges::all_of(loops_[fragment], [&](std::uint32_t vertex) {
+      return sign_of_product(plane, exact(vertex)) <= 0;
+    });
+  });
+}
+
 bool SideProof::is_lit(std::size_t fragment) {
+  if (!is_inside_region(fragment)) return false;
   const PlanarLoop& loop = flat_loop(fragment);
   for (const Shade* shade : shades().partly().near(box_of(loop))) {
     bool apart = shade->is_apart(loop, shades().error());

@@ -36,7 +36,9 @@ class SideProof {
   /// The fragments are convex, lie in the parts' plane, and tile the parts. What follows requires
   /// that.
   bool tiles();
-  /// No part shadows any of the fragment. Requires: the side faces the light.
+  /// The fragment is inside of the light's region.
+  bool is_inside_region(std::size_t fragment);
+  /// That, and no part shadows any of it. Requires: the side faces the light.
   bool is_lit(std::size_t fragment);
   /// The parts of the caster shadow all of the fragment. Requires: as above.
   bool is_shadowed_by(std::size_t fragment, std::uint32_t caster);

@@ -233,6 +233,8 @@ bool Certifier::prove(std::size_t task) {
     return false;
   }
   const Task& own = tasks_[task];
+  // Borders of regions are no shadows of casters.
+  if (!answer_.prepared().lights[own.light].region.empty()) return false;
   std::optional<PolygonComparison> bounds =
       prove_by_borders(answer_, own.light, own.entry, own.candidate, own.terms,
                        {.share = report_.tolerance, .width = report_.width});

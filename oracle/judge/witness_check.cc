@@ -126,7 +126,9 @@ bool WitnessChecker::shadow_reason_holds(std::uint32_t part, Side side,
   const int facing = light_->standing(part).facing;
   const auto reason = shadow_reason_by_name(fragment.reason);
   return (reason == ShadowReason::kFacesAway && !is_facing(part, side) && facing != 0) ||
-         (reason == ShadowReason::kLightInPlane && facing == 0);
+         (reason == ShadowReason::kLightInPlane && facing == 0) ||
+         (reason == ShadowReason::kOutsideRegion && is_facing(part, side) &&
+          !(area_along(light_->solid(part).normal, light_->inside_region(fragment.loop)) > 0));
 }
 
 bool WitnessChecker::area_reason_holds(const Family& family, const ClaimedFragment& fragment,
@@ -140,6 +142,7 @@ bool WitnessChecker::area_reason_holds(const Family& family, const ClaimedFragme
       return light_->area().faces_away(part, family.polygon.side);
     case ShadowReason::kLightInPlane:
       return light_->area().light_in_plane(part);
+    case ShadowReason::kOutsideRegion:  // point and directional lights alone have one
     case ShadowReason::kNone:
       break;
   }
@@ -152,7 +155,8 @@ std::optional<std::uint32_t> WitnessChecker::caster_to_check(const Family& famil
   ++report_.witnesses;
   const std::string& id = family.polygon.id;
   if (!fragment.reason.empty()) {
-    if (!shadow_reason_holds(family.parts.front(), family.polygon.side, fragment)) {
+    if (!shadow_reason_holds(family.parts.front(), family.polygon.side, fragment) &&
+        !is_outside_but_for_rounding(family, fragment)) {
       violation(id, fmt::format("the reason '{}' does not hold", fragment.reason), index);
     }
     return std::nullopt;
@@ -171,6 +175,20 @@ std::optional<std::uint32_t> WitnessChecker::named_caster(const ClaimedPolygon& 
   if (caster != polygon_index_.end()) return caster->second;
   violation(polygon.id, fmt::format("no caster '{}' in the scene", name), index);
   return std::nullopt;
+}
+
+std::vector<std::uint32_t> WitnessChecker::named_casters(const ClaimedPolygon& polygon,
+                                                         std::size_t index) {
+  std::vector<std::uint32_t> casters;
+  for (const std::string& name : polygon.fragments[index].casters) {
+    const auto caster = polygon_index_.find(name);
+    if (caster == polygon_index_.end()) {
+      violation(polygon.id, fmt::format("no caster '{}' in the scene", name), index);
+      return {};
+    }
+    casters.push_back(caster->second);
+  }
+  return casters;
 }
 
 bool WitnessChecker::has_all_parts(const Family& family) const {

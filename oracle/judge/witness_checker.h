@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -103,6 +104,8 @@ class WitnessChecker {
   /// Whether this family's tiling is judged by these fragments, and not by others.
   bool tiles(const Family& family);
   bool shadow_reason_holds(std::uint32_t part, Side side, const ClaimedFragment& fragment) const;
+  /// Of a fragment with rounded loops.
+  bool is_outside_but_for_rounding(const Family& family, const ClaimedFragment& fragment) const;
   /// `behind`: all of the fragment is behind the light.
   bool area_reason_holds(const Family& family, const ClaimedFragment& fragment, bool behind);
   /// The caster that a fragment names; none, with the violation told, if the scene has none such.
@@ -112,6 +115,9 @@ class WitnessChecker {
   /// not.
   std::optional<std::uint32_t> caster_to_check(const Family& family,
                                                const ClaimedFragment& fragment, std::size_t index);
+  /// Those that a fragment names to be its witness together. None, with the violation told, if the
+  /// scene does not have one of them, or if none is named.
+  std::vector<std::uint32_t> named_casters(const ClaimedPolygon& polygon, std::size_t index);
   bool is_facing(std::uint32_t part, Side side) const;
   bool is_facing(const Family& family) const {
     return is_facing(family.parts.front(), family.polygon.side);
@@ -157,6 +163,7 @@ class WitnessChecker {
   void check_exact_piece(Family& family, const Piece& piece);
   void check_exact_lit(Family& family, const Piece& piece);
   void check_exact_shade(Family& family, const Piece& piece);
+  void check_exact_casters(Family& family, const Piece& piece);
   void check_exact_area_shade(Family& family, const Piece& piece);
   /// False, with the violation told, if a fragment that is not umbra sees less than it claims.
   bool is_seen_exactly(Family& family, const Piece& piece);
@@ -177,13 +184,15 @@ class WitnessChecker {
   void check_rounded_tiling(Family& family, const std::vector<FlatPiece>& pieces);
   void check_rounded_overlaps(Family& family, std::vector<FlatPiece>& pieces);
   void check_rounded_piece(Family& family, const FlatPiece& piece);
+  void check_rounded_outside(Family& family, const FlatPiece& piece);
   void check_rounded_lit(Family& family, const FlatPiece& piece, Shades& shades, const char* text);
   void check_rounded_shade(Family& family, const FlatPiece& piece);
   void check_rounded_area_shade(Family& family, const FlatPiece& piece);
   bool is_seen_roughly(Family& family, const FlatPiece& piece);
-  /// What of loops no part of the caster hides.
-  void check_hidden(Family& family, const FlatPiece& piece, Loops loops, std::uint32_t caster,
-                    Shades& shades, const std::function<std::string()>& text);
+  /// What of loops no part of the casters hides.
+  void check_hidden(Family& family, const FlatPiece& piece, Loops loops,
+                    std::span<const std::uint32_t> casters, Shades& shades,
+                    const std::function<std::string()>& text);
   std::array<Loops, 4> loops_of_classes(Family& family, const PlanarLoop& loop);  // by LightState
   void check_rounded_classes(Family& family, const FlatPiece& piece, const ClassSet& allowed,
                              const std::vector<FlatPiece>& pieces);

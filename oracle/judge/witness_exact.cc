@@ -230,6 +230,12 @@ void WitnessChecker::check_exact_piece(Family& family, const Piece& piece) {
 }
 
 void WitnessChecker::check_exact_lit(Family& family, const Piece& piece) {
+  for (const HalfSpace& outside : light_->outsides()) {
+    if (area_along(light_->solid(piece.part).normal, cut(piece.loop, outside)) > 0) {
+      return violation(family.polygon.id, "a lit fragment is outside of the light's region",
+                       piece.index);
+    }
+  }
   for (const Shade* shade : family.shades.partly().near(piece.flat_box)) {
     const std::vector<HalfSpace>& bounds = light_->shadow(shade->part);
     bool apart = shade->is_apart(piece.flat, family.shades.error());
@@ -253,6 +259,7 @@ void WitnessChecker::check_exact_shade(Family& family, const Piece& piece) {
     if (faces) return check_exact_lit(family, piece);
     return violation(id, "a fragment is lit on a side that does not face the light", piece.index);
   }
+  if (!fragment.casters.empty()) return check_exact_casters(family, piece);
   const std::optional<std::uint32_t> caster = caster_to_check(family, fragment, piece.index);
   if (!caster) return;
   if (faces) {
@@ -269,6 +276,27 @@ void WitnessChecker::check_exact_shade(Family& family, const Piece& piece) {
   if (area_along(light_->solid(piece.part).normal, light_->not_shadowed(piece, *caster)) > 0) {
     violation(id, fmt::format("'{}' does not shadow all of the fragment", fragment.caster),
               piece.index);
+  }
+}
+
+/// Together they shadow all of it, and none of them is needless.
+void WitnessChecker::check_exact_casters(Family& family, const Piece& piece) {
+  ++report_.witnesses;
+  const std::string& id = family.polygon.id;
+  const std::vector<std::uint32_t> casters = named_casters(family.polygon, piece.index);
+  if (casters.empty()) return;
+  const RationalPoint& normal = light_->solid(piece.part).normal;
+  if (area_along(normal, light_->not_shadowed_by(piece, casters)) > 0) {
+    return violation(id, "its casters do not shadow all of the fragment", piece.index);
+  }
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    std::vector<std::uint32_t> others = casters;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    if (area_along(normal, light_->not_shadowed_by(piece, others)) > 0) continue;
+    return violation(id,
+                     fmt::format("its casters shadow all of the fragment without '{}'",
+                                 piece.fragment->casters[i]),
+                     piece.index);
   }
 }
 

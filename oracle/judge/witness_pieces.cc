@@ -47,7 +47,7 @@ LightStanding standing_of(const PreparedScene& scene, const PreparedLight& light
   standing.facing = light.point.directional ? sgn(dot(plane.normal, light.point.grid))
                                             : sgn(value_at(plane, light.point.grid));
   standing.receives = standing.facing > 0 || (standing.facing < 0 && own.two_sided);
-  standing.casts = standing.receives && own.casts;
+  standing.casts = standing.receives && (own.casts || light.is_eye);
   return standing;
 }
 

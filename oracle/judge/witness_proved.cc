@@ -26,7 +26,8 @@ bool can_be_proved(const ClaimedPolygon& polygon) {
 bool WitnessChecker::is_proved(const ClaimedFragment& fragment, std::size_t index, bool faces,
                                SideProof& proof) const {
   if (fragment.state == LightState::kLit) return faces && proof.is_lit(index);
-  if (!fragment.reason.empty()) return true;  // holds, or is_proved() did not come here
+  if (!fragment.reason.empty()) return true;    // holds, or is_proved() did not come here
+  if (!fragment.casters.empty()) return false;  // looked at in rational numbers
   if (fragment.caster.empty()) return !faces;
   const auto caster = polygon_index_.find(fragment.caster);
   return faces && caster != polygon_index_.end() && proof.is_shadowed_by(index, caster->second);

@@ -366,6 +366,32 @@ void WitnessChecker::check_rounded_piece(Family& family, const FlatPiece& piece)
   light_->is_area() ? check_rounded_area_shade(family, piece) : check_rounded_shade(family, piece);
 }
 
+bool WitnessChecker::is_outside_but_for_rounding(const Family& family,
+                                                 const ClaimedFragment& fragment) const {
+  if (!(family.radius > 0) || !is_facing(family) ||
+      shadow_reason_by_name(fragment.reason) != ShadowReason::kOutsideRegion) {
+    return false;
+  }
+  const auto flat = [&](const RationalLoop& loop) {
+    PlanarLoop result;
+    for (const RationalPoint& point : loop) result.push_back(family.shades.frame().at(point));
+    return result;
+  };
+  const long double inside = std::fabs(area_of(flat(light_->inside_region(fragment.loop))));
+  return inside <= swept_area(flat(fragment.loop), family.radius);
+}
+
+void WitnessChecker::check_rounded_outside(Family& family, const FlatPiece& piece) {
+  for (const FlatHalf& half : family.shades.outsides()) {
+    PlanarLoop outside = cut(piece.loop, half);
+    if (outside.empty()) continue;
+    std::vector<Border> borders;
+    add_edges(borders, outside);
+    add_error(family, piece, ErrorKind::kMisclassified, {std::move(outside)},
+              "a lit fragment is outside of the light's region", std::move(borders));
+  }
+}
+
 void WitnessChecker::check_rounded_lit(Family& family, const FlatPiece& piece, Shades& shades,
                                        const char* text) {
   Loops rest{piece.loop};
@@ -381,11 +407,11 @@ void WitnessChecker::check_rounded_lit(Family& family, const FlatPiece& piece, S
 }
 
 void WitnessChecker::check_hidden(Family& family, const FlatPiece& piece, Loops loops,
-                                  std::uint32_t caster, Shades& shades,
+                                  std::span<const std::uint32_t> casters, Shades& shades,
                                   const std::function<std::string()>& text) {
   std::vector<Border> borders;
   for (const Shade* shade : shades.near(piece.box)) {
-    if (prepared_.parts[shade->part].polygon != caster) continue;
+    if (std::ranges::find(casters, prepared_.parts[shade->part].polygon) == casters.end()) continue;
     if (is_within(shade->lines, piece.loop, family.radius)) return;
     loops = without(std::move(loops), shade->lines);
     add_edges(borders, family.shades.region_of(*shade));
@@ -398,15 +424,24 @@ void WitnessChecker::check_rounded_shade(Family& family, const FlatPiece& piece)
   const ClaimedFragment& fragment = *piece.fragment;
   if (fragment.state == LightState::kLit) {
     if (is_facing(family)) {
+      check_rounded_outside(family, piece);
       return check_rounded_lit(family, piece, family.shades.partly(),
                                "a lit fragment is shadowed by");
     }
     return add_error(family, piece, ErrorKind::kMisclassified, {piece.loop},
                      "a fragment is lit on a side that does not face the light");
   }
+  if (!fragment.casters.empty()) {
+    ++report_.witnesses;
+    const std::vector<std::uint32_t> casters = named_casters(family.polygon, piece.index);
+    if (casters.empty()) return;
+    return check_hidden(family, piece, {piece.loop}, casters, family.shades.partly(), [] {
+      return std::string("its casters do not shadow all of the fragment");
+    });
+  }
   const std::optional<std::uint32_t> caster = caster_to_check(family, fragment, piece.index);
   if (!caster) return;
-  check_hidden(family, piece, {piece.loop}, *caster, family.shades.partly(), [&] {
+  check_hidden(family, piece, {piece.loop}, std::span(&*caster, 1), family.shades.partly(), [&] {
     return fmt::format("'{}' does not shadow all of the fragment", fragment.caster);
   });
 }
@@ -467,7 +502,7 @@ void WitnessChecker::check_rounded_area_shade(Family& family, const FlatPiece& p
   if (!caster || !sees) return;
   PlanarLoop before = cut(piece.loop, half);
   if (before.empty()) return;
-  check_hidden(family, piece, {std::move(before)}, *caster,
+  check_hidden(family, piece, {std::move(before)}, std::span(&*caster, 1),
                all ? family.shades.wholly() : family.shades.partly(), [&] {
                  return fmt::format("'{}' does not hide {} of the light from all of the fragment",
                                     fragment.caster, all ? "all" : "part");
@@ -501,6 +536,18 @@ std::array<WitnessChecker::Loops, 4> WitnessChecker::loops_of_classes(Family& fa
     for (const Shade* shade : family.shades.wholly().near(box)) {
       take(rest, of(LightState::kUmbra), *shade);
     }
+  }
+  for (const FlatHalf& half : family.shades.outsides()) {
+    Loops inside;
+    for (PlanarLoop& own : rest) {
+      PlanarLoop outside = cut(own, half);
+      if (!outside.empty()) of(LightState::kShadow).push_back(std::move(outside));
+      if (half.kind == FlatHalf::Kind::kNone) inside.push_back(std::move(own));
+      if (half.kind != FlatHalf::Kind::kLine) continue;
+      PlanarLoop kept = cut(own, half.line.opposite());
+      if (!kept.empty()) inside.push_back(std::move(kept));
+    }
+    rest = std::move(inside);
   }
   Loops& partly = of(area ? LightState::kPenumbra : LightState::kShadow);
   for (const Shade* shade : family.shades.partly().near(box)) take(rest, partly, *shade);

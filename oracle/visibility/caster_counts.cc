@@ -46,7 +46,9 @@ std::map<std::uint32_t, mpq_class> caster_counts(const PreparedScene& scene,
     overlay.add_loop(points, layer, turn < 0 ? -1 : 1);
   };
   add(receiver, kReceiver);
-  for (const ShadowPiece& shadow : regions.shadows_on(part)) add(shadow.loop, kTruth);
+  for (const ShadowPiece& shadow : regions.shadows_on(part)) {
+    if (shadow.caster != ShadowPiece::kOutsideRegion) add(shadow.loop, kTruth);
+  }
   overlay.build();
   if (!overlay.consistent()) return {};
   std::map<std::uint32_t, std::vector<bool>> faces;  // by count
@@ -70,6 +72,7 @@ std::map<std::uint32_t, mpq_class> caster_shares(const PreparedScene& scene,
   const mpq_class whole = doubled_area(loop_of(scene, part));
   std::map<std::uint32_t, mpq_class> shares;
   for (const ShadowPiece& shadow : regions.shadows_on(part)) {
+    if (shadow.caster == ShadowPiece::kOutsideRegion) continue;
     shares[shadow.caster] += doubled_area(shadow.loop) / whole;
   }
   return shares;

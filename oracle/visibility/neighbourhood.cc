@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "gnomon/oracle/point_regions.h"
 #include "oracle/geometry/chart.h"
 #include "oracle/geometry/group_overlay.h"
+#include "oracle/visibility/outside_planes.h"
 
 namespace gnomon::oracle {
 
@@ -66,7 +68,7 @@ class Neighbourhood {
 
   /// Where the shadow of a caster is; nothing if it is nowhere near.
   std::optional<Sector> sector_of_shadow(std::uint32_t caster) const {
-    if (!scene_.parts[caster].casts) return std::nullopt;
+    if (!scene_.parts[caster].casts && !light_.is_eye) return std::nullopt;
     const std::vector<Integers3> loop = grid_loop(scene_, caster);
     ExactPlane support = support_of(scene_, caster);
     const Integers3& at = light_.point.grid;
@@ -84,6 +86,11 @@ class Neighbourhood {
       planes.push_back(value_at(edge, *inner) < 0 ? opposite_of(edge) : edge);
     }
     return sector_within(caster, planes);
+  }
+
+  /// Where it is outside of the light's region, by the plane whose outside is in front.
+  std::optional<Sector> sector_outside(const ExactPlane& outside) const {
+    return sector_within(ShadowPiece::kOutsideRegion, {outside});
   }
 
  private:
@@ -155,8 +162,11 @@ PointVisibility visibility_around(const PreparedScene& scene, const PreparedLigh
     if (std::ranges::find(receivers, caster) != receivers.end()) continue;
     if (auto sector = around.sector_of_shadow(caster)) sectors.push_back(*std::move(sector));
   }
+  for (const ExactPlane& outside : outside_planes(scene.geometry, light)) {
+    if (auto sector = around.sector_outside(outside)) sectors.push_back(*std::move(sector));
+  }
   const std::span shadows = std::span(sectors).subspan(own);
-  bool lit = false;
+  bool lit = false, dark = false;
   std::optional<std::uint32_t> caster;
   for (const Direction& direction : divisions_of(sectors)) {
     const auto holds = [&](const Sector& sector) { return sector.holds(direction); };
@@ -167,11 +177,12 @@ PointVisibility visibility_around(const PreparedScene& scene, const PreparedLigh
     if (shadow == shadows.end()) {
       lit = true;
     } else {
-      caster = shadow->part;
+      dark = true;
+      if (shadow->part != ShadowPiece::kOutsideRegion) caster = shadow->part;
     }
   }
-  if (lit && caster) return {Visibility::kBoundary, caster};
-  if (caster) return {Visibility::kShadow, caster};
+  if (lit && dark) return {Visibility::kBoundary, caster};
+  if (dark) return {Visibility::kShadow, caster};
   return {lit ? Visibility::kLit : Visibility::kBoundary, std::nullopt};
 }
 

@@ -9,6 +9,7 @@
 #include "oracle/geometry/chart.h"
 #include "oracle/geometry/convex_loop.h"
 #include "oracle/visibility/light_index.h"
+#include "oracle/visibility/outside_planes.h"
 
 namespace gnomon::oracle {
 
@@ -69,7 +70,7 @@ void PointRegions::Data::read_part(std::size_t index) {
   if (data.facing == Side::kOn) return;
   const bool shows_side = data.facing == Side::kFront || part.two_sided;
   data.receives = shows_side;
-  data.casts = shows_side && part.casts;
+  data.casts = shows_side && (part.casts || light.is_eye);
   if (data.facing == Side::kBack) data.plane = opposite(data.plane);
   const std::size_t size = data.loop.size();
   for (std::size_t i = 0; i < size; ++i) {
@@ -235,6 +236,10 @@ std::vector<ExactPlane> PointRegions::shadow_planes(std::uint32_t caster) const 
   return planes;
 }
 
+std::vector<ExactPlane> PointRegions::outsides() const {
+  return outside_planes(data_->scene.geometry, data_->light);
+}
+
 std::vector<ShadowPiece> PointRegions::shadows_on(std::uint32_t receiver) const {
   const Data::PartData& own = data_->parts[receiver];
   const Chart chart(own.plane);
@@ -249,6 +254,13 @@ std::vector<ShadowPiece> PointRegions::shadows_on(std::uint32_t receiver) const 
       some = clip(loop, chart.trace(caster.edges[e]), workspace);
     }
     if (some) pieces.push_back({i, std::move(loop.vertices)});
+    loop = {};
+  }
+  for (const ExactPlane& outside : outsides()) {
+    loop = whole;
+    if (clip(loop, chart.trace(outside), workspace)) {
+      pieces.push_back({ShadowPiece::kOutsideRegion, std::move(loop.vertices)});
+    }
     loop = {};
   }
   return pieces;

@@ -21,7 +21,7 @@ Side facing_of(const PreparedScene& scene, const PreparedLight& light, std::uint
 std::vector<std::uint32_t> casters_of(const PreparedScene& scene, const PreparedLight& light) {
   std::vector<std::uint32_t> casters;
   for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
-    if (!scene.parts[i].casts) continue;
+    if (!scene.parts[i].casts && !light.is_eye) continue;
     const Side facing = facing_of(scene, light, i);
     if (facing == Side::kFront || (facing == Side::kBack && scene.parts[i].two_sided)) {
       casters.push_back(i);
@@ -72,7 +72,7 @@ PointSight::PointSight(const PreparedScene& scene, const PreparedLight& light,
     state.facing = facing_of(scene, light, i);
     state.receives =
         state.facing == Side::kFront || (state.facing == Side::kBack && scene.parts[i].two_sided);
-    state.casts = state.receives && scene.parts[i].casts;
+    state.casts = state.receives && (scene.parts[i].casts || light.is_eye);
   }
 }
 
@@ -104,6 +104,9 @@ PointVisibility PointSight::at(std::span<const std::uint32_t> parts,
                                const RationalPoint& point) const {
   const std::uint32_t own = parts.front();
   if (!states_[own].receives) return {Visibility::kShadow, std::nullopt};
+  const PointVisibility in_region =
+      light_.region.empty() ? PointVisibility{} : exact_.at(own, point, {});
+  if (in_region.visibility == Visibility::kShadow) return in_region;
   const BoundedVector place = on_grid(scene_.geometry, point);
   const BoundedVector way = light_.point.directional ? place_ : minus(place_, place);
   std::vector<std::uint32_t> uncertain;
@@ -120,7 +123,7 @@ PointVisibility PointSight::at(std::span<const std::uint32_t> parts,
         break;
     }
   }
-  if (uncertain.empty()) return {};
+  if (uncertain.empty() && in_region.visibility == Visibility::kLit) return {};
   const PointVisibility seen = exact_.at(own, point, uncertain);
   if (seen.visibility != Visibility::kBoundary) return seen;
   PointVisibility around = visibility_around(scene_, light_, parts, point, uncertain);

@@ -31,6 +31,7 @@ struct VisibilityTest::Data {
   };
   /// What is not of the light.
   struct Parts {
+    const Geometry* geometry = nullptr;
     std::array<mpq_class, 3> origin;
     mpq_class step;
     std::vector<Caster> parts;
@@ -44,6 +45,17 @@ struct VisibilityTest::Data {
   bool directional = false;
   Vector light;
   std::vector<State> states;  // of parts
+  /// Of the light's region: what is in front is outside.
+  struct Outside {
+    Vector base, normal;
+    bool holds(const Caster& polygon) const {
+      for (const Vector& vertex : polygon.loop) {
+        if (dot(normal, minus(vertex, base)) != 0) return false;
+      }
+      return true;
+    }
+  };
+  std::vector<Outside> outsides;
 
   Data(std::shared_ptr<const Parts> parts, const PreparedLight& prepared_light);
 
@@ -81,13 +93,28 @@ VisibilityTest::Data::Data(std::shared_ptr<const Parts> parts, const PreparedLig
         directional ? dot(caster.normal, light) : dot(caster.normal, minus(light, caster.loop[0]));
     State& state = states.emplace_back();
     state.receives = height > 0 || (height < 0 && caster.two_sided);
-    state.casts = state.receives && caster.may_cast;
+    state.casts = state.receives && (caster.may_cast || prepared_light.is_eye);
+  }
+  for (const PlaneRef plane : prepared_light.region) {
+    const SupportTriple& triple = scene->geometry->planes[plane.index()];
+    std::array<Vector, 3> corners;
+    const std::array<VertexId, 3> vertices{triple.a, triple.b, triple.c};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const GridPositions& grid = scene->geometry->grid;
+      corners[i] =
+          in_scene(scene->origin, scene->step,
+                   {grid.at(vertices[i], 0), grid.at(vertices[i], 1), grid.at(vertices[i], 2)});
+    }
+    if (!plane.flipped()) std::swap(corners[1], corners[2]);
+    outsides.push_back(
+        {corners[0], cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]))});
   }
 }
 
 VisibilityTest::VisibilityTest(const PreparedScene& scene, const PreparedLight& light) {
   const Geometry& geometry = scene.geometry;
   auto parts = std::make_shared<Data::Parts>();
+  parts->geometry = &geometry;
   parts->origin = geometry.origin;
   parts->step = geometry.step;
   for (const Part& part : scene.parts) {
@@ -130,6 +157,11 @@ PointVisibility VisibilityTest::at(std::uint32_t receiver, const RationalPoint& 
   if (!data_->states[receiver].receives) {
     result.visibility = Visibility::kShadow;
     return result;
+  }
+  for (const Data::Outside& outside : data_->outsides) {
+    const mpq_class height = dot(outside.normal, minus(point, outside.base));
+    if (height > 0) return {Visibility::kShadow, std::nullopt};
+    if (height == 0 && !outside.holds(own)) result.visibility = Visibility::kBoundary;
   }
   const Vector to_light = data_->directional ? data_->light : minus(data_->light, point);
   for (const std::uint32_t i : casters) {

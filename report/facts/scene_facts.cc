@@ -74,7 +74,9 @@ void count_families(const PreparedScene& prepared, SceneFacts& facts) {
       polygon = kSeveral;
     }
   }
-  facts.planes = family.size();
+  // Others are of regions of lights.
+  facts.planes = static_cast<std::size_t>(
+      std::ranges::count_if(family, [](std::uint32_t parts) { return parts > 0; }));
   if (!family.empty()) facts.largest_family = *std::ranges::max_element(family);
   for (std::size_t polygon = 0; polygon + 1 < prepared.first_part.size(); ++polygon) {
     for (std::uint32_t p = prepared.first_part[polygon]; p < prepared.first_part[polygon + 1];
@@ -120,7 +122,7 @@ SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared, double
     facts.two_sided += scene.is_two_sided(polygon) ? 1 : 0;
     facts.not_casting += polygon.casts ? 0 : 1;
   }
-  facts.positions = prepared.geometry.positions.size();
+  facts.positions = prepared.geometry.polygon_positions().size();
   facts.parts = prepared.parts.size();
   for (std::size_t polygon = 0; polygon < scene.polygons.size(); ++polygon) {
     facts.dropped += prepared.first_part[polygon] == prepared.first_part[polygon + 1] ? 1 : 0;
@@ -137,13 +139,13 @@ SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared, double
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   facts.low = {kInfinity, kInfinity, kInfinity};
   facts.high = {-kInfinity, -kInfinity, -kInfinity};
-  for (const std::array<double, 3>& position : prepared.geometry.positions) {
+  for (const std::array<double, 3>& position : prepared.geometry.polygon_positions()) {
     for (int k = 0; k < 3; ++k) {
       facts.low[k] = std::min(facts.low[k], position[k]);
       facts.high[k] = std::max(facts.high[k], position[k]);
     }
   }
-  if (prepared.geometry.positions.empty()) facts.low = facts.high = {};
+  if (prepared.geometry.polygon_positions().empty()) facts.low = facts.high = {};
   facts.diagonal = std::hypot(facts.high[0] - facts.low[0], facts.high[1] - facts.low[1],
                               facts.high[2] - facts.low[2]);
   facts.step = prepared.geometry.step;

@@ -441,6 +441,15 @@ class ResultWriter {
     if (fragment.caster != Fragment::kNoCaster) {
       json_.member("caster", scene_.polygons[prepared_.parts[fragment.caster].polygon].id);
     }
+    if (fragment.casters != Fragment::kNoCaster) {
+      json_.key("casters");
+      json_.begin_array(JsonLayout::kInline);
+      for (const std::string& id :
+           caster_ids(scene_, prepared_, light.caster_sets[fragment.casters])) {
+        json_.value(id);
+      }
+      json_.end_array();
+    }
     if (fragment.reason != ShadowReason::kNone) {
       json_.member("reason", name_of(fragment.reason));
     }

@@ -160,7 +160,8 @@ class Painter {
  private:
   /// The scene, and an area light unless it is so far off that the scene would be small.
   std::vector<Vector> to_be_in_view() const {
-    std::vector<Vector> points = prepared_.geometry.positions;
+    const auto own = prepared_.geometry.polygon_positions();
+    std::vector<Vector> points(own.begin(), own.end());
     const auto [low, high] = bounding_box(prepared_);
     if (area_light_ && length(panel_centre_ - 0.5 * (low + high)) < 0.75 * size_) {
       points.insert(points.end(), panel_.begin(), panel_.end());

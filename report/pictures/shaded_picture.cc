@@ -244,8 +244,9 @@ SvgPicture paint_shaded_scene(const Scene& scene, const PreparedScene& prepared,
   SvgPicture svg(picture.width, height, picture.title.empty() ? scene.name : picture.title);
   svg.rectangle({0, 0}, picture.width, height, {"#ffffff"});
   const auto [low, high] = bounding_box(prepared);
+  const auto positions = prepared.geometry.polygon_positions();
   const View view(picture.camera, 0, 0, picture.width, picture.height, length(high - low),
-                  prepared.geometry.positions);
+                  std::vector<Vector>(positions.begin(), positions.end()));
   svg.define("<clipPath id=\"frame\"><rect width=\"" + rounded(picture.width) + "\" height=\"" +
              rounded(picture.height) + "\"/></clipPath>");
   svg.begin_group("clip-path=\"url(#frame)\" stroke-linejoin=\"round\"");

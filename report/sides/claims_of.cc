@@ -68,6 +68,9 @@ void add_part(const Scene& scene, const PreparedScene& prepared, const LightResu
     if (fragment.caster != Fragment::kNoCaster) {
       own.caster = scene.polygons[prepared.parts[fragment.caster].polygon].id;
     }
+    if (fragment.casters != Fragment::kNoCaster) {
+      own.casters = caster_ids(scene, prepared, light.caster_sets[fragment.casters]);
+    }
     own.reason = name_of(fragment.reason);
     claimed.fragments.push_back(std::move(own));
   }

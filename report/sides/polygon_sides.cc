@@ -268,6 +268,16 @@ Interval deep_umbra_share(const PreparedScene& scene, const LightResult& light,
   return {std::max(share.lower, 0.0), std::min(share.upper, 1.0)};
 }
 
+std::vector<std::string> caster_ids(const Scene& scene, const PreparedScene& prepared,
+                                    std::span<const std::uint32_t> parts) {
+  std::vector<std::string> ids;
+  for (const std::uint32_t part : parts) {
+    const std::string& id = scene.polygons[prepared.parts[part].polygon].id;
+    if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
+  }
+  return ids;
+}
+
 std::string light_name(const Scene& scene, const PreparedScene& prepared,
                        const LightResult& light) {
   const std::string& id = scene.lights[prepared.lights[light.light].light].id;

@@ -93,6 +93,10 @@ mpq_class precise_share(const PreparedScene& scene, const ClassifiedSide& side, 
 Interval deep_umbra_share(const PreparedScene& scene, const LightResult& light,
                           const ClassifiedSide& side, std::span<const DeepUmbraBounds> bounds);
 
+/// The ids of the polygons that parts are of, each once, in the order of parts.
+std::vector<std::string> caster_ids(const Scene& scene, const PreparedScene& prepared,
+                                    std::span<const std::uint32_t> parts);
+
 /// The id of a result's light; a piece of a light is named by its number: "panel/0".
 std::string light_name(const Scene& scene, const PreparedScene& prepared, const LightResult& light);
 

@@ -7,6 +7,8 @@ namespace gnomon {
 
 namespace {
 
+constexpr std::size_t kPlanePoints = 3;
+
 /// A surrogate that came from a lone \uD8XX, encoded as if it were a character.
 bool has_surrogate(std::string_view text) {
   for (std::size_t at = 0; at + 1 < text.size(); ++at) {
@@ -41,13 +43,17 @@ std::string SceneHandler::expectation() const {
     case JsonState::kHoles:
       return "a loop: an array of vertex indices";
     case JsonState::kAreaLoop:
+    case JsonState::kRegionPlane:
       return "a point: an array of three numbers";
+    case JsonState::kRegion:
+      return "a plane: an array of three points";
     case JsonState::kLoop:
     case JsonState::kHole:
       return "a vertex index";
     case JsonState::kVertex:
     case JsonState::kVector:
     case JsonState::kAreaPoint:
+    case JsonState::kRegionPoint:
       return "a number";
     default: {
       const JsonKeyWord* known = key_word();
@@ -97,6 +103,14 @@ std::string SceneHandler::pointer() const {
     case JsonState::kAreaPoint:
       return light() + "/loop" + number(scene_.lights.back().loop.size()) +
              number(coordinate_count_);
+    case JsonState::kRegion:
+      return light() + "/region" + number(scene_.lights.back().region.size());
+    case JsonState::kRegionPlane:
+      return light() + "/region" + number(scene_.lights.back().region.size() - 1) +
+             number(region_points_);
+    case JsonState::kRegionPoint:
+      return light() + "/region" + number(scene_.lights.back().region.size() - 1) +
+             number(region_points_) + number(coordinate_count_);
     case JsonState::kExtra:
       if (outside_extra_ == JsonState::kPolygon) return polygon() + "/extra";
       if (outside_extra_ == JsonState::kLight) return light() + "/extra";
@@ -173,6 +187,7 @@ bool SceneHandler::RawNumber(const char* text, rapidjson::SizeType length, bool)
     case JsonState::kVertex:
     case JsonState::kVector:
     case JsonState::kAreaPoint:
+    case JsonState::kRegionPoint:
       return coordinate(digits);
     case JsonState::kLoop:
     case JsonState::kHole:
@@ -316,6 +331,17 @@ bool SceneHandler::StartArray() {
     case JsonState::kHoles:
       state_ = JsonState::kHole;
       break;
+    case JsonState::kRegion:
+      scene_.lights.back().region.emplace_back();
+      region_points_ = 0;
+      state_ = JsonState::kRegionPlane;
+      break;
+    case JsonState::kRegionPlane:
+      if (region_points_ == kPlanePoints) {
+        return stop_here(ErrorCode::kFormat, "more than three points of a plane", "']'");
+      }
+      state_ = JsonState::kRegionPoint;
+      break;
     case JsonState::kExtra:
       return open_in_extra();
     default:
@@ -339,6 +365,9 @@ bool SceneHandler::StartArray() {
         case kPosition:
         case kToLight:
           state_ = JsonState::kVector;
+          break;
+        case kRegionKey:
+          state_ = JsonState::kRegion;
           break;
         case kExtraKey:
           return begin_extra(position());
@@ -383,7 +412,21 @@ bool SceneHandler::EndArray(rapidjson::SizeType) {
       state_ = JsonState::kPolygon;
       return true;
     case JsonState::kAreaLoop:
+    case JsonState::kRegion:
       state_ = JsonState::kLight;
+      return true;
+    case JsonState::kRegionPoint:
+      if (!end_coordinates()) return false;
+      scene_.lights.back().region.back()[region_points_++] = std::move(current_);
+      state_ = JsonState::kRegionPlane;
+      return true;
+    case JsonState::kRegionPlane:
+      if (region_points_ < kPlanePoints) {
+        return stop_here(ErrorCode::kFormat,
+                         "only " + std::to_string(region_points_) + " of three points of a plane",
+                         expectation());
+      }
+      state_ = JsonState::kRegion;
       return true;
     case JsonState::kExtra:
       return close_in_extra();
@@ -490,6 +533,11 @@ bool SceneHandler::end_light() {
                 "the key '" + std::string(known.word) + "' does not belong to this type of light",
                 "position for point, to_light for directional, loop for area",
                 locate_pointer(text_, stray), stray);
+  }
+  if (light.has_area() && (element_seen_ & kRegionKey) != 0) {
+    const std::string stray = pointer + "/region";
+    return stop(ErrorCode::kFormat, "the key 'region' does not belong to this type of light",
+                "a region of a point or directional light", locate_pointer(text_, stray), stray);
   }
   if ((element_seen_ & kId) == 0) light.id = std::to_string(place);
   state_ = JsonState::kLights;

@@ -37,6 +37,9 @@ enum class JsonState : std::uint8_t {
   kVector,  // position or to_light
   kAreaLoop,
   kAreaPoint,
+  kRegion,
+  kRegionPlane,
+  kRegionPoint,
   kExtra,
   kDone,
 };
@@ -61,6 +64,7 @@ enum JsonKey : std::uint32_t {
   kPosition = 1u << 14,
   kToLight = 1u << 15,
   kIntensity = 1u << 16,
+  kRegionKey = 1u << 17,
 };
 
 struct JsonKeyWord {
@@ -95,6 +99,7 @@ constexpr JsonKeyWord kLightKeys[] = {
     {"to_light", kToLight, "an array of three numbers"},
     {"loop", kLoopKey, "an array of points"},
     {"intensity", kIntensity, "a number"},
+    {"region", kRegionKey, "an array of planes, each by three points"},
     {"extra", kExtraKey, "anything"},
 };
 
@@ -216,6 +221,7 @@ class SceneHandler : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, Scen
   std::string unknown_key_;
   std::uint32_t scene_seen_ = 0, element_seen_ = 0;
   Position current_;
+  std::size_t region_points_ = 0;  // of the last plane of a region
   std::size_t coordinate_count_ = 0;
   std::vector<VertexId> indices_;
   bool skip_bad_ = false;

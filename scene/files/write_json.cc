@@ -152,7 +152,24 @@ class SceneText {
       }
       text_ += ", \"intensity\": " + *intensity;
     }
+    if (auto done = region(light, pointer + "/region"); !done) return done;
     text_ += '}';
+    return {};
+  }
+
+  Expected<void> region(const Light& light, const std::string& pointer) {
+    if (light.region.empty()) return {};
+    text_ += ", \"region\": [";
+    for (std::size_t i = 0; i < light.region.size(); ++i) {
+      text_ += i == 0 ? "[" : ", [";
+      for (std::size_t k = 0; k < light.region[i].size(); ++k) {
+        if (k != 0) text_ += ", ";
+        const std::string own = pointer + '/' + std::to_string(i) + '/' + std::to_string(k);
+        if (auto done = position(light.region[i][k], own); !done) return done;
+      }
+      text_ += ']';
+    }
+    text_ += ']';
     return {};
   }
 

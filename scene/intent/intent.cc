@@ -41,13 +41,13 @@ void measure_box(const PreparedScene& prepared, Intent& intent) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> low{kInfinity, kInfinity, kInfinity},
       high{-kInfinity, -kInfinity, -kInfinity};
-  for (const std::array<double, 3>& position : prepared.geometry.positions) {
+  for (const std::array<double, 3>& position : prepared.geometry.polygon_positions()) {
     for (std::size_t k = 0; k < 3; ++k) {
       low[k] = std::min(low[k], position[k]);
       high[k] = std::max(high[k], position[k]);
     }
   }
-  if (prepared.geometry.positions.empty()) return;
+  if (prepared.geometry.polygon_positions().empty()) return;
   for (std::size_t k = 0; k < 3; ++k) {
     intent.farthest_coordinate =
         std::max({intent.farthest_coordinate, std::abs(low[k]), std::abs(high[k])});

@@ -21,7 +21,7 @@ struct Projected {
 /// space is near in this order, and hardly anyone else is.
 std::vector<Projected> in_order(const PreparedScene& scene, const LocalPoints& points) {
   constexpr long double kX = 0.5257311121L, kY = 0.3090169943L, kZ = 0.7926580101L;
-  std::vector<Projected> order(scene.geometry.positions.size());
+  std::vector<Projected> order(scene.geometry.polygon_positions().size());
   for_each_piece(order.size(), kPieceOfCheapElements, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto vertex = static_cast<VertexId>(i);

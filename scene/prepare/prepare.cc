@@ -17,6 +17,7 @@
 #include "scene/geometry/numbering.h"
 #include "scene/prepare/polygon_parts.h"
 #include "scene/prepare/prepare_lights.h"
+#include "scene/prepare/prepare_regions.h"
 
 namespace gnomon {
 namespace {
@@ -211,13 +212,17 @@ void start_at_vertices(std::size_t inputs, ExactGrid& grid, PreparedScene& out) 
 }
 
 /// Positions on their grid, and the lights if they are wanted.
-Expected<Corners> prepare_positions(const Scene& scene, bool with_lights, PreparedScene& out) {
+/// `region_points`: gets those of all regions of lights, on the grid.
+Expected<Corners> prepare_positions(const Scene& scene, bool with_lights, PreparedScene& out,
+                                    std::vector<scene_detail::GridPoint>& region_points) {
   std::vector<const Position*> points;
   std::vector<std::uint8_t> used(scene.vertices.size());
   const Expected<Corners> corners = mark_used(scene, used);
   if (!corners) return corners;
   std::size_t most = scene.vertices.size();
-  for (const Light& light : scene.lights) most += light.is_point() ? 1 : light.loop.size();
+  for (const Light& light : scene.lights) {
+    most += (light.is_point() ? 1 : light.loop.size()) + 3 * light.region.size();
+  }
   scene_detail::reserve_in_large_pages(points, most);
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (used[v] != 0) points.push_back(&scene.vertices[v]);
@@ -229,6 +234,13 @@ Expected<Corners> prepare_positions(const Scene& scene, bool with_lights, Prepar
     if (light.is_point()) points.push_back(&light.position);
     if (light.has_area()) {
       for (const Position& position : light.loop) points.push_back(&position);
+    }
+  }
+  const std::size_t regions = points.size();
+  for (const Light& light : scene.lights) {
+    if (!with_lights) break;
+    for (const RegionPlane& plane : light.region) {
+      for (const Position& position : plane) points.push_back(&position);
     }
   }
   ExactGrid grid = make_grid(points);
@@ -243,6 +255,7 @@ Expected<Corners> prepare_positions(const Scene& scene, bool with_lights, Prepar
       start_at_vertices(inputs, grid, out);
     }
   }
+  region_points = scene_detail::grid_points(grid, regions);
   scene_detail::reserve_in_large_pages(out.vertex_of_input, scene.vertices.size());
   out.vertex_of_input.assign(scene.vertices.size(), PreparedScene::kUnused);
   weld(scene, std::span(points).first(inputs), grid, out);
@@ -255,19 +268,22 @@ Expected<PreparedScene> prepare(const Scene& scene) { return prepare(scene, Prep
 
 Expected<PreparedScene> prepare(const Scene& scene, const PrepareControl& control) {
   PreparedScene out;
-  const Expected<Corners> corners = prepare_positions(scene, true, out);
+  std::vector<scene_detail::GridPoint> region_points;
+  const Expected<Corners> corners = prepare_positions(scene, true, out, region_points);
   if (!corners) return tl::unexpected(corners.error());
   scene_detail::SceneWatch watch(control, corners->all);
   auto error = with_integers(out, corners->most, [&]<class Int>(const Int&) {
     return scene_detail::make_parts<Int>(scene, watch, out);
   });
+  if (!error) error = scene_detail::prepare_regions(scene, region_points, out);
   if (error) return tl::unexpected(std::move(*error));
   return out;
 }
 
 Expected<std::vector<PolygonProblem>> unusable_polygons(const Scene& scene) {
   PreparedScene out;
-  const Expected<Corners> corners = prepare_positions(scene, false, out);
+  std::vector<scene_detail::GridPoint> no_region;
+  const Expected<Corners> corners = prepare_positions(scene, false, out, no_region);
   if (!corners) return tl::unexpected(corners.error());
   const PrepareControl control;
   scene_detail::SceneWatch watch(control, corners->all);

@@ -20,7 +20,7 @@ class LightMaker {
 
   std::optional<Error> add_directional(std::uint32_t index) {
     const Light& light = scene_.lights[index];
-    PreparedLight result{index, light.type, {}, {}};
+    PreparedLight result = begun(index);
     result.point.directional = true;
     result.point.nearest = nearest(light.position);
     result.point.grid = primitive_direction(light.position);
@@ -36,9 +36,10 @@ class LightMaker {
 
   void add_point(std::uint32_t index, std::size_t grid_point) {
     const Light& light = scene_.lights[index];
-    PreparedLight result{index, light.type, {}, {}};
+    PreparedLight result = begun(index);
     result.point.nearest = nearest(light.position);
     result.point.grid = at(grid_point);
+    result.is_eye = light.is_eye;
     out_.lights.push_back(std::move(result));
   }
 
@@ -71,7 +72,7 @@ class LightMaker {
       out_.light_notes.push_back({index, fmt::format("{} repeated or collinear {} dropped", dropped,
                                                      dropped == 1 ? "vertex" : "vertices")});
     }
-    PreparedLight result{index, light.type, {}, {}};
+    PreparedLight result = begun(index);
     for (Point& p : loop)
       result.area_loop.push_back({std::move(p.x), std::move(p.y), std::move(p.z)});
     out_.lights.push_back(std::move(result));
@@ -79,6 +80,12 @@ class LightMaker {
   }
 
  private:
+  PreparedLight begun(std::uint32_t index) const {
+    PreparedLight light;
+    light.light = index;
+    light.type = scene_.lights[index].type;
+    return light;
+  }
   static std::array<double, 3> nearest(const Position& p) {
     return {p[0].nearest(), p[1].nearest(), p[2].nearest()};
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "gnomon/oracle/witness_check.h"
@@ -236,9 +237,14 @@ std::string check_methods(const Case& scene) {
     if (!scene.is_area(light)) usual.lights.push_back(light);
   }
   if (usual.lights.empty()) return {};
+  const bool has_region = std::ranges::any_of(
+      scene.prepared().lights,
+      [](const PreparedLight& light) { return light.is_eye || !light.region.empty(); });
   ShadowResult first;
   for (const KernelId kernel : kExactKernels) {
     for (const MethodSelection& method : method_variants()) {
+      // Contour knows no regions.
+      if (has_region && !method_info(method.id).makes_fragments) continue;
       ShadowOptions options = with_method(options_for(kernel), method);
       options.lights = usual.lights;
       options.tuning.jobs = 1;
@@ -257,6 +263,10 @@ std::string check_methods(const Case& scene) {
       if (wrong.empty() && kernel == KernelId::kPlane) {
         wrong = check_bounds(scene, *result, options);
         if (wrong.empty()) wrong = compare_fragments(scene, *result);
+        // Sets of casters, and what is outside of a region, are told by no other check.
+        const bool has_sets = std::ranges::any_of(
+            result->lights, [](const LightResult& light) { return !light.caster_sets.empty(); });
+        if (wrong.empty() && (has_sets || has_region)) wrong = check_claims(scene, *result);
       }
       if (!wrong.empty()) return text_of(method) + ": " + wrong;
       if (is_first) first = std::move(*result);

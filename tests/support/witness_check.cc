@@ -109,6 +109,34 @@ std::string check_fragment(const std::vector<Vec>& fragment, const Plane& suppor
   return {};
 }
 
+/// What of a convex loop is in front of a plane.
+std::vector<Vec> clipped(const std::vector<Vec>& loop, const Plane& plane) {
+  std::vector<Vec> front;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    const mpq_class at_a = plane.at(a), at_b = plane.at(b);
+    if (at_a >= 0) front.push_back(a);
+    if (sgn(at_a) * sgn(at_b) >= 0) continue;
+    Vec crossing;
+    for (std::size_t k = 0; k < 3; ++k) crossing[k] = a[k] + (b[k] - a[k]) * (at_a / (at_a - at_b));
+    front.push_back(std::move(crossing));
+  }
+  return front;
+}
+
+/// Nothing of a fragment that has an area is inside of all planes of the region.
+bool is_outside(const Light& light, std::vector<Vec> fragment) {
+  for (const RegionPlane& plane : light.region) {
+    std::array<Vec, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) corners[i][k] = plane[i][k].exact();
+    }
+    const Vec inside = times(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+    fragment = clipped(fragment, {inside, dot(inside, corners[0])});
+  }
+  return fragment.size() < 3 || area_vector(fragment) == Vec{};
+}
+
 }  // namespace
 
 std::string find_false_witness(const Case& scene, const ShadowResult& result) {
@@ -140,13 +168,23 @@ std::string find_false_witness(const Case& scene, const ShadowResult& result) {
           if (fragment.caster != Fragment::kNoCaster) return complain("is lit and names a caster");
           continue;
         }
+        if (fragment.reason == ShadowReason::kOutsideRegion) {
+          if (!is_outside(own, points)) return complain("is not outside of the region");
+          continue;
+        }
+        if (fragment.casters != Fragment::kNoCaster) {
+          // Whether they shadow it together, the oracle's own check says.
+          if (light.caster_sets.at(fragment.casters).size() < 2)
+            return complain("names a set of one");
+          continue;
+        }
         if (fragment.caster == Fragment::kNoCaster) return complain("names no caster");
         const Part& caster = prepared.parts[fragment.caster];
         const auto fails = [&](const std::string& why) {
           return complain(fmt::format("is not shadowed by '{}': {}", id_of(fragment.caster), why));
         };
         if (fragment.caster == part.part) return fails("it is the receiver");
-        if (!caster.casts) return fails("it does not cast");
+        if (!caster.casts && !own.is_eye) return fails("it does not cast");
         const std::vector<Vec> caster_loop = loop_of(prepared, fragment.caster);
         const Vec caster_normal = area_vector(caster_loop);
         const Plane caster_plane{caster_normal, dot(caster_normal, caster_loop[0])};

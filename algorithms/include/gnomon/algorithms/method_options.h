@@ -31,6 +31,19 @@ enum class WallCount : std::uint8_t { kFromEye, kZPass, kZFail };
 /// of the contour (Sutherland, as Crow 1977 tells of him).
 enum class CellSplit : std::uint8_t { kAxis, kContour };
 
+/// What casts: polygons one by one, or closed convex solids as wholes and other polygons one by
+/// one.
+enum class CastersAre : std::uint8_t { kPolygons, kSolids };
+
+/// Which fragments become one again: the two children of a split; also neighbours that make a
+/// convex loop together, whatever split them (Chin & Feiner 1989, sec. 6; Slater 1992, figure 6);
+/// none.
+enum class MergeOf : std::uint8_t { kSiblings, kConvex, kNone };
+
+/// Which edges of a fragment become nodes of a tree: those that it has from the scene, or all of
+/// them, as in a program that does not know which plane made which edge.
+enum class EdgesInTree : std::uint8_t { kOwn, kAll };
+
 /// Each method reads its own of them (Method::options).
 struct MethodOptionValues {
   Cover cover = Cover::kPartition;
@@ -44,6 +57,9 @@ struct MethodOptionValues {
   WallCount count = WallCount::kFromEye;
   bool neighbours = false;   // also by those next in depth alone
   double near = 0, far = 0;  // planes that clip walls, scene units from the eye; 0: none
+  CastersAre casters = CastersAre::kPolygons;  // receiver
+  MergeOf merge = MergeOf::kSiblings;          // svbsp
+  EdgesInTree edges = EdgesInTree::kOwn;       // svbsp
   friend bool operator==(const MethodOptionValues&, const MethodOptionValues&) = default;
 };
 

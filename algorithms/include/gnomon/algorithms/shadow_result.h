@@ -33,6 +33,7 @@ struct Fragment {
   ShadowReason reason = ShadowReason::kNone;  // kBehindLight: of a part that reaches behind an area
                                               // light, the piece there; umbra without a caster
   std::uint32_t caster = kNoCaster;           // part index of the witness
+  std::uint32_t casters = kNoCaster;   // in place of one: an index into LightResult::caster_sets
   std::uint32_t first = 0, count = 0;  // into points / exact_points of the LightResult, if kept
 };
 
@@ -80,6 +81,8 @@ struct LightResult {
   // One for each of `parts` if asked for (ShadowOutput::exact_fractions); else empty.
   std::vector<ExactFractions> exact_fractions;
   std::vector<Fragment> fragments;
+  /// Parts that together hide the light from all of a fragment, where no single one need do.
+  std::vector<std::vector<std::uint32_t>> caster_sets;
   std::vector<std::array<double, 3>> points;           // nearest doubles, scene units
   std::vector<std::array<mpq_class, 3>> exact_points;  // scene units
   // Counts of the papers' tables.

@@ -14,20 +14,22 @@
 namespace gnomon {
 
 enum class Counter : std::uint8_t {
-  kScenePieces,     // pieces of the scene BSP that face the light
-  kVolumes,         // shadow volumes made
-  kTests,           // pairs of a target and a shadow volume
-  kCovered,         // targets wholly inside one volume
-  kDied,            // volumes dropped, since a later one holds all that they shadow
-  kClips,           // cuts of a loop by a plane
-  kNulled,          // pairs of a target and a volume that have no common area
-  kShadowPolygons,  // pieces of targets inside volumes, as the method puts them out
-  kNodes,           // of the tree of planes
-  kDepth,           // of that tree
-  kTileWrites,      // entries made in tiles
-  kClosedTiles,     // tiles that one volume holds wholly
-  kTileBytes,       // memory of the tiles
-  kMeanMet,         // |S(p)| / i of a target: volumes that its tiles name, of all so far
+  kScenePieces,      // pieces of the scene BSP that face the light
+  kVolumes,          // shadow volumes made
+  kTests,            // pairs of a target and a shadow volume
+  kCovered,          // targets wholly inside one volume
+  kDied,             // volumes dropped, since a later one holds all that they shadow
+  kClips,            // cuts of a loop by a plane
+  kNulled,           // pairs of a target and a volume that have no common area
+  kShadowPolygons,   // pieces of targets inside volumes, as the method puts them out
+  kNodes,            // of the tree of planes
+  kDepth,            // of that tree
+  kLongestChain,     // nodes of that tree one below another, each the only child of the one before
+  kMeanFilterDepth,  // of the cells that loops came to
+  kTileWrites,       // entries made in tiles
+  kClosedTiles,      // tiles that one volume holds wholly
+  kTileBytes,        // memory of the tiles
+  kMeanMet,          // |S(p)| / i of a target: volumes that its tiles name, of all so far
   kFirstQuartileMet,
   kMedianMet,
   kThirdQuartileMet,
@@ -51,9 +53,11 @@ enum class Counter : std::uint8_t {
   kNeighbourMisses,  // samples that neighbours alone would have counted otherwise
   kWallBytes,        // memory of walls and caps
   kDepthComplexity,  // polygons that face the eye and cover a sample, of all samples
+  kSolids,           // closed convex solids that cast as wholes
+  kVolumePlanes,     // of all shadow volumes
+  kMerged,           // fragments that went into neighbours
 };
-inline constexpr std::size_t kCounterCount =
-    static_cast<std::size_t>(Counter::kDepthComplexity) + 1;
+inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kMerged) + 1;
 
 /// How the counts of two lights, or of two parts of one run, make one.
 enum class CountKind : std::uint8_t { kSum, kMost };

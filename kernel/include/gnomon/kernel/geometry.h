@@ -14,6 +14,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -89,6 +90,11 @@ struct Geometry {
   std::array<mpq_class, 3> origin;  // scene position of the grid's (0, 0, 0)
   std::vector<EdgeEnds> edges;
   std::vector<SupportTriple> planes;
+
+  /// Positions without those of lights alone.
+  std::span<const std::array<double, 3>> polygon_positions() const {
+    return {positions.data(), positions.size() - light_vertices};
+  }
 };
 
 /// A point light (position, 1) or a directional one (to_light, 0).

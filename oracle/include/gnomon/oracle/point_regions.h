@@ -34,9 +34,10 @@ struct ChartPoint;
 struct ExactPlane;
 
 /// One caster's shadow on one receiver: a convex polygon, counter-clockwise in the receiver's
-/// chart.
+/// chart; or what one plane of the light's region leaves outside, which no light reaches either.
 struct ShadowPiece {
-  std::uint32_t caster = 0;  // part
+  static constexpr std::uint32_t kOutsideRegion = 0xffffffffu;
+  std::uint32_t caster = 0;  // part, or kOutsideRegion
   std::vector<ChartPoint> loop;
 };
 
@@ -58,7 +59,10 @@ class PointRegions {
   /// What is strictly in front of all of them is in the shadow of a caster; its own plane first.
   /// Requires: casts(caster).
   std::vector<ExactPlane> shadow_planes(std::uint32_t caster) const;
-  /// All shadows on a part, in order of casters. Requires: lit_side(part) != kOn. Thread-safe.
+  /// What is strictly in front of one of them is outside of the light's region.
+  std::vector<ExactPlane> outsides() const;
+  /// All shadows on a part, in order of casters, then what is outside of the region. Requires:
+  /// lit_side(part) != kOn. Thread-safe.
   std::vector<ShadowPiece> shadows_on(std::uint32_t receiver) const;
 
  private:

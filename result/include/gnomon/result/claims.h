@@ -34,6 +34,8 @@ struct ClaimedShape {
 struct ClaimedFragment : ClaimedShape {
   LightState state = LightState::kLit;
   std::string caster;  // polygon id of the witness, empty if none is named
+  /// Polygon ids of several that are the witness together; else empty.
+  std::vector<std::string> casters;
   std::string reason;  // as written, the name of a ShadowReason or not; or empty
   /// Cover::kOverlay: of the fragments that hold a point, those of the highest level tell its
   /// class.

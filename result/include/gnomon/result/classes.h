@@ -18,8 +18,14 @@ namespace gnomon {
 /// area light kLit, kPenumbra and kUmbra.
 enum class LightState : std::uint8_t { kLit, kShadow, kPenumbra, kUmbra };
 
-/// Why a whole part is in shadow without any caster.
-enum class ShadowReason : std::uint8_t { kNone, kFacesAway, kLightInPlane, kBehindLight };
+/// Why a part, or a fragment of one, is in shadow without any caster.
+enum class ShadowReason : std::uint8_t {
+  kNone,
+  kFacesAway,
+  kLightInPlane,
+  kBehindLight,
+  kOutsideRegion
+};
 
 /// What the fragments of a side mean together. kPartition: they tile it, and none overlaps another.
 /// kOverlay: they are painted over each other in their order, so that the last one that holds a
@@ -34,7 +40,7 @@ enum class Block : std::uint8_t { kLights, kCombined, kOverlay };
 const char* name_of(LightState state);
 /// "front" or "back", as a polygon's side. Requires: not kOn.
 const char* name_of(Side side);
-/// "faces-away", "light-in-plane", "behind-light"; empty for kNone.
+/// "faces-away", "light-in-plane", "behind-light", "outside-region"; empty for kNone.
 const char* name_of(ShadowReason reason);
 /// "partition" or "overlay".
 const char* name_of(Cover cover);

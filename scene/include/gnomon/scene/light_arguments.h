@@ -26,6 +26,19 @@ Expected<Light> parse_light_argument(LightType type, std::string_view text, Numb
 Expected<std::vector<Light>> lights_from_arguments(const LightArguments& arguments,
                                                    NumberMeaning meaning);
 
+/// Where lights shine, from the command line: --cone=x,y,z:x,y,z:..., --flap=axis:low:high.
+struct RegionArguments {
+  std::vector<std::string> cones, flaps;
+
+  bool none() const { return cones.empty() && flaps.empty(); }
+};
+
+/// Bounds the point and directional lights of a scene. A cone is the pyramid from a light through a
+/// convex polygon; a flap is what is between two planes across an axis, one of which may be left
+/// out ("z:0:"). Errors: kUsage (neither, a cone of a directional light, no such light), kNumber,
+/// kLimit, kGeometry (a polygon that is not convex as a light sees it, or edge-on).
+Expected<void> add_regions(Scene& scene, const RegionArguments& arguments);
+
 /// Appends lights to a scene's own. Errors: kId if an id is taken.
 Expected<void> add_lights(Scene& scene, std::vector<Light> lights);
 

@@ -39,11 +39,20 @@ struct PreparedLight {
   LightType type = LightType::kPoint;
   LightPoint point;                                 // point and directional
   std::vector<std::array<mpz_class, 3>> area_loop;  // area: on the scene's grid
+  /// Where it shines: planes of the geometry, inside in front; none: everywhere. They may be planes
+  /// of polygons, too, and their vertices may be light_vertices.
+  std::vector<PlaneRef> region;
+  bool is_eye = false;  // as Light::is_eye
 
   bool is_point() const { return type == LightType::kPoint; }
   bool is_directional() const { return type == LightType::kDirectional; }
   bool has_area() const { return type == LightType::kArea; }
 };
+
+/// Whether a part casts a shadow of this light, with a side that faces it.
+inline bool casts_under(const PreparedLight& light, const Part& part) {
+  return part.casts || light.is_eye;
+}
 
 /// What was done to an input polygon that was not convex and planar as it stood.
 enum class Repair : std::uint8_t {

@@ -28,12 +28,21 @@ struct Polygon {
 
 enum class LightType : std::uint8_t { kPoint, kDirectional, kArea };
 
+/// A plane that bounds where a light shines: three points, counter-clockwise seen from inside.
+using RegionPlane = std::array<Position, 3>;
+
 struct Light {
   std::string id;
   LightType type = LightType::kPoint;
   Position position;           // point: position; directional: to_light
   std::vector<Position> loop;  // area
   Number intensity{1.0};
+  /// Point and directional lights: it shines inside all of these planes, the planes themselves
+  /// included. None: everywhere.
+  std::vector<RegionPlane> region;
+  /// A point light that stands for an eye: what it reaches is seen. Every polygon hides from an
+  /// eye, also one that casts no shadow. No file has one.
+  bool is_eye = false;
 
   bool is_point() const { return type == LightType::kPoint; }
   bool is_directional() const { return type == LightType::kDirectional; }

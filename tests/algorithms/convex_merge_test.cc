@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fragments merged across splits: figure 6 of Slater 1992, sets of casters, and that nothing but
+// the number of fragments changes. That the classes are the oracle's, and that sets of casters
+// hold, method_suite_test.cc says of every scene.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "exact_check.h"
+#include "fuzz/generate/families.h"
+
+namespace gnomon::test {
+namespace {
+
+struct Rectangle {
+  const char* id;
+  double x0, y0, x1, y1, z;
+};
+
+Scene under_the_sun(std::initializer_list<Rectangle> rectangles) {
+  Scene scene;
+  for (const auto& [id, x0, y0, x1, y1, z] : rectangles) {
+    Polygon& polygon = scene.polygons.emplace_back();
+    polygon.id = id;
+    for (const auto& [x, y] :
+         {std::pair(x0, y0), std::pair(x1, y0), std::pair(x1, y1), std::pair(x0, y1)}) {
+      polygon.loop.push_back(static_cast<VertexId>(scene.vertices.size()));
+      scene.vertices.push_back({Number(x), Number(y), Number(z)});
+    }
+  }
+  Light& sun = scene.lights.emplace_back();
+  sun.id = "sun";
+  sun.type = LightType::kDirectional;
+  sun.position = {Number(0.0), Number(0.0), Number(1.0)};
+  return scene;
+}
+
+LightResult by_svbsp(const Case& scene, MergeOf merge) {
+  ShadowOptions options = options_for(KernelId::kPlane);
+  options.method.point = MethodId::kSvbsp;
+  options.method.options.merge = merge;
+  options.method.prefix = false;
+  auto result = compute_shadows(scene.prepared(), options);
+  EXPECT_TRUE(result);
+  return std::move(result->lights[0]);
+}
+
+std::vector<Fragment> shadows_on(const LightResult& light, std::uint32_t part) {
+  std::vector<Fragment> shadows;
+  for (std::uint32_t f = 0; f < light.parts[part].fragment_count; ++f) {
+    const Fragment& fragment = light.fragments[light.parts[part].first_fragment + f];
+    if (fragment.state == LightState::kShadow) shadows.push_back(fragment);
+  }
+  return shadows;
+}
+
+TEST(ConvexMerge, FigureSixOfSlater) {
+  // p1 before p2 before p3: p1 cuts p2 in two, and the shadow of the three on p3 is p2's.
+  const auto scene = Case::make(
+      under_the_sun({{"p1", 1, 0, 2, 3, 2}, {"p2", 0, 0, 3, 3, 1}, {"p3", -1, -1, 4, 4, 0}}));
+  EXPECT_EQ(shadows_on(by_svbsp(*scene, MergeOf::kSiblings), 2).size(), 3u);
+  const LightResult merged = by_svbsp(*scene, MergeOf::kConvex);
+  const std::vector<Fragment> one = shadows_on(merged, 2);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].caster, 1u);
+  EXPECT_EQ(one[0].count, 4u);
+  EXPECT_GE(merged.work[Counter::kMerged], 2u);
+}
+
+TEST(ConvexMerge, SeveralCastersTogether) {
+  const auto scene = Case::make(
+      under_the_sun({{"left", 0, 0, 1, 1, 1}, {"right", 1, 0, 2, 1, 2}, {"p", -1, -1, 3, 3, 0}}));
+  const LightResult merged = by_svbsp(*scene, MergeOf::kConvex);
+  const std::vector<Fragment> one = shadows_on(merged, 2);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].caster, Fragment::kNoCaster);
+  std::vector<std::uint32_t> casters = merged.caster_sets.at(one[0].casters);
+  std::ranges::sort(casters);
+  EXPECT_EQ(casters, (std::vector<std::uint32_t>{0, 1}));
+}
+
+TEST(ConvexMerge, FragmentsAloneChange) {
+  std::uint64_t siblings = 0, convex = 0, off = 0;
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const auto scene = Case::make(fuzz::families()[0].make(seed));
+    if (!scene) continue;
+    const LightResult usual = by_svbsp(*scene, MergeOf::kSiblings);
+    const LightResult merged = by_svbsp(*scene, MergeOf::kConvex);
+    for (std::size_t i = 0; i < usual.parts.size(); ++i) {
+      ASSERT_EQ(usual.exact_fractions[i].lit, merged.exact_fractions[i].lit) << seed;
+    }
+    siblings += usual.fragment_total;
+    convex += merged.fragment_total;
+    off += by_svbsp(*scene, MergeOf::kNone).fragment_total;
+  }
+  EXPECT_LT(convex, siblings);
+  EXPECT_LT(siblings, off);
+}
+
+}  // namespace
+}  // namespace gnomon::test
