@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gnomon convert: a scene in another format, with the same values, or put right first where it does
 // not say what was meant.
+#include <algorithm>
 #include <memory>
+#include <string_view>
 
 #include "cli/commands/repair_options.h"
 #include "cli/common/commands.h"
@@ -20,7 +22,7 @@ namespace {
 struct ConvertOptions {
   SceneOptions scene;
   RepairOptions repair;
-  std::string from, area_light;  // a point's sight of an area light; empty: the scene itself
+  std::string from, area_light, on;  // a point's sight of an area light; empty: the scene itself
   std::string target;
   std::string format;
 };
@@ -28,9 +30,16 @@ struct ConvertOptions {
 /// Replaces the scene by what a point sees of an area light, if that was asked for.
 Expected<void> take_sight(const ConvertOptions& options, Scene& scene) {
   if (options.from.empty()) return {};
-  const auto point = parse_light_argument(LightType::kPoint, options.from, scene.numbers, "eye");
-  if (!point) return tl::unexpected(point.error());
-  auto seen = visible_light_scene(scene, options.area_light, point->position);
+  auto point = parse_position(options.from, scene.numbers, "--from");
+  if (!point) return tl::unexpected(std::move(point.error()));
+  LightSight sight{options.area_light, *std::move(point), options.on, Side::kFront};
+  constexpr std::string_view kBack = ":back";
+  if (options.on.ends_with(kBack) &&
+      std::ranges::find(scene.polygons, options.on, &Polygon::id) == scene.polygons.end()) {
+    sight.receiver.resize(options.on.size() - kBack.size());
+    sight.side = Side::kBack;
+  }
+  auto seen = visible_light_scene(scene, sight);
   if (!seen) return tl::unexpected(std::move(seen.error()));
   scene = std::move(*seen);
   return {};
@@ -99,6 +108,13 @@ void add_convert_command(CLI::App& app, Action& action) {
           ->group("Sight");
   command.add_option("--area-light", options->area_light, "Its id [the only one]")
       ->type_name("ID")
+      ->needs(from)
+      ->group("Sight");
+  command
+      .add_option("--on", options->on,
+                  "The polygon that the point lies on: it sees what is before its front, or, with "
+                  ":back, behind it [all around]")
+      ->type_name("ID[:back]")
       ->needs(from)
       ->group("Sight");
   command.callback([options, &action] { action = [options] { return run_convert(*options); }; });

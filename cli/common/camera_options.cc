@@ -13,17 +13,6 @@
 namespace gnomon::cli {
 namespace {
 
-/// The option's point, as the scene's numbers are meant.
-Expected<Position> point_of(const std::string& option, const std::string& text,
-                            NumberMeaning meaning) {
-  auto light = parse_light_argument(LightType::kPoint, text, meaning, "eye");
-  if (light) return std::move(light->position);
-  Error error = std::move(light.error());
-  // The parser knows points of lights alone.
-  error.what = option + error.what.substr(std::string("--point").size());
-  return tl::unexpected(std::move(error));
-}
-
 /// A coordinate with few digits, so that an eye that nobody asked for needs few bits: a multiple of
 /// a power of ten, or for doubles of two, below a thousandth of the scene.
 Expected<Number> short_number(double value, double size, NumberMeaning meaning) {
@@ -78,7 +67,7 @@ Expected<ExactCamera> camera_of(const CameraOptions& options, const LoadedScene&
        {std::tuple("--look-at", &options.look_at, &view.look_at),
         std::tuple("--up", &options.up, &view.up)}) {
     if (text->empty()) continue;
-    const auto point = point_of(option, *text, NumberMeaning::kDouble);
+    const auto point = parse_position(*text, NumberMeaning::kDouble, option);
     if (!point) return tl::unexpected(point.error());
     *target = nearest(*point);
   }
@@ -94,7 +83,7 @@ Expected<ExactCamera> camera_of(const CameraOptions& options, const LoadedScene&
       eye[k] = *std::move(number);
     }
   } else {
-    auto point = point_of("--eye", options.eye, meaning);
+    auto point = parse_position(options.eye, meaning, "--eye");
     if (!point) return tl::unexpected(std::move(point.error()));
     eye = *std::move(point);
   }

@@ -210,13 +210,13 @@ namespace {
 /// Adds the eye, and says where lights shine.
 Expected<void> complete_lights(const SceneOptions& options, Scene& scene) {
   if (!options.eye.empty()) {
-    auto eye = parse_light_argument(LightType::kPoint, options.eye, scene.numbers, kEyeId);
-    if (!eye) {
-      eye.error().what = "--eye" + eye.error().what.substr(std::string("--point").size());
-      return tl::unexpected(std::move(eye.error()));
-    }
-    eye->is_eye = true;
-    if (auto added = add_lights(scene, {*std::move(eye)}); !added) return added;
+    auto position = parse_position(options.eye, scene.numbers, "--eye");
+    if (!position) return tl::unexpected(std::move(position.error()));
+    Light eye;
+    eye.id = kEyeId;
+    eye.position = *std::move(position);
+    eye.is_eye = true;
+    if (auto added = add_lights(scene, {std::move(eye)}); !added) return added;
   }
   return add_regions(scene, {options.cones, options.flaps});
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gnomon/scene/light_arguments.h"
 #include "scene/base/text_file.h"
 
 namespace gnomon {

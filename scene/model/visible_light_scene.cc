@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "gnomon/scene/visible_light_scene.h"
 
+#include <gmpxx.h>
+
 #include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace gnomon {
@@ -39,13 +43,51 @@ Expected<const Light*> chosen_light(const Scene& scene, std::string_view id) {
   return chosen;
 }
 
+using Vector = std::array<mpq_class, 3>;
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+mpq_class dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// The plane of a polygon by three of its vertices, counter-clockwise seen from the side.
+Expected<RegionPlane> plane_of(const Scene& scene, const Polygon& polygon, Side side) {
+  const auto from_first = [&](std::size_t i) {
+    const Position &point = scene.vertices[polygon.loop[i]],
+                   &first = scene.vertices[polygon.loop[0]];
+    Vector difference;
+    for (std::size_t k = 0; k < 3; ++k) difference[k] = point[k].exact() - first[k].exact();
+    return difference;
+  };
+  const std::size_t size = polygon.loop.size();
+  Vector area{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < size; ++i) {
+    const Vector own = cross(from_first(i), from_first(i + 1));
+    for (std::size_t k = 0; k < 3; ++k) area[k] += own[k];
+  }
+  for (std::size_t i = 1; i < size; ++i) {
+    if (dot(area, from_first(i)) != 0) {
+      return fail(ErrorCode::kGeometry, "polygon '" + polygon.id + "' is not planar",
+                  "a receiver in one plane");
+    }
+  }
+  for (std::size_t i = 1; i + 1 < size; ++i) {
+    if (dot(area, cross(from_first(i), from_first(i + 1))) <= 0) continue;
+    const auto& at = scene.vertices;
+    RegionPlane plane{at[polygon.loop[0]], at[polygon.loop[i]], at[polygon.loop[i + 1]]};
+    if (side == Side::kBack) std::swap(plane[1], plane[2]);
+    return plane;
+  }
+  return fail(ErrorCode::kGeometry, "polygon '" + polygon.id + "' has no area",
+              "a receiver with a plane");
+}
+
 void turn_round(std::vector<VertexId>& loop) { std::ranges::reverse(loop); }
 
 }  // namespace
 
-Expected<Scene> visible_light_scene(const Scene& scene, std::string_view light,
-                                    const Position& point) {
-  const Expected<const Light*> chosen = chosen_light(scene, light);
+Expected<Scene> visible_light_scene(const Scene& scene, const LightSight& sight) {
+  const Expected<const Light*> chosen = chosen_light(scene, sight.light);
   if (!chosen) return tl::unexpected(chosen.error());
   Scene seen;
   seen.name = scene.name;
@@ -73,7 +115,16 @@ Expected<Scene> visible_light_scene(const Scene& scene, std::string_view light,
 
   Light eye;
   eye.id = "eye";
-  eye.position = point;
+  eye.position = sight.point;
+  if (!sight.receiver.empty()) {
+    const auto on = std::ranges::find(scene.polygons, sight.receiver, &Polygon::id);
+    if (on == scene.polygons.end()) {
+      return fail(ErrorCode::kId, "no polygon '" + sight.receiver + "'", "the id of a polygon");
+    }
+    auto plane = plane_of(scene, *on, sight.side);
+    if (!plane) return tl::unexpected(std::move(plane.error()));
+    eye.region.push_back(*std::move(plane));
+  }
   seen.lights.push_back(std::move(eye));
   return seen;
 }

@@ -67,7 +67,7 @@ TEST_P(VisibleLightScene, LitIsWhatThePointSees) {
     if (method_info(method.id).lights.point) exact_methods.push_back(method);
   }
   constexpr std::size_t kPlaces = 6, kEnough = 60;
-  std::size_t compared = 0, partly = 0, turn = 0;
+  std::size_t compared = 0, partly = 0, cut = 0, turn = 0;
   for (std::uint64_t seed = 1; seed <= 100 && compared < kEnough; ++seed) {
     const auto scene = Case::make(GetParam().make(seed));
     if (!scene) continue;
@@ -80,9 +80,16 @@ TEST_P(VisibleLightScene, LitIsWhatThePointSees) {
         const auto& [part, vertex] = places[places.size() * k / std::min(kPlaces, places.size())];
         const Position& point = scene->scene().vertices[vertex];
         const VisibleLight truth = visibility.at(part, Side::kFront, exact(point));
-        if (truth.in_front != 1) continue;  // the receiver's plane cuts the light
-        const auto made = visible_light_scene(scene->scene(), id, point);
-        ASSERT_TRUE(made) << to_string(made.error());
+        const Part& own = scene->prepared().parts[part];
+        // A bent polygon has no plane of its own; where all of the light is in front none is
+        // needed.
+        const std::string& receiver = scene->scene().polygons[own.polygon].id;
+        auto made = visible_light_scene(scene->scene(), {id, point, receiver, Side::kFront});
+        if (!made && truth.in_front == 1) {
+          made = visible_light_scene(scene->scene(), {id, point, {}, Side::kFront});
+        }
+        if (!made) continue;
+        if (truth.in_front != 1) ++cut;
         const auto seen = Case::make(*made);
         ASSERT_TRUE(seen);
         const KernelId kernel =
@@ -105,6 +112,7 @@ TEST_P(VisibleLightScene, LitIsWhatThePointSees) {
   }
   EXPECT_GE(compared, kEnough / 2);
   EXPECT_GE(partly, 1u);
+  EXPECT_GE(cut, 1u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, VisibleLightScene, testing::ValuesIn(fuzz::area_families()),
@@ -127,7 +135,7 @@ TEST(VisibleLightSceneOf, AShadeThatLooksAwayFromTheLightHidesNothing) {
   Scene scene = lit_room();
   for (const bool looks_up : {false, true}) {
     if (looks_up) std::ranges::reverse(scene.polygons[1].loop);
-    const auto made = visible_light_scene(scene, "", middle);
+    const auto made = visible_light_scene(scene, {{}, middle, {}, Side::kFront});
     ASSERT_TRUE(made) << to_string(made.error());
     const auto seen = Case::make(*made);
     ASSERT_TRUE(seen);
@@ -140,7 +148,7 @@ TEST(VisibleLightSceneOf, WhatCastsNothingIsLeftOutAndIdsStayUnique) {
   Scene scene = lit_room();
   scene.polygons[0].casts = false;
   scene.polygons[1].id = "panel";
-  const auto seen = visible_light_scene(scene, "panel", scene.vertices[0]);
+  const auto seen = visible_light_scene(scene, {"panel", scene.vertices[0], {}, Side::kFront});
   ASSERT_TRUE(seen);
   ASSERT_EQ(seen->polygons.size(), 2u);
   EXPECT_EQ(seen->polygons[0].id, "panel-light");
@@ -149,11 +157,14 @@ TEST(VisibleLightSceneOf, WhatCastsNothingIsLeftOutAndIdsStayUnique) {
 
 TEST(VisibleLightSceneOf, LightsThatAreNone) {
   Scene scene = lit_room();
-  const auto error_of = [&](std::string_view id) {
-    const auto seen = visible_light_scene(scene, id, scene.vertices[0]);
+  const auto error_of = [&](const std::string& id, const std::string& receiver = {}) {
+    const auto seen = visible_light_scene(scene, {id, scene.vertices[0], receiver, Side::kFront});
     return seen ? std::string("none") : to_string(seen.error());
   };
   EXPECT_THAT(error_of("lamp"), HasSubstr("no light 'lamp'"));
+  EXPECT_THAT(error_of("panel", "cupboard"), HasSubstr("no polygon 'cupboard'"));
+  scene.vertices[0][2] = Number(0.5);
+  EXPECT_THAT(error_of("panel", "0"), HasSubstr("'0' is not planar"));
   scene.lights.push_back(scene.lights[0]);
   scene.lights.back().id = "second";
   EXPECT_THAT(error_of(""), HasSubstr("one of: panel, second"));

@@ -17,6 +17,11 @@ struct LightArguments {
   std::vector<std::string> points, suns, areas;
 };
 
+/// Three coordinates, the value of an option of that name. Blanks around numbers are allowed.
+/// Errors: kUsage (not three coordinates), kNumber, kLimit.
+Expected<Position> parse_position(std::string_view text, NumberMeaning meaning,
+                                  const std::string& option);
+
 /// Blanks around numbers are allowed. Errors: kUsage (not three coordinates, fewer than three
 /// points), kNumber, kLimit, kGeometry (a sun at 0,0,0).
 Expected<Light> parse_light_argument(LightType type, std::string_view text, NumberMeaning meaning,
