@@ -42,6 +42,9 @@ struct Rules {
   /// The edges of a complete shadow volume stand above its support plane in the tree: what is in
   /// front of the plane then has no volume that goes on behind it ("Lit and in shadow").
   bool edges_above_supports = true;
+  /// A polygon classified by a finished shadow volume tree sees what was there when its turn came:
+  /// volumes made with it, or after it, are behind it or beside it.
+  bool later_volumes_do_not_count = true;
   /// An edge on the line of another one has that polygon on one side only (docs/contour.md).
   bool edges_on_a_line_count = true;
   /// What hides an edge and what lies behind it are found among the same casters.

@@ -30,7 +30,8 @@ constexpr std::array<std::string_view, 3> kTilingOptions = {"tiles", "cover", "p
 constexpr std::array<std::string_view, 1> kSvbspFullOptions = {"order"};
 constexpr std::array<std::string_view, 1> kSectorsOptions = {"split"};
 constexpr std::array<std::string_view, 2> kTwoPassOptions = {"cells", "cover"};
-constexpr std::array kSvbspCounters = {kScenePieces, kShadowPolygons, kNodes, kDepth};
+constexpr std::array<std::string_view, 2> kSvbspOptions = {"light-order", "grow"};
+constexpr std::array kSvbspCounters = {kScenePieces, kShadowPolygons, kNodes, kDepth, kTreeBytes};
 constexpr std::array kBasicCounters = {kScenePieces, kVolumes, kTests,  kCovered,
                                        kDied,        kClips,   kNulled, kShadowPolygons};
 constexpr std::array kTilingCounters = {
@@ -79,6 +80,8 @@ constexpr std::array kObjectMethods = {
            .combines_lights = true,
            .explains = true,
            .leaves_out_steps = true,
+           .moves_lights = true,
+           .options = kSvbspOptions,
            .counters = kSvbspCounters},
     Method{.id = MethodId::kReceiver,
            .name = "receiver",
@@ -211,6 +214,7 @@ std::vector<std::string_view> abilities(const Method& method) {
   if (method.combines_lights) names.emplace_back("combined");
   if (method.explains) names.emplace_back("explain");
   if (method.overlays) names.emplace_back("overlay");
+  if (method.moves_lights) names.emplace_back("moving");
   if (method.threads) names.emplace_back("threads");
   if (method.names_casters) names.emplace_back("witness");
   return names;

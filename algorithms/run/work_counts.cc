@@ -21,6 +21,7 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kShadowPolygons, "shadow polygons", "pieces of targets inside volumes", kSum},
     {Counter::kNodes, "nodes", "of the tree of planes", kSum},
     {Counter::kDepth, "depth", "of the tree of planes", kMost},
+    {Counter::kTreeBytes, "tree bytes", "memory of the tree of planes", kMost},
     {Counter::kTileWrites, "tile writes", "entries made in tiles", kSum},
     {Counter::kClosedTiles, "closed tiles", "tiles that one volume holds wholly", kSum},
     {Counter::kTileBytes, "tile bytes", "memory of the tiles", kMost},

@@ -64,6 +64,9 @@ ReadOptions read_options(const SceneOptions& options);
 /// The same, prepared and with the lights chosen. Errors: those of reading and preparing; kUsage
 /// for an unknown --light, and for a scene that is left without any light if `needs_light`.
 Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light);
+/// Chooses the lights asked for among the first `count` of the scene. Errors: kUsage for an unknown
+/// --light.
+Expected<void> choose_lights(const SceneOptions& options, LoadedScene& loaded, std::size_t count);
 /// The same with whatever lights `set_lights` gives the scene that was read. Errors: its, too.
 Expected<LoadedScene> load_scene_under(const SceneOptions& options,
                                        const std::function<Expected<void>(Scene&)>& set_lights);

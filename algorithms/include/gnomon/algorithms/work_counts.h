@@ -24,6 +24,7 @@ enum class Counter : std::uint8_t {
   kShadowPolygons,  // pieces of targets inside volumes, as the method puts them out
   kNodes,           // of the tree of planes
   kDepth,           // of that tree
+  kTreeBytes,       // memory of that tree
   kTileWrites,      // entries made in tiles
   kClosedTiles,     // tiles that one volume holds wholly
   kTileBytes,       // memory of the tiles
