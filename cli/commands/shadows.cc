@@ -250,6 +250,7 @@ int run_moving(const ShadowsOptions& options, const KernelChoice& kernel,
                const AlgorithmChoice& algorithm) {
   auto scene = load_moving_scene(options.scene, options.move);
   if (!scene) return report_error(scene.error());
+  warn_of_intent(scene->loaded);
   ProgressBar progress("shadows");
   ShadowOptions shadows = shadow_options_of(options, scene->loaded, kernel, algorithm);
   shadows.control.progress = progress.callback();
