@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gnomon_bench [--short | --long] [--against COMMAND] [--json] [PART...] [--benchmark_...]
 //
-// Parts: targets point kernels area papers scene-bsp pitfalls thickness systems pictures; all but
-// the last four by default.
-// Exit status: 0; 1 if exact kernels, algorithms or peers gave different answers, or fractions that
-// do not add up to 1; 2 bad usage. (`child` and `measure` with their arguments are for the program
-// itself: child.h, comparison/run_measurement.h.)
+// Parts: targets point kernels area papers scene-bsp lights pitfalls thickness systems pictures;
+// all but the last five by default. Exit status: 0; 1 if exact kernels, algorithms or peers gave
+// different answers, or fractions that do not add up to 1; 2 bad usage. (`child` and `measure` with
+// their arguments are for the program itself: child.h, comparison/run_measurement.h.)
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -38,13 +37,15 @@ constexpr const char* kUsage =
     "  area       area lights: both algorithms, growth, Figure 8 of Chin & Feiner 1992\n"
     "  papers     the tables of Chin & Feiner 1989 and Slater 1992\n"
     "  scene-bsp  splits, depth, memory and time of the scene BSP\n"
+    "  lights     lights together: one of them moves, their order, memory\n"
     "  pitfalls   scenes that are known to hurt\n"
     "  thickness  plane thickness of the rounded kernels against wrong answers\n"
     "  systems    every system on every kernel, on all scenes, by size: the table of `gnomon\n"
     "             compare`, and pictures\n"
     "  pictures   samples a second of pictures, plane against double, and the oracle's time\n"
     "\n"
-    "Without PART: all but pitfalls, thickness, systems and pictures. --short takes seconds; "
+    "Without PART: all but lights, pitfalls, thickness, systems and pictures. --short takes "
+    "seconds;\n"
     "--long adds a\n"
     "million polygons to the targets and the scene BSP, full sizes for the slow exact kernels, "
     "and\n"
@@ -68,13 +69,14 @@ bool targets(const Arguments& arguments) {
 }
 
 // The targets come first: the peak memory of a program is never below that of who started it.
-constexpr std::array<NamedPart, 10> kParts{
+constexpr std::array<NamedPart, 11> kParts{
     {{"targets", targets, true},
      {"point", by_extent<gnomon::bench::run_point>, true},
      {"kernels", by_extent<gnomon::bench::run_kernels>, true},
      {"area", by_extent<gnomon::bench::run_area>, true},
      {"papers", by_extent<gnomon::bench::run_papers>, true},
      {"scene-bsp", by_extent<gnomon::bench::run_scene_bsp>, true},
+     {"lights", by_extent<gnomon::bench::run_lights>, false},
      {"pitfalls", by_extent<gnomon::bench::run_pitfalls>, false},
      {"thickness", by_extent<gnomon::bench::run_thickness>, false},
      {"systems", by_extent<gnomon::bench::run_systems>, false},

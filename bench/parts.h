@@ -18,6 +18,8 @@ bool run_kernels(Extent extent);
 bool run_thickness(Extent extent);
 /// Chin & Feiner 1989 and Slater 1992, ours beside the printed counts.
 bool run_papers(Extent extent);
+/// Several lights together: one of them moves, their orders, what trees grow from and what is kept.
+bool run_lights(Extent extent);
 /// Splits, depth, memory and time of the scene BSP.
 bool run_scene_bsp(Extent extent);
 /// Point lights: doubles, other exact numbers, peers, growth, a million polygons, threads, and what

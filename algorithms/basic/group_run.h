@@ -14,8 +14,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <deque>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -267,9 +267,11 @@ Expected<ShadowResult> compute_by_groups(const RunTask& task, Arguments... argum
   ShadowResult result = empty_result(options);
   const double start = cpu_seconds();
   typename Space::SceneSpace scene_space(task.scene.geometry, options.kernel.options());
-  std::deque<LightScene<Space>> lights;
-  for (const std::uint32_t light : task.lights) lights.emplace_back(task, scene_space, light);
-  const auto bsp = order_scene(task, scene_space, lights, result);
+  LightScenes<Space> lights;
+  for (const std::uint32_t light : task.lights) {
+    lights.push_back(std::make_unique<LightScene<Space>>(task, scene_space, light));
+  }
+  const auto bsp = order_scene(task, scene_space, parts_that_face(task.scene, lights), result);
   if (!bsp) return tl::unexpected<Error>(bsp.error());
   std::optional<Pipeline<Space>> pipeline;
   std::optional<PaintedShadows<Space>> painted;
@@ -285,12 +287,12 @@ Expected<ShadowResult> compute_by_groups(const RunTask& task, Arguments... argum
   }
   const LightProgress progress(options.control, bsp->nodes.size(), lights.size());
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    GroupRun<Space, Candidates> run(lights[i], options.method.options, arguments...);
+    GroupRun<Space, Candidates> run(*lights[i], options.method.options, arguments...);
     const RunOutcome outcome = run.run(
         *bsp, [&](std::size_t nodes) { progress(i, nodes); },
         [&](std::uint32_t piece, Side side) {
           if (pipeline) {
-            pipeline->filter(piece, side, i,
+            pipeline->filter(piece, side, i, i + 1 == lights.size(),
                              [&](const auto& loop, auto& output) { run.classify(loop, output); });
           }
           if (painted) {
@@ -299,7 +301,7 @@ Expected<ShadowResult> compute_by_groups(const RunTask& task, Arguments... argum
           }
         });
     if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
-    result.stages += lights[i].space.stage_counts();
+    result.stages += lights[i]->space.stage_counts();
     if (!put_light(options, run.finish(), result)) {
       return stopped_by(RunOutcome::kInterrupted, options);
     }

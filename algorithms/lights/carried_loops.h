@@ -6,7 +6,6 @@
 #define GNOMON_ALGORITHMS_LIGHTS_CARRIED_LOOPS_H
 
 #include <cstdint>
-#include <deque>
 #include <utility>
 #include <vector>
 
@@ -39,12 +38,12 @@ class LoopCarrier {
   using Carried = CarriedLoop<Vertex>;
 
   /// The lights must outlive it.
-  explicit LoopCarrier(std::deque<LightScene<Space>>& lights) : lights_(lights) {}
+  explicit LoopCarrier(const LightScenes<Space>& lights) : lights_(lights) {}
 
   Carried from_scene(const LoopView<SceneVertex>& loop) const {
     Carried carried;
     for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      carried.vertices.push_back(lights_.front().space.import_vertex(loop.vertices[i]));
+      carried.vertices.push_back(lights_.front()->space.import_vertex(loop.vertices[i]));
       carried.edges.push_back({EdgeOrigin::kScene, loop.edges[i]});
     }
     return carried;
@@ -54,7 +53,7 @@ class LoopCarrier {
   /// the part. Valid until the next call.
   LoopView<Vertex> to_light(const Carried& carried, std::uint32_t part_index, Side side,
                             std::uint32_t run) {
-    LightScene<Space>& light = lights_[run];
+    LightScene<Space>& light = *lights_[run];
     Space& space = light.space;
     const PlaneId support = light.plane_of(part_index);
     const bool reversed = side == Side::kBack;
@@ -78,7 +77,7 @@ class LoopCarrier {
       } else if (origin.light == run) {
         loop_.edge(i) = origin.plane;
       } else {
-        loop_.edge(i) = space.import_cut(lights_[origin.light].space, origin.plane, support);
+        loop_.edge(i) = space.import_cut(lights_[origin.light]->space, origin.plane, support);
       }
     }
     for (std::uint32_t i = 0; i < n; ++i) {
@@ -115,7 +114,7 @@ class LoopCarrier {
   }
 
  private:
-  std::deque<LightScene<Space>>& lights_;
+  const LightScenes<Space>& lights_;
   LoopStore<Vertex> loop_;
   std::vector<std::uint32_t> order_;  // loop_ edge -> edge of the carried loop
 };

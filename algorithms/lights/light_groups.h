@@ -6,7 +6,6 @@
 #define GNOMON_ALGORITHMS_LIGHTS_LIGHT_GROUPS_H
 
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <utility>
 #include <vector>
@@ -17,21 +16,28 @@
 
 namespace gnomon {
 
-/// The scene BSP of all parts that face one of the lights at least, only which have to be in order.
-/// The result gets its counts and time. Errors: kInterrupted, kLimit.
+/// All parts that face one of the lights at least, only which have to be in order for them.
 template <LightSpaceModel Space>
-Expected<SceneBsp<typename Space::SceneSpace::Vertex>> order_scene(
-    const RunTask& task, typename Space::SceneSpace& scene_space,
-    const std::deque<LightScene<Space>>& lights, ShadowResult& result) {
-  const double start = cpu_seconds();
-  std::vector<bool> needed(task.scene.parts.size(), false);
-  for (const LightScene<Space>& light : lights) {
-    for (const std::uint32_t part : light.facing.parts) needed[part] = true;
+std::vector<std::uint32_t> parts_that_face(const PreparedScene& scene,
+                                           const LightScenes<Space>& lights) {
+  std::vector<bool> needed(scene.parts.size(), false);
+  for (const auto& light : lights) {
+    for (const std::uint32_t part : light->facing.parts) needed[part] = true;
   }
   std::vector<std::uint32_t> parts;
-  for (std::uint32_t i = 0; i < task.scene.parts.size(); ++i) {
+  for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
     if (needed[i]) parts.push_back(i);
   }
+  return parts;
+}
+
+/// The scene BSP of these parts. The result gets its counts and time. Errors: kInterrupted, kLimit.
+template <SceneSpaceModel SceneSpace>
+Expected<SceneBsp<typename SceneSpace::Vertex>> order_scene(const RunTask& task,
+                                                            SceneSpace& scene_space,
+                                                            std::span<const std::uint32_t> parts,
+                                                            ShadowResult& result) {
+  const double start = cpu_seconds();
   const ShadowOptions& options = task.options;
   auto bsp = build_scene_bsp(scene_space, task.scene, parts, options.method.seed, result.identity,
                              options.control.interrupted, options.limits.fragments, task.rules);

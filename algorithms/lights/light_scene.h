@@ -6,6 +6,8 @@
 #define GNOMON_ALGORITHMS_LIGHTS_LIGHT_SCENE_H
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "algorithms/partition/classified_loop.h"
 #include "algorithms/partition/import_export.h"
@@ -91,6 +93,11 @@ struct LightScene {
   RegionClip<Space> clip_;
   LoopStore<SceneVertex> whole_;
 };
+
+/// The scene as each of several lights sees it. One may be put in the place of another between two
+/// runs.
+template <LightSpaceModel Space>
+using LightScenes = std::vector<std::unique_ptr<LightScene<Space>>>;
 
 }  // namespace gnomon
 

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -31,7 +30,7 @@ class PaintedShadows {
   using Vertex = typename Space::Vertex;
   using SceneVertex = typename Space::SceneSpace::Vertex;
 
-  PaintedShadows(const PreparedScene& scene, std::deque<LightScene<Space>>& lights,
+  PaintedShadows(const PreparedScene& scene, const LightScenes<Space>& lights,
                  const SceneBsp<SceneVertex>& bsp)
       : scene_(scene), lights_(lights), bsp_(bsp), carrier_(lights) {
     for (auto& painted : painted_) painted.resize(bsp.pieces.size());
@@ -73,7 +72,7 @@ class PaintedShadows {
         for (const Painted& painted : painted_[index_of(side)][piece]) {
           PaintedPolygon polygon{part, side, painted.level, painted.dark_for};
           if (painted.owner != PaintedPolygon::kNoOwner) polygon.on = base + painted.owner;
-          export_loop(lights_[painted.run].space, scene_.geometry, options,
+          export_loop(lights_[painted.run]->space, scene_.geometry, options,
                       carrier_.to_light(painted.loop, part, side, painted.run), polygon,
                       result.overlay_points, result.overlay_exact_points);
           all.push_back(polygon);
@@ -106,7 +105,7 @@ class PaintedShadows {
   static std::size_t index_of(Side side) { return side == Side::kFront ? 0 : 1; }
 
   const PreparedScene& scene_;
-  std::deque<LightScene<Space>>& lights_;
+  const LightScenes<Space>& lights_;
   const SceneBsp<SceneVertex>& bsp_;
   LoopCarrier<Space> carrier_;
   std::array<std::vector<std::vector<Painted>>, 2> painted_;  // by side and piece

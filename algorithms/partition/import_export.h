@@ -116,7 +116,36 @@ inline std::array<double, 3> nearest_doubles(const std::array<mpq_class, 3>& poi
   return {nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2])};
 }
 
-/// Appends the vertices of a loop to the points that the options ask for.
+/// Appends a corner of a loop to the points that the options ask for.
+template <LightSpaceModel Space>
+void export_corner(const Space& space, const Geometry& geometry, const RunOptions& options,
+                   const Corner<typename Space::Vertex>& corner,
+                   std::vector<std::array<double, 3>>& points,
+                   std::vector<std::array<mpq_class, 3>>& exact_points) {
+  const bool input = corner.vertex.source != kMadeVertex;
+  if constexpr (requires { space.nearest_position(corner); }) {
+    if (!options.output.exact_points) {
+      if (const auto nearest = space.nearest_position(corner)) {
+        points.push_back(*nearest);
+        return;
+      }
+    }
+  }
+  if (options.output.exact_points || (!input && Space::kExact)) {
+    std::array<mpq_class, 3> exact = space.exact_position(corner);
+    if (options.output.points) {
+      points.push_back(input ? geometry.positions[corner.vertex.source] : nearest_doubles(exact));
+    }
+    if (options.output.exact_points) exact_points.push_back(std::move(exact));
+  } else if (input) {
+    points.push_back(geometry.positions[corner.vertex.source]);
+  } else {
+    const std::array<Ball, 3> point = space.position(corner);
+    points.push_back({point[0].middle, point[1].middle, point[2].middle});
+  }
+}
+
+/// The same for all vertices of a loop; the fragment gets their range.
 template <LightSpaceModel Space, class OutputFragment>
 void export_loop(const Space& space, const Geometry& geometry, const RunOptions& options,
                  const LoopView<typename Space::Vertex>& loop, OutputFragment& fragment,
@@ -126,28 +155,7 @@ void export_loop(const Space& space, const Geometry& geometry, const RunOptions&
       static_cast<std::uint32_t>(options.output.points ? points.size() : exact_points.size());
   fragment.count = loop.size();
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
-    const auto corner = loop.corner(i);
-    const bool input = corner.vertex.source != kMadeVertex;
-    if constexpr (requires { space.nearest_position(corner); }) {
-      if (!options.output.exact_points) {
-        if (const auto nearest = space.nearest_position(corner)) {
-          points.push_back(*nearest);
-          continue;
-        }
-      }
-    }
-    if (options.output.exact_points || (!input && Space::kExact)) {
-      std::array<mpq_class, 3> exact = space.exact_position(corner);
-      if (options.output.points) {
-        points.push_back(input ? geometry.positions[corner.vertex.source] : nearest_doubles(exact));
-      }
-      if (options.output.exact_points) exact_points.push_back(std::move(exact));
-    } else if (input) {
-      points.push_back(geometry.positions[corner.vertex.source]);
-    } else {
-      const std::array<Ball, 3> point = space.position(corner);
-      points.push_back({point[0].middle, point[1].middle, point[2].middle});
-    }
+    export_corner(space, geometry, options, loop.corner(i), points, exact_points);
   }
 }
 

@@ -46,6 +46,9 @@ struct Rules {
   /// made: what is beside a piece is beside its volume (1989, sec. 6, says that they need not
   /// count).
   bool edges_of_splits_bound_volumes = true;
+  /// A polygon classified by a finished shadow volume tree sees what was there when its turn came:
+  /// volumes made with it, or after it, are behind it or beside it.
+  bool later_volumes_do_not_count = true;
   /// An edge on the line of another one has that polygon on one side only (docs/contour.md).
   bool edges_on_a_line_count = true;
   /// What hides an edge and what lies behind it are found among the same casters.

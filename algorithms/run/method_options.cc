@@ -158,6 +158,38 @@ constexpr std::array kOptions = {
                                           : v.order == InsertionOrder::kFile    ? "file"
                                                                                 : "far");
                      }},
+    MethodOption{.name = "light-order",
+                 .values = "file|facing|moving",
+                 .summary = "of lights together: as given, fewest facing polygons first, or those "
+                            "that move last",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<LightOrder>(v.light_order, t,
+                                                    {{"file", LightOrder::kFile},
+                                                     {"facing", LightOrder::kFacing},
+                                                     {"moving", LightOrder::kMoving}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.light_order == LightOrder::kFile     ? "file"
+                                          : v.light_order == LightOrder::kFacing ? "facing"
+                                                                                 : "moving");
+                     }},
+    MethodOption{
+        .name = "grow",
+        .values = "polygons|fragments",
+        .summary = "what trees of lights together grow from: the polygons, or what earlier "
+                   "lights left of them",
+        .read =
+            [](MethodOptionValues& v, std::string_view t) {
+              return read_word<GrowFrom>(
+                  v.grow, t,
+                  {{"polygons", GrowFrom::kPolygons}, {"fragments", GrowFrom::kFragments}});
+            },
+        .text =
+            [](const MethodOptionValues& v) {
+              return std::string(v.grow == GrowFrom::kPolygons ? "polygons" : "fragments");
+            }},
     MethodOption{
         .name = "prune",
         .values = "on|off",

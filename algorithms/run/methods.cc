@@ -30,10 +30,10 @@ constexpr std::array<std::string_view, 3> kTilingOptions = {"tiles", "cover", "p
 constexpr std::array<std::string_view, 1> kSvbspFullOptions = {"order"};
 constexpr std::array<std::string_view, 1> kSectorsOptions = {"split"};
 constexpr std::array<std::string_view, 2> kTwoPassOptions = {"cells", "cover"};
-constexpr std::array<std::string_view, 2> kSvbspOptions = {"edges", "merge"};
+constexpr std::array<std::string_view, 4> kSvbspOptions = {"light-order", "grow", "edges", "merge"};
 constexpr std::array<std::string_view, 1> kReceiverOptions = {"casters"};
-constexpr std::array kSvbspCounters = {kScenePieces,  kShadowPolygons,  kNodes, kDepth,
-                                       kLongestChain, kMeanFilterDepth, kMerged};
+constexpr std::array kSvbspCounters = {kScenePieces,  kShadowPolygons,  kNodes,     kDepth,
+                                       kLongestChain, kMeanFilterDepth, kTreeBytes, kMerged};
 constexpr std::array kReceiverCounters = {kVolumes, kSolids, kVolumePlanes};
 constexpr std::array kBasicCounters = {kScenePieces, kVolumes, kTests,  kCovered,
                                        kDied,        kClips,   kNulled, kShadowPolygons};
@@ -83,6 +83,7 @@ constexpr std::array kObjectMethods = {
            .combines_lights = true,
            .explains = true,
            .leaves_out_steps = true,
+           .moves_lights = true,
            .options = kSvbspOptions,
            .counters = kSvbspCounters},
     Method{.id = MethodId::kReceiver,
@@ -97,11 +98,13 @@ constexpr std::array kObjectMethods = {
            .counters = kReceiverCounters},
     Method{.id = MethodId::kMerged,
            .name = "merged",
-           .summary = "two trees of all casters",
-           .source = "Chin & Feiner 1992",
-           .lights = {.area = true},
+           .summary = "trees of all casters' volumes",
+           .source = "Chin & Feiner 1992; Thibault & Naylor 1987",
+           .lights = {.point = true, .area = true},
            .combines_lights = true,
-           .explains = true},
+           .explains = true,
+           .leaves_out_steps = true,
+           .threads = true},
     Method{.id = MethodId::kPieces,
            .name = "pieces",
            .summary = "the light cut by polygon planes, classes for each piece",
@@ -218,6 +221,7 @@ std::vector<std::string_view> abilities(const Method& method) {
   if (method.combines_lights) names.emplace_back("combined");
   if (method.explains) names.emplace_back("explain");
   if (method.overlays) names.emplace_back("overlay");
+  if (method.moves_lights) names.emplace_back("moving");
   if (method.threads) names.emplace_back("threads");
   if (method.names_casters) names.emplace_back("witness");
   return names;

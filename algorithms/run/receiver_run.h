@@ -114,7 +114,8 @@ class ReceiverRun {
   void run_pieces(std::uint32_t light, double from, double to, ShadowResult& outcome);
   using Trees = PenumbraAndUmbra<Space>;
   bool has_trees(const LightInSpace<Space>& light) const {
-    return light.has_area() && options_.method.area != MethodId::kReceiver;
+    return light.has_area() ? options_.method.area != MethodId::kReceiver
+                            : options_.method.point == MethodId::kMerged;
   }
   /// Readies a side that sees the light for cut(). Returns the trees if it goes down them, else
   /// null. `trees`: may be null.

@@ -76,6 +76,7 @@ void join(ShadowResult& result, ShadowResult run) {
   result.bsp_nodes += run.bsp_nodes;
   result.bsp_fragments += run.bsp_fragments;
   result.bsp_depth = std::max(result.bsp_depth, run.bsp_depth);
+  if (run.together.trees > 0) result.together = run.together;
 }
 
 /// What a lamp or a panel cannot do together with others.
@@ -244,6 +245,38 @@ bool need_fragments(const PreparedScene& scene, const LightList& lights) {
   });
 }
 
+/// Steps are those of several point and directional lights together, by svbsp.
+Expected<void> check_steps(const PreparedScene& scene, const ShadowOptions& options,
+                           const LightList& lights) {
+  if (options.steps.empty()) return {};
+  if (!options.output.combined || !options.control.step_done || options.control.light_done) {
+    return fail(ErrorCode::kUsage, "lights move one by one",
+                "lights together, and who takes the steps");
+  }
+  const MethodId method = method_of(LightType::kPoint, options, true);
+  if (!method_info(method).moves_lights) {
+    return fail(ErrorCode::kUsage,
+                "lights that move need svbsp, not " + std::string(method_info(method).name),
+                "svbsp");
+  }
+  const auto check = [&](const LightList& step) -> Expected<void> {
+    if (step.size() != lights.size()) {
+      return fail(ErrorCode::kUsage, "a step of " + std::to_string(step.size()) + " lights",
+                  std::to_string(lights.size()));
+    }
+    for (const std::uint32_t light : step) {
+      if (light < scene.lights.size() && !scene.lights[light].has_area()) continue;
+      return fail(ErrorCode::kUsage, "light " + std::to_string(light) + " of a step",
+                  "a point or directional light of the scene");
+    }
+    return {};
+  };
+  for (const LightList& step : options.steps) {
+    if (auto checked = check(step); !checked) return checked;
+  }
+  return check(lights);
+}
+
 Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowOptions& options,
                                        const Rules& rules, const LightList& lights,
                                        MethodLookup lookup) {
@@ -264,6 +297,13 @@ Expected<ShadowResult> compute_checked(const PreparedScene& scene, const ShadowO
       return options.control.light_done(std::move(light));
     };
   }
+  if (options.control.step_done) {
+    own.control.step_done = [&](const ShadowResult& step) {
+      ShadowResult restored = step;
+      order.restore(restored);
+      return options.control.step_done(restored);
+    };
+  }
   Expected<ShadowResult> result = Computation(order.scene(), own, rules, lights, lookup).run();
   if (result) {
     order.restore(*result);
@@ -280,6 +320,9 @@ Expected<ShadowResult> compute_with(const PreparedScene& scene, const ShadowOpti
                                     const Rules& rules, MethodLookup lookup) {
   const Expected<LightList> lights = select_lights(scene, options);
   if (!lights) return tl::unexpected<Error>(lights.error());
+  if (const auto checked = check_steps(scene, options, *lights); !checked) {
+    return tl::unexpected<Error>(checked.error());
+  }
   if (!need_fragments(scene, *lights)) {
     return compute_checked(scene, options, rules, *lights, lookup);
   }

@@ -24,6 +24,7 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kLongestChain, "longest chain", "nodes below each other without a branch", kMost},
     {Counter::kMeanFilterDepth, "mean filter depth", "of the cells that loops came to", kMost,
      kMillion},
+    {Counter::kTreeBytes, "tree bytes", "memory of the tree of planes", kMost},
     {Counter::kTileWrites, "tile writes", "entries made in tiles", kSum},
     {Counter::kClosedTiles, "closed tiles", "tiles that one volume holds wholly", kSum},
     {Counter::kTileBytes, "tile bytes", "memory of the tiles", kMost},

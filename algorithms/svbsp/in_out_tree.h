@@ -14,12 +14,12 @@
 
 namespace gnomon {
 
-// Cells are encoded in the child links of nodes: OUT, or IN with its caster.
+// Cells are encoded in the child links of nodes: OUT, or IN with what tells its caster, an index.
 inline constexpr std::int32_t kOutCell = -1;
-constexpr std::int32_t in_cell(std::uint32_t caster) {
-  return -2 - static_cast<std::int32_t>(caster);
+constexpr std::int32_t in_cell(std::uint32_t index) {
+  return -2 - static_cast<std::int32_t>(index);
 }
-constexpr std::uint32_t caster_of_cell(std::int32_t cell) {
+constexpr std::uint32_t index_of_cell(std::int32_t cell) {
   return static_cast<std::uint32_t>(-2 - cell);
 }
 

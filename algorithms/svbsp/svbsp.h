@@ -9,6 +9,10 @@
 // the fragment brought with it become nodes: the planes that cut it stand above it in the tree. (A
 // rounded kernel without identity does not know that, and makes a plane of every edge.)
 //
+// The tree is permanent: each node and each IN cell knows the group of polygons at which it was
+// made, so that a finished tree classifies a loop of any group as the tree of that time did. A cell
+// has a record of its own, since a fragment may turn one IN without adding a node.
+//
 // Guarantee on exact kernels: polygons given front to back, coplanar ones filtered before any of
 // them is inserted, every fragment has the class of the definition (docs: semantics). Explicit
 // stacks.
@@ -54,8 +58,13 @@ class SvbspTree {
   /// Puts the balanced prefix at the top. Requires: nothing inserted yet.
   void plant(const PrefixTree& prefix) { plant_prefix(*space_, prefix, nodes_); }
 
+  /// What is inserted from now on is made at the next group.
+  void begin_group() { ++group_; }
   /// Filters a loop that is counter-clockwise seen from the light.
   void filter(const LoopView<Vertex>& loop, FilterActions actions, ClassifiedLoops<Vertex>& output);
+  /// Appends the fragments of a loop of a group, 1, 2, ..., as they were before anything of that
+  /// group or a later one was inserted.
+  void classify(const LoopView<Vertex>& loop, std::uint32_t group, ClassifiedLoops<Vertex>& output);
 
   std::uint64_t node_count() const { return nodes_.size() - 1; }
   /// Nodes on the longest way from the root to a cell. O(nodes).
@@ -66,11 +75,21 @@ class SvbspTree {
   std::uint64_t mean_filter_depth() const;
   /// Children with fewer than three vertices that were dropped (rounded kernels).
   std::uint64_t vanished() const { return filter_.vanished(); }
+  /// Memory of nodes and cells.
+  std::uint64_t bytes() const {
+    return nodes_.size() * sizeof(Node) + cells_.size() * sizeof(InCell);
+  }
 
  private:
+  static constexpr std::uint32_t kAnyGroup = 0xffffffffu;
   struct Node {
     PlaneRef plane;
     std::int32_t front = kOutCell, back = kOutCell;
+    std::uint32_t group = 0;  // 0: the prefix
+  };
+  /// A link in_cell(i) stands for cells_[i].
+  struct InCell {
+    std::uint32_t caster = 0, group = 0;
   };
   struct Cells;  // what PlaneTreeFilter asks of this tree while it filters one polygon
 
@@ -84,6 +103,8 @@ class SvbspTree {
   Rules rules_;
   std::vector<std::uint64_t> visits_;  // by node: loops that came to a cell below it
   std::vector<Node> nodes_;            // 0 is a sentinel whose front child is the root
+  std::vector<InCell> cells_;
+  std::uint32_t group_ = 0;
   PlaneTreeFilter<Space> filter_;
 };
 

@@ -31,9 +31,14 @@ struct SvbspTree<Space>::Cells {
   SvbspTree& tree;
   const LoopView<Vertex>& original;  // the polygon
   FilterActions actions;
+  std::uint32_t before;  // what was made at this group or later is not there
   ClassifiedLoops<Vertex>& output;
 
-  std::int32_t node_at(TreePlace at) const { return tree.child(at); }
+  std::int32_t node_at(TreePlace at) const {
+    const std::int32_t link = tree.child(at);
+    return link >= 0 && tree.nodes_[static_cast<std::size_t>(link)].group >= before ? kOutCell
+                                                                                    : link;
+  }
   PlaneRef plane(std::uint32_t node, const LoopView<Vertex>&) const {
     return tree.nodes_[node].plane;
   }
@@ -44,24 +49,34 @@ struct SvbspTree<Space>::Cells {
     return fragment_stays(*tree.space_, loop, tree.rules_);
   }
   void at_cell(TreePlace at, const LoopView<Vertex>& fragment) const {
-    const std::int32_t cell = tree.child(at);
     if (tree.visits_.size() <= at.node) tree.visits_.resize(tree.nodes_.size(), 0);
     ++tree.visits_[at.node];
+    const std::int32_t link = node_at(at);
+    const InCell* cell = link == kOutCell ? nullptr : &tree.cells_[index_of_cell(link)];
+    if (cell != nullptr && cell->group >= before) cell = nullptr;
     if (actions.classify) {
-      if (cell == kOutCell) {
+      if (cell == nullptr) {
         output.add_lit(fragment);
       } else {
-        output.add_shadow(fragment, caster_of_cell(cell));
+        output.add_shadow(fragment, cell->caster);
       }
     }
-    if (cell == kOutCell && actions.insert) tree.insert(at, fragment, original);
+    if (cell == nullptr && actions.insert) tree.insert(at, fragment, original);
   }
 };
 
 template <LightSpaceModel Space>
 void SvbspTree<Space>::filter(const LoopView<Vertex>& loop, FilterActions actions,
                               ClassifiedLoops<Vertex>& output) {
-  filter_.filter(*space_, Cells{*this, loop, actions, output}, loop, output);
+  filter_.filter(*space_, Cells{*this, loop, actions, kAnyGroup, output}, loop, output);
+}
+
+template <LightSpaceModel Space>
+void SvbspTree<Space>::classify(const LoopView<Vertex>& loop, std::uint32_t group,
+                                ClassifiedLoops<Vertex>& output) {
+  const std::uint32_t before = rules_.later_volumes_do_not_count ? group : kAnyGroup;
+  filter_.filter(*space_, Cells{*this, loop, {.classify = true, .insert = false}, before, output},
+                 loop, output);
 }
 
 template <LightSpaceModel Space>
@@ -78,11 +93,12 @@ void SvbspTree<Space>::insert(TreePlace at, const LoopView<Vertex>& fragment,
     const PlaneRef plane =
         space_->shadow_plane(edge, fragment.vertices[i], fragment.vertices[fragment.next(i)]);
     const auto node = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back({plane, kOutCell, kOutCell});
+    nodes_.push_back({plane, kOutCell, kOutCell, group_});
     child(at) = static_cast<std::int32_t>(node);
     at = {node, true};
   }
-  child(at) = in_cell(fragment.part);
+  child(at) = in_cell(static_cast<std::uint32_t>(cells_.size()));
+  cells_.push_back({fragment.part, group_});
 }
 
 }  // namespace gnomon

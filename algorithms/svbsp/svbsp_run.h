@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The SVBSP method from a prepared scene to a result: one scene BSP, and for each light the
-// front-to-back order, the SVBSP tree and its output (Chin & Feiner 1989, sec. 4); lights together
-// go through the pipeline of lights/pipeline.h.
+// One light by the SVBSP method (Chin & Feiner 1989, sec. 4): the pieces of a scene BSP front to
+// back, filtered down a tree of shadow planes that grows with them. The finished tree still
+// classifies whatever else lies in these pieces, as it did when their turn came.
 #ifndef GNOMON_ALGORITHMS_SVBSP_SVBSP_RUN_H
 #define GNOMON_ALGORITHMS_SVBSP_SVBSP_RUN_H
 
 #include <algorithm>
-#include <deque>
-#include <optional>
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -16,11 +15,9 @@
 #include "algorithms/lights/light_sink.h"
 #include "algorithms/lights/pipeline.h"
 #include "algorithms/svbsp/balanced_prefix.h"
-#include "algorithms/svbsp/by_svbsp.h"
 #include "algorithms/svbsp/convex_merge.h"
 #include "algorithms/svbsp/svbsp.h"
 #include "algorithms/svbsp/svbsp.inl.h"
-#include "kernel/concept/kernel_model.h"
 
 namespace gnomon {
 
@@ -45,37 +42,70 @@ class SvbspRun {
     space.light_side_of_fragment(loop);
   };
 
-  /// `progress(done)` gets the number of nodes done; `before_node(piece, side)` is called for each
-  /// facing piece of a node before any piece of that node is inserted.
-  template <class Progress, class BeforeNode>
-  RunOutcome run(const SceneBsp<SceneVertex>& bsp, const Progress& progress,
-                 const BeforeNode& before_node) {
-    if (light_.options.prefix) {
-      tree_.plant(plan_prefix(light_.scene, light_.light_point(), light_.facing.parts));
-    }
+  /// Classifies all pieces, and grows the tree from them. `progress(done)` gets the number of nodes
+  /// done.
+  template <class Progress>
+  RunOutcome grow(const SceneBsp<SceneVertex>& bsp, const Progress& progress) {
+    return grow(bsp, progress,
+                [&](std::span<const std::uint32_t> group) { filter_group(bsp, group); });
+  }
+
+  /// The same, but the tree grows from the fragments that the lights so far have left of the
+  /// pieces, and which this light, `run`, classifies here (the plain form of 1989, sec. 5).
+  template <class Progress>
+  RunOutcome grow_from_fragments(const SceneBsp<SceneVertex>& bsp, Pipeline<Space>& pipeline,
+                                 std::uint32_t run, bool is_last, const Progress& progress) {
+    return grow(bsp, progress, [&](std::span<const std::uint32_t> group) {
+      filter_group_of_fragments(bsp, group, pipeline, run, is_last);
+    });
+  }
+
+  /// Classifies what the lights so far have left of the pieces by this light, `run`. Requires: the
+  /// tree is finished.
+  template <class Progress>
+  RunOutcome classify(const SceneBsp<SceneVertex>& bsp, Pipeline<Space>& pipeline,
+                      std::uint32_t run, bool is_last, const Progress& progress) {
+    // Planes of edges that other lights cut are needed as long as they are tested.
+    const std::uint32_t mark = light_.space.plane_mark();
+    const std::uint64_t vanished_before = tree_.vanished();
+    std::uint32_t number = 0;
     const RunOutcome outcome =
-        for_each_group(light_, bsp, progress, [&](std::span<const std::uint32_t> pieces) {
-          for (const std::uint32_t piece : pieces) {
-            before_node(piece, light_.facing.facing[bsp.pieces[piece].part].side);
+        for_each_group(light_, bsp, progress, [&](std::span<const std::uint32_t> group) {
+          ++number;
+          for (const std::uint32_t piece : group) {
+            if (whole_[piece] != Whole::kCut) {
+              pipeline.classify_all(piece, side_of(bsp, piece), run, whole_[piece] == Whole::kLit);
+              continue;
+            }
+            pipeline.filter(piece, side_of(bsp, piece), run, is_last,
+                            [&](const auto& loop, auto& output) {
+                              light_.clip_to_region(loop, output, [&](const auto& inside) {
+                                tree_.classify(inside, number, output);
+                              });
+                            });
           }
-          counts_[Counter::kScenePieces] += pieces.size();
-          filter_group(bsp, pieces);
-          return exceeds(light_.options.limits, output_.fragments.size(), tree_.node_count())
-                     ? RunOutcome::kTooManyFragments
-                     : RunOutcome::kDone;
+          return RunOutcome::kDone;
         });
-    vanished_ = tree_.vanished() + bsp.vanished;
+    light_.space.release_planes(mark);
+    vanished_in_pipeline_ = tree_.vanished() - vanished_before;
     return outcome;
   }
 
-  LightResult finish() {
+  /// What the tree takes.
+  std::uint64_t tree_bytes() const { return tree_.bytes(); }
+  /// Loops that vanished in the last classify() (rounded kernels).
+  std::uint64_t vanished_in_pipeline() const { return vanished_in_pipeline_; }
+
+  /// The result of this light alone. Once, when the tree is finished and before classify().
+  LightResult finish(const SceneBsp<SceneVertex>& bsp) {
     LightResult result;
     result.tree_nodes = tree_.node_count();
-    result.dropped_slivers = vanished_;
+    result.dropped_slivers = tree_.vanished() + bsp.vanished;
     counts_[Counter::kNodes] = tree_.node_count();
     counts_[Counter::kDepth] = tree_.depth();
     counts_[Counter::kLongestChain] = tree_.longest_chain();
     counts_[Counter::kMeanFilterDepth] = tree_.mean_filter_depth();
+    counts_[Counter::kTreeBytes] = tree_.bytes();
     if constexpr (SectorSpaceModel<Space>) {
       if (merge_ == MergeOf::kConvex && light_.options.output.merge) {
         ConvexMerge<Space> merge(light_);
@@ -88,29 +118,79 @@ class SvbspRun {
     result.work = counts_;
     return LightSink<Space>(light_).finish(output_, std::move(result));
   }
-  SvbspTree<Space>& tree() { return tree_; }
 
  private:
+  /// What became of a piece: all of it is in one cell, as are then all fragments of it.
+  enum class Whole : std::uint8_t { kCut, kLit, kDark };
+
+  template <class Progress, class Filter>
+  RunOutcome grow(const SceneBsp<SceneVertex>& bsp, const Progress& progress,
+                  const Filter& filter_one) {
+    whole_.assign(bsp.pieces.size(), Whole::kCut);
+    if (light_.options.prefix) {
+      tree_.plant(plan_prefix(light_.scene, light_.light_point(), light_.facing.parts));
+    }
+    return for_each_group(light_, bsp, progress, [&](std::span<const std::uint32_t> group) {
+      tree_.begin_group();
+      counts_[Counter::kScenePieces] += group.size();
+      filter_one(group);
+      return exceeds(light_.options.limits, output_.fragments.size(), tree_.node_count())
+                 ? RunOutcome::kTooManyFragments
+                 : RunOutcome::kDone;
+    });
+  }
+  Side side_of(const SceneBsp<SceneVertex>& bsp, std::uint32_t piece) const {
+    return light_.facing.facing[bsp.pieces[piece].part].side;
+  }
+
   // The facing pieces of one node are coplanar: none shadows another, so all are classified before
   // any is inserted (docs: semantics; a filter that inserts one first is a classic bug).
   void filter_group(const SceneBsp<SceneVertex>& bsp, std::span<const std::uint32_t> group) {
     pieces_.clear();
     for (const std::uint32_t index : group) {
-      const LoopRange& piece = bsp.pieces[index];
       if constexpr (kFragmentPlanes) {
-        if (!keeps_facing(bsp, piece)) continue;
+        if (!keeps_facing(bsp, bsp.pieces[index])) continue;
       }
-      pieces_.push_back(piece);
+      pieces_.push_back(index);
     }
     const bool alone = pieces_.size() == 1 || !light_.rules.coplanar_classified_first;
-    for (const LoopRange& piece : pieces_) {
-      const bool whole = light_.region.place(piece.part) == RegionPlace::kInside;
-      filter(bsp, piece, {.classify = true, .insert = alone && whole && light_.casts(piece.part)});
-      if (alone && !whole) insert(bsp, piece);
+    for (const std::uint32_t index : pieces_) {
+      const LoopRange& piece = bsp.pieces[index];
+      const std::size_t before = output_.fragments.size();
+      // What casts is never clipped to the region, what receives is.
+      const bool inside = light_.region.place(piece.part) == RegionPlace::kInside;
+      filter(bsp, piece, {.classify = true, .insert = alone && inside && light_.casts(piece.part)});
+      if (alone && !inside) insert(bsp, piece);
+      // Without merging, trees cut what is of one class, too.
+      if (light_.options.output.merge && output_.fragments.size() == before + 1) {
+        const bool lit = output_.fragments.back().state == LightState::kLit;
+        whole_[index] = lit ? Whole::kLit : Whole::kDark;
+      }
     }
     if (alone) return;
-    for (const LoopRange& piece : pieces_) {
-      insert(bsp, piece);
+    for (const std::uint32_t index : pieces_) insert(bsp, bsp.pieces[index]);
+  }
+  /// All fragments of the group are classified before any casts, as pieces are.
+  void filter_group_of_fragments(const SceneBsp<SceneVertex>& bsp,
+                                 std::span<const std::uint32_t> group, Pipeline<Space>& pipeline,
+                                 std::uint32_t run, bool is_last) {
+    std::vector<std::vector<CarriedLoop<Vertex>>> fragments;
+    for (const std::uint32_t piece : group) {
+      filter(bsp, bsp.pieces[piece], {.classify = true, .insert = false});
+      fragments.push_back(pipeline.loops_of(piece, side_of(bsp, piece)));
+      pipeline.filter(piece, side_of(bsp, piece), run, is_last,
+                      [&](const auto& loop, auto& output) {
+                        light_.clip_to_region(loop, output, [&](const auto& inside) {
+                          tree_.filter(inside, {.classify = true, .insert = false}, output);
+                        });
+                      });
+    }
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      if (!light_.casts(bsp.pieces[group[i]].part)) continue;
+      for (const CarriedLoop<Vertex>& fragment : fragments[i]) {
+        tree_.filter(pipeline.to_light(fragment, group[i], side_of(bsp, group[i]), run),
+                     {.classify = false, .insert = true}, output_);
+      }
     }
   }
   void insert(const SceneBsp<SceneVertex>& bsp, const LoopRange& piece) {
@@ -147,60 +227,11 @@ class SvbspRun {
   SvbspTree<Space> tree_;
   ClassifiedLoops<Vertex> output_;
   WorkCounts counts_;
-  std::uint64_t vanished_ = 0;
-  std::vector<LoopRange> pieces_;
+  std::uint64_t vanished_in_pipeline_ = 0;
+  std::vector<Whole> whole_;  // by piece
+  std::vector<std::uint32_t> pieces_;
   LoopStore<Vertex> imported_;
 };
-
-template <LightSpaceModel Space>
-Expected<ShadowResult> compute_by_svbsp(const RunTask& task) {
-  const ShadowOptions& options = task.options;
-  ShadowResult result = empty_result(options);
-  const double start = cpu_seconds();
-  typename Space::SceneSpace scene_space(task.scene.geometry, options.kernel.options());
-  std::deque<LightScene<Space>> lights;  // never moved: a run's tree refers to its space
-  for (const std::uint32_t light : task.lights) lights.emplace_back(task, scene_space, light);
-  const auto bsp = order_scene(task, scene_space, lights, result);
-  if (!bsp) return tl::unexpected<Error>(bsp.error());
-  std::deque<SvbspRun<Space>> runs;
-  for (LightScene<Space>& light : lights) runs.emplace_back(light, options.method.options);
-  std::optional<Pipeline<Space>> pipeline;
-  if (!task.combined.empty()) {
-    if (const auto few = check_light_count(runs.size()); !few) {
-      return tl::unexpected<Error>(few.error());
-    }
-    pipeline.emplace(task.scene, lights, *bsp);
-  }
-  const LightProgress progress(options.control, bsp->nodes.size(), runs.size());
-  for (std::uint32_t i = 0; i < runs.size(); ++i) {
-    SvbspRun<Space>& run = runs[i];
-    const RunOutcome outcome = run.run(
-        *bsp, [&](std::size_t nodes) { progress(i, nodes); },
-        [&](std::uint32_t piece, Side side) {
-          if (!pipeline) return;
-          pipeline->filter(piece, side, i, [&](const auto& loop, auto& output) {
-            lights[i].clip_to_region(loop, output, [&](const auto& inside) {
-              run.tree().filter(inside, {.classify = true, .insert = false}, output);
-            });
-          });
-        });
-    if (outcome != RunOutcome::kDone) return stopped_by(outcome, options);
-    result.stages += lights[i].space.stage_counts();
-    if (!put_light(options, run.finish(), result)) {
-      return stopped_by(RunOutcome::kInterrupted, options);
-    }
-  }
-  if (pipeline) pipeline->put_out(task, result);
-  result.stages += scene_space.stage_counts();
-  result.shadow_seconds = cpu_seconds() - start - result.scene_bsp_seconds;
-  return result;
-}
-
-template <class Kernel>
-Expected<ShadowResult> BySvbsp<Kernel>::run(const RunTask& task) {
-  return with_light_space<Kernel>(task.options.output.stage_counts,
-                                  [&]<class Space>() { return compute_by_svbsp<Space>(task); });
-}
 
 }  // namespace gnomon
 

@@ -136,7 +136,7 @@ struct FullVolumeTree<Space>::Cells {
     } else if (cell == kOutCell) {
       output.add_lit(fragment);
     } else {
-      output.add_shadow(fragment, caster_of_cell(cell));
+      output.add_shadow(fragment, index_of_cell(cell));
     }
   }
 };

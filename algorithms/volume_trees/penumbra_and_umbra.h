@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// One area light by the merged algorithm (Chin & Feiner 1992): receivers are filtered down the tree
-// of all casters' penumbras, and what is in a penumbra down the tree of all umbras.
+// One light by the merged algorithm (Chin & Feiner 1992): receivers are filtered down the tree of
+// all casters' penumbras, and what is in a penumbra down the tree of all umbras. A point or
+// directional light has no penumbra: one tree is the set union of its shadow volumes (Thibault &
+// Naylor 1987), and what it holds is in shadow.
 //
 // Volumes must not depend on the receiver. They do not where the receiver's plane has no vertex of
 // the light behind it: then A_R = A, so that A_O = A n {P_O > 0} is a matter of the caster's side
@@ -23,6 +25,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -69,6 +72,7 @@ class PenumbraAndUmbra {
 
   /// Whether a side that sees the light can be filtered: its plane does not cut the light.
   bool takes(Space& space, SplitRecord& record, PlaneRef receiving) const {
+    if (!light_->has_area()) return true;
     const auto placement = record.decide(space, receiving, light_->shape().loop);
     return placement == Placement::kFront ||
            (placement == Placement::kSpanning && !rules_.straddling_light_is_cut);
@@ -86,6 +90,9 @@ class PenumbraAndUmbra {
 
  private:
   std::vector<std::uint32_t> near_first() const;
+  /// Some point in front of a side: of the light, or of the scene's box for a directional light.
+  /// None if the scene has none.
+  std::optional<Corner<Vertex>> before(Space& space, PlaneRef receiving) const;
   template <class Emit>
   bool filter(VolumeTreeWorkspace<Space>& workspace, const Loop& loop,
               const ReceivingSide<Vertex>& receiving, const Emit& emit) const;
@@ -96,6 +103,7 @@ class PenumbraAndUmbra {
   const CasterTree* boxes_;
   const RunOptions* options_;
   Rules rules_;
+  Polyhedron<Vertex> box_;  // that volumes are cut out of
   VolumeTree<Space> penumbra_, umbra_;
   PolyhedronSplitter<Space> splitter_;
 };
@@ -106,6 +114,13 @@ template <VolumeSpaceModel Space>
 std::vector<std::uint32_t> PenumbraAndUmbra<Space>::near_first() const {
   const LightShape<Vertex> light = light_->shape();
   std::array<double, 3> centre{};
+  // Far away in the direction of the light, in units of the box.
+  constexpr double kFar = 1e3;
+  if (light.direction != nullptr) {
+    const std::array<double, 3>& direction = light.direction->nearest;
+    const double length = std::hypot(direction[0], direction[1], direction[2]);
+    for (std::size_t k = 0; k < 3; ++k) centre[k] = kFar * direction[k] / length;
+  }
   for (std::uint32_t i = 0; i < light.loop.size(); ++i) {
     const std::array<Ball, 3> corner = space_->position(light.loop.corner(i));
     for (std::size_t k = 0; k < 3; ++k) centre[k] += corner[k].middle / light.loop.size();
@@ -141,9 +156,9 @@ typename PenumbraAndUmbra<Space>::Outcome PenumbraAndUmbra<Space>::build(
     penumbra_.plant(prefix);
     umbra_.plant(prefix);
   }
-  // Volumes are cut out of the part of the scene's box that is in front of the light.
-  Polyhedron<Vertex> box = make_box(*space_, {0, 0, 0}, {1, 1, 1});
-  splitter_.clip(*space_, light_->plane(), false, box);
+  // Volumes are cut out of the scene's box, or the part of it that is in front of an area light.
+  box_ = make_box(*space_, {0, 0, 0}, {1, 1, 1});
+  if (light_->has_area()) splitter_.clip(*space_, light_->plane(), false, box_);
   const VolumeStore& store = light_->volumes();
   const std::uint64_t most = options_->limits.fragments > ~std::uint64_t{0} / kMostNodesAFragment
                                  ? ~std::uint64_t{0}
@@ -157,7 +172,7 @@ typename PenumbraAndUmbra<Space>::Outcome PenumbraAndUmbra<Space>::build(
     for (const bool is_umbra : {false, true}) {
       const auto planes = is_umbra ? store.umbra(store[i]) : store.penumbra(store[i]);
       if (planes.empty()) continue;
-      cut_volume(*space_, box, planes, splitter_, volume);
+      cut_volume(*space_, box_, planes, splitter_, volume);
       if (!(is_umbra ? umbra_ : penumbra_)
                .insert(volume, planes.front().index(), store[i].caster, most)) {
         return Outcome::kTooManyNodes;
@@ -172,6 +187,16 @@ template <class Emit>
 bool PenumbraAndUmbra<Space>::filter(VolumeTreeWorkspace<Space>& workspace, const Loop& loop,
                                      const ReceivingSide<Vertex>& receiving,
                                      const Emit& emit) const {
+  if (!light_->has_area()) {
+    workspace.umbra.clear();
+    workspace.filter.filter(umbra_, loop, receiving, workspace.umbra);
+    return std::ranges::all_of(workspace.umbra.fragments, [&](const CellLoop& cell) {
+      const bool lit = cell.caster == Fragment::kNoCaster;
+      const PieceClass state{lit ? LightState::kLit : LightState::kShadow, cell.caster,
+                             ShadowReason::kNone};
+      return emit(state, workspace.umbra.loops.view(cell.loop, loop.support));
+    });
+  }
   workspace.penumbra.clear();
   workspace.filter.filter(penumbra_, loop, receiving, workspace.penumbra);
   for (const CellLoop& cell : workspace.penumbra.fragments) {
@@ -193,17 +218,37 @@ bool PenumbraAndUmbra<Space>::filter(VolumeTreeWorkspace<Space>& workspace, cons
 }
 
 template <VolumeSpaceModel Space>
+std::optional<Corner<typename Space::Vertex>> PenumbraAndUmbra<Space>::before(
+    Space& space, PlaneRef receiving) const {
+  const LightShape<Vertex> light = light_->shape();
+  for (std::uint32_t i = 0; i < light.loop.size(); ++i) {
+    const Corner<Vertex> corner = light.loop.corner(i);
+    // Rounding may find none of them in front.
+    if (space.side_of_plane(receiving, corner) == Side::kFront || i + 1 == light.loop.size()) {
+      return corner;
+    }
+  }
+  for (const PolyhedronFace& face : box_.faces) {
+    for (std::uint32_t i = 0; i < face.count; ++i) {
+      const Corner<Vertex> corner = box_.corner(face, i);
+      if (space.side_of_plane(receiving, corner) == Side::kFront) return corner;
+    }
+  }
+  return std::nullopt;
+}
+
+template <VolumeSpaceModel Space>
 template <class Emit>
 bool PenumbraAndUmbra<Space>::cut(Space& space, SplitRecord& record,
                                   VolumeTreeWorkspace<Space>& workspace, const Loop& whole,
                                   PlaneRef receiving, const Emit& emit) const {
   constexpr PieceClass kBehind{LightState::kUmbra, Fragment::kNoCaster, ShadowReason::kBehindLight};
   const LightShape<Vertex> light = light_->shape();
-  std::uint32_t before = 0;
-  record.decide(space, receiving, light.loop);
-  while (before + 1 < light.loop.size() && record.side(before) != Side::kFront) ++before;
-  const Corner<Vertex> corner = light.loop.corner(before);
-  const ReceivingSide<Vertex> side{receiving, &corner};
+  const std::optional<Corner<Vertex>> corner = before(space, receiving);
+  // On the border of the box, facing outwards: volumes end there, and nothing is in front of it.
+  if (!corner) return emit(PieceClass{LightState::kLit}, whole);
+  const ReceivingSide<Vertex> side{receiving, &*corner};
+  if (!light.has_area()) return filter(workspace, whole, side, emit);
   switch (record.decide(space, light.plane, whole)) {
     case Placement::kBack:
     case Placement::kOn:

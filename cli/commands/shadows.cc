@@ -11,6 +11,7 @@
 
 #include "cli/commands/extras.h"
 #include "cli/commands/illuminate.h"
+#include "cli/commands/moving_lights.h"
 #include "cli/commands/share_output.h"
 #include "cli/common/algorithm_choice.h"
 #include "cli/common/commands.h"
@@ -40,6 +41,7 @@ struct ShadowsOptions {
   bool fragments = false, exact_fractions = false, exact_loops = false;
   bool lit_only = false, shadow_only = false, penumbra_only = false, umbra_only = false;
   bool combined = false;
+  MoveOptions move;
   bool no_merge = false, no_prefix = false, pieces = false;
   bool deep_umbra = false;
   double deep_umbra_tolerance = 1e-3;
@@ -75,6 +77,21 @@ Expected<void> check_pieces(const ShadowsOptions& options) {
   return {};
 }
 
+Expected<void> check_move(const ShadowsOptions& options) {
+  if (!options.move.given()) return {};
+  std::vector<std::pair<const char*, bool>> others{{"--shares", !options.shares.empty()},
+                                                   {"--deep-umbra", options.deep_umbra},
+                                                   {"--pieces", options.pieces},
+                                                   {"--illuminate", options.illuminate.illuminate}};
+  std::ranges::move(options.extras.given(), std::back_inserter(others));
+  for (const auto& [option, given] : others) {
+    if (!given) continue;
+    return fail(ErrorCode::kUsage, std::string(option) + " is of one result, --move makes several",
+                "no --move");
+  }
+  return {};
+}
+
 /// What does not go together, whatever the scene is.
 Expected<void> check_options(const ShadowsOptions& options, const KernelChoice& kernel) {
   for (const auto& [option, given] : {std::pair("--exact-fractions", options.exact_fractions),
@@ -85,6 +102,7 @@ Expected<void> check_options(const ShadowsOptions& options, const KernelChoice& 
                 "an exact kernel: plane, rational or epeck");
   }
   if (auto checked = check_pieces(options); !checked) return checked;
+  if (auto checked = check_move(options); !checked) return checked;
   if (options.shares.empty() || !options.output.empty()) return {};
   for (const auto& [option, given] : result_options(options)) {
     if (!given) continue;
@@ -180,10 +198,9 @@ Expected<std::vector<std::vector<DeepUmbraBounds>>> deep_umbra_of(const ShadowsO
   return all;
 }
 
-Expected<void> write_result(const ShadowsOptions& options, const LoadedScene& loaded,
-                            const AlgorithmChoice& algorithm, const ShadowOptions& shadows,
-                            const ShadowResult& result, PhaseTimes& times) {
-  Stopwatch stopwatch;
+/// What the result's file holds, but for what is computed from the result.
+report::ResultJsonOptions json_options_of(const ShadowsOptions& options, const LoadedScene& loaded,
+                                          const AlgorithmChoice& algorithm) {
   report::ResultJsonOptions json;
   json.geometry_digest = geometry_digest(loaded.scene);
   json.fragments = options.fragments;
@@ -196,6 +213,14 @@ Expected<void> write_result(const ShadowsOptions& options, const LoadedScene& lo
   if (options.shadow_only) json.only = LightState::kShadow;
   if (options.penumbra_only) json.only = LightState::kPenumbra;
   if (options.umbra_only) json.only = LightState::kUmbra;
+  return json;
+}
+
+Expected<void> write_result(const ShadowsOptions& options, const LoadedScene& loaded,
+                            const AlgorithmChoice& algorithm, const ShadowOptions& shadows,
+                            const ShadowResult& result, PhaseTimes& times) {
+  Stopwatch stopwatch;
+  report::ResultJsonOptions json = json_options_of(options, loaded, algorithm);
   times.output += stopwatch.lap();
   auto deep_umbra = deep_umbra_of(options, loaded, result);
   if (!deep_umbra) return tl::unexpected(std::move(deep_umbra.error()));
@@ -221,11 +246,27 @@ bool asks_for_shares_alone(const ShadowsOptions& options, const KernelChoice& ke
          !options.illuminate.illuminate;
 }
 
+int run_moving(const ShadowsOptions& options, const KernelChoice& kernel,
+               const AlgorithmChoice& algorithm) {
+  auto scene = load_moving_scene(options.scene, options.move);
+  if (!scene) return report_error(scene.error());
+  warn_of_intent(scene->loaded);
+  ProgressBar progress("shadows");
+  ShadowOptions shadows = shadow_options_of(options, scene->loaded, kernel, algorithm);
+  shadows.control.progress = progress.callback();
+  const auto done =
+      write_steps(*scene, std::move(shadows), json_options_of(options, scene->loaded, algorithm),
+                  options.output, options.stats);
+  progress.clear();
+  return done ? kDone : report_error(done.error());
+}
+
 int run_shadows(const ShadowsOptions& options) {
   auto kernel = parse_kernel_choice(options.kernel);
   if (!kernel) return report_error(kernel.error());
   auto algorithm = parse_algorithm_choice(
       options.algorithm, {{"--combined", options.combined, &Method::combines_lights},
+                          {"--move", options.move.given(), &Method::moves_lights},
                           {"--fragments", options.fragments, &Method::makes_fragments},
                           {"--exact-loops", options.exact_loops, &Method::makes_fragments},
                           {"--illuminate", options.illuminate.illuminate, &Method::makes_fragments},
@@ -246,6 +287,7 @@ int run_shadows(const ShadowsOptions& options) {
     return report_error(checked.error());
   }
   const ThreadLimit threads(options.scene.jobs);
+  if (options.move.given()) return run_moving(options, *kernel, *algorithm);
   auto loaded = load_scene(options.scene, !options.extras.works_without_light());
   if (!loaded) return report_error(loaded.error());
   warn_of_intent(*loaded);
@@ -307,9 +349,11 @@ void add_shadows_command(CLI::App& app, Action& action) {
                    "Write fractions as exact rationals \"p/q\" (exact kernels)");
   command.add_flag("--exact-loops", options->exact_loops,
                    "Write fragments with exact rational coordinates (exact kernels)");
-  command.add_flag("--combined", options->combined,
-                   "Also write fragments with the set of lights that reach each of them\n(" +
-                       methods_that(&Method::combines_lights) + ")");
+  auto* combined =
+      command.add_flag("--combined", options->combined,
+                       "Also write fragments with the set of lights that reach each of them\n(" +
+                           methods_that(&Method::combines_lights) + ")");
+  add_move_option(command, options->move, combined);
   command.add_flag("--pieces", options->pieces,
                    "Area lights cut by the planes of all polygons first, classes for each piece\n"
                    "(Chin & Feiner 1992 cut by fewer planes)");

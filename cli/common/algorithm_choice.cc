@@ -104,6 +104,7 @@ Expected<AlgorithmChoice> parse_algorithm_choice(std::string_view name,
                 "--algorithm " + able + ", or auto");
   }
   choice.point = selection->id;
+  if (method.lights.area) choice.area = selection->id;
   return choice;
 }
 

@@ -10,6 +10,7 @@
 #include "cli/common/heap.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/jobs.h"
+#include "cli/common/light_places.h"
 #include "cli/common/messages.h"
 #include "cli/common/progress.h"
 #include "gnomon/scene/light_arguments.h"
@@ -65,18 +66,6 @@ void warn_of_dropped(const LoadedScene& loaded) {
             : report::grouped(polygons.size()) + " polygons are dropped (" + ids + "): " + reason;
     warn(loaded.scene.file + ": " + what);
   }
-}
-
-std::string listed_ids(const Scene& scene) {
-  constexpr std::size_t kMost = 8;
-  if (scene.lights.empty()) return "a light in the scene, --point, --sun or --area: there is none";
-  std::string text = "one of: ";
-  for (std::size_t i = 0; i < scene.lights.size() && i < kMost; ++i) {
-    if (i > 0) text += ", ";
-    text += scene.lights[i].id;
-  }
-  if (scene.lights.size() > kMost) text += ", ...";
-  return text;
 }
 
 }  // namespace
@@ -205,8 +194,6 @@ Expected<LoadedScene> load_scene_under(const SceneOptions& options,
   return loaded;
 }
 
-namespace {
-
 /// Adds the eye, and says where lights shine.
 Expected<void> complete_lights(const SceneOptions& options, Scene& scene) {
   if (!options.eye.empty()) {
@@ -221,24 +208,30 @@ Expected<void> complete_lights(const SceneOptions& options, Scene& scene) {
   return add_regions(scene, {options.cones, options.flaps});
 }
 
-}  // namespace
+Expected<void> choose_lights(const SceneOptions& options, LoadedScene& loaded, std::size_t count) {
+  const std::vector<Light>& lights = loaded.scene.lights;
+  for (const std::string& id : options.lights) {
+    const auto light = std::ranges::find(lights, id, &Light::id);
+    if (light == lights.end()) {
+      return fail(ErrorCode::kUsage, "--light " + id + ": no such light",
+                  light_ids_text(loaded.scene));
+    }
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const bool asked = options.lights.empty() || lights[i].is_eye ||
+                       std::ranges::find(options.lights, lights[i].id) != options.lights.end();
+    if (asked) loaded.lights.push_back(i);
+  }
+  return {};
+}
 
 Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light) {
   auto read =
       load_scene_under(options, [&](Scene& scene) { return complete_lights(options, scene); });
   if (!read) return read;
   LoadedScene& loaded = *read;
-  const std::vector<Light>& lights = loaded.scene.lights;
-  for (const std::string& id : options.lights) {
-    const auto light = std::ranges::find(lights, id, &Light::id);
-    if (light == lights.end()) {
-      return fail(ErrorCode::kUsage, "--light " + id + ": no such light", listed_ids(loaded.scene));
-    }
-  }
-  for (std::uint32_t i = 0; i < lights.size(); ++i) {
-    const bool asked = options.lights.empty() || lights[i].is_eye ||
-                       std::ranges::find(options.lights, lights[i].id) != options.lights.end();
-    if (asked) loaded.lights.push_back(i);
+  if (auto chosen = choose_lights(options, loaded, loaded.scene.lights.size()); !chosen) {
+    return tl::unexpected(std::move(chosen.error()));
   }
   if (needs_light && loaded.lights.empty()) {
     return fail(ErrorCode::kUsage, loaded.scene.file + ": there is no light",

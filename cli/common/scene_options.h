@@ -72,6 +72,12 @@ inline constexpr const char* kEyeId = "eye";
 Expected<LoadedScene> load_scene(const SceneOptions& options, bool needs_light);
 /// Chooses the eye alone of the lights. Requires: there is one.
 void choose_eye(LoadedScene& loaded);
+/// Adds the eye to the scene's lights, if there is one, and says where they shine. Errors: those of
+/// the options' texts; kId for a light called as the eye is.
+Expected<void> complete_lights(const SceneOptions& options, Scene& scene);
+/// Chooses the lights asked for among the first `count` of the scene. Errors: kUsage for an unknown
+/// --light.
+Expected<void> choose_lights(const SceneOptions& options, LoadedScene& loaded, std::size_t count);
 /// The same with whatever lights `set_lights` gives the scene that was read. Errors: its, too.
 Expected<LoadedScene> load_scene_under(const SceneOptions& options,
                                        const std::function<Expected<void>(Scene&)>& set_lights);

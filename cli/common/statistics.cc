@@ -52,6 +52,15 @@ std::string stages_text(const StageCounts& stages) {
   return text + '\n';
 }
 
+/// Of lights together by svbsp.
+std::string together_text(const ShadowResult& result) {
+  const TogetherCounts& counts = result.together;
+  if (counts.trees == 0) return {};
+  return "lights together: " + grouped(result.combined.size()) + " fragments, " +
+         grouped(counts.filters) + " loops filtered; trees of " + grouped(counts.tree_bytes) +
+         " bytes, at most " + grouped(counts.tree_bytes_at_once) + " at one time\n";
+}
+
 }  // namespace
 
 std::string statistics_text(const LoadedScene& loaded, const ShadowResult& result,
@@ -78,6 +87,7 @@ std::string statistics_text(const LoadedScene& loaded, const ShadowResult& resul
       text += report::wrapped("work: " + work, report::TextTable::kWidth, 2, 4);
     }
   }
+  text += together_text(result);
   if (result.stages.total() > 0) text += stages_text(result.stages);
   return text + times_text(loaded, times, has_bsp ? result.scene_bsp_seconds : 0);
 }

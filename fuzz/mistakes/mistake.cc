@@ -128,7 +128,8 @@ bool keeps_coordinates(KernelId kernel) {
 }  // namespace
 
 bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
-  const bool svbsp = method == MethodId::kSvbsp, receiver = method == MethodId::kReceiver;
+  const bool svbsp = method == MethodId::kSvbsp, receiver = method == MethodId::kReceiver,
+             merged = method == MethodId::kMerged;
   const bool by_volumes = method == MethodId::kBasic || method == MethodId::kTiling;
   const bool by_order = svbsp || by_volumes;
   // It makes no fragments, and where polygons are it asks of input corners alone.
@@ -153,7 +154,7 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kSliversDropped:
       return !contour;
     case Mistake::kOnSwapped:
-      return !receiver && !contour;
+      return !receiver && !merged && !contour;
     case Mistake::kCoplanarDiesEarly:
       return by_volumes;
     case Mistake::kTileClosedEarly:
@@ -168,6 +169,7 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kFarCornerDecides:
       return contour;
     case Mistake::kUnionWithoutContinuedPlanes:
+      return merged;
     case Mistake::kTVerticesLeftIn:
     case Mistake::kStraddlingLightFaces:
     case Mistake::kTieTurnsPlane:

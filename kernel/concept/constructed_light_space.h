@@ -52,6 +52,7 @@ class ConstructedLightSpace {
   using SceneSpace = Scene;
   using Vertex = typename Scene::Vertex;
   static constexpr bool kExact = Scene::kExact;
+  static constexpr bool kMakesPlanesOfVertices = true;
 
   /// Whether vertices and edges are known to be on the planes that made them.
   bool knows_identity() const { return identity_; }
@@ -71,10 +72,11 @@ class ConstructedLightSpace {
   /// Vertices carry coordinates, so that an edge cut for another light needs no plane here.
   PlaneRef import_cut(const Derived&, PlaneRef, PlaneId) { return {}; }
   void finish_vertex(Vertex&, PlaneRef, PlaneRef) const {}
-  /// With identity an edge keeps its plane, unless it was cut along a support plane; a new one is
-  /// computed from the two vertices.
+  /// With identity an edge keeps its plane, unless it was cut along a support plane or for another
+  /// light; a new one is computed from the two vertices.
   PlaneRef shadow_plane(PlaneRef edge, const Vertex& from, const Vertex& to) {
-    return identity_ && !is_cut(edge) ? edge : add(self().shadow_plane_of(from, to));
+    return identity_ && edge.valid() && !is_cut(edge) ? edge
+                                                      : add(self().shadow_plane_of(from, to));
   }
 
   void make_edge_planes(EdgeId begin, EdgeId end) {

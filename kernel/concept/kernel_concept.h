@@ -66,11 +66,19 @@ concept LightSpaceModel = DecisionSpace<S> && SceneSpaceModel<typename S::SceneS
     std::constructible_from<S, typename S::SceneSpace&, const LightPoint&, const KernelOptions&> &&
     requires(S& space, const S& constant, PlaneRef ref, PlaneId plane, bool reversed,
              typename S::Vertex& vertex, const typename S::SceneSpace::Vertex& scene_vertex,
-             const Corner<typename S::Vertex>& corner, const PrefixPlane& prefix) {
+             const Corner<typename S::Vertex>& corner, const PrefixPlane& prefix,
+             std::uint32_t mark) {
   { constant.knows_identity() } -> std::same_as<bool>;
+  /// Whether shadow_plane() makes a plane through the ends of an edge that has none (not valid()):
+  /// then edges that other lights cut may cast.
+  { S::kMakesPlanesOfVertices } -> std::convertible_to<bool>;
   { constant.light_side(plane) } -> std::same_as<Sign>;
   { space.import_edge(ref, plane, reversed, vertex, vertex) } -> std::same_as<PlaneRef>;
   { constant.import_vertex(scene_vertex) } -> std::same_as<typename S::Vertex>;
+  /// Planes other than those of edges are a stack: release_planes(m) forgets those added since
+  /// plane_mark() was m.
+  { constant.plane_mark() } -> std::same_as<std::uint32_t>;
+  space.release_planes(mark);
   constant.finish_vertex(vertex, ref, ref);
   /// The plane through the light of a fragment's edge, given by the plane that made it and its
   /// ends.
@@ -84,8 +92,8 @@ concept LightSpaceModel = DecisionSpace<S> && SceneSpaceModel<typename S::SceneS
 /// depths, cuts one polygon where it passes through the plane of another, and runs on many threads.
 template <class S>
 concept SectorSpaceModel = LightSpaceModel<S> &&
-    requires(S& space, const S& constant, EdgeId edge, PlaneId plane, std::uint32_t mark,
-             const LightChart& chart, const Corner<typename S::Vertex>& corner) {
+    requires(S& space, const S& constant, EdgeId edge, PlaneId plane, const LightChart& chart,
+             const Corner<typename S::Vertex>& corner) {
   /// Whether forks may be used by different threads at the same time.
   { S::kParallel } -> std::convertible_to<bool>;
   /// A space with the same planes so far; what either adds later is its own. Cheap: edge planes are
@@ -96,10 +104,6 @@ concept SectorSpaceModel = LightSpaceModel<S> &&
   /// that was not made ahead is made by the first import_edge that asks for it, so that one thread
   /// alone need not call this.
   space.make_edge_planes(edge, edge);
-  /// Planes other than those of edges are a stack: release_planes(m) forgets those added since
-  /// plane_mark() was m.
-  { constant.plane_mark() } -> std::same_as<std::uint32_t>;
-  space.release_planes(mark);
   /// On which side of a support plane, in its own orientation, is the corner, a point of the
   /// support plane of its loop?
   { space.side_of_support(plane, corner) } -> std::same_as<Side>;

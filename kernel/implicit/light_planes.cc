@@ -144,6 +144,11 @@ void LightPlanes::release_planes(std::uint32_t mark) {
   }
   own_.resize(mark);
   sources_.resize(mark);
+  const std::uint32_t gone = edge_count() + mark;
+  const auto is_gone = [&](const auto& found) { return found.second.index() >= gone; };
+  std::erase_if(cuts_, is_gone);
+  std::erase_if(traces_, is_gone);
+  std::erase_if(in_scene_, [&](const auto& found) { return found.first >= gone; });
 }
 
 PlaneRef LightPlanes::add_explicit(Vector3<mpz_class> normal) {
@@ -156,8 +161,20 @@ PlaneRef LightPlanes::add_explicit(Vector3<mpz_class> normal) {
 }
 
 PlaneRef LightPlanes::trace(PlaneId support, const ExactPlane<mpz_class>& cut) {
-  return add_explicit(
-      integers().cut_normal(ExactGeometry<mpz_class>(geometry()).plane(support), cut));
+  auto found = supports_.find(support);
+  if (found == supports_.end()) {
+    found = supports_.emplace(support, ExactGeometry<mpz_class>(geometry()).plane(support)).first;
+  }
+  return add_explicit(integers().cut_normal(found->second, cut));
+}
+
+const ExactPlane<mpz_class>& LightPlanes::plane_in_scene(PlaneRef plane) const {
+  auto found = in_scene_.find(plane.index());
+  if (found == in_scene_.end()) {
+    const Vector3<mpz_class> normal = exact_normal<mpz_class>(PlaneRef(plane.index()));
+    found = in_scene_.emplace(plane.index(), integers().in_scene(normal)).first;
+  }
+  return found->second;
 }
 
 // Both planes usable: the normal is the difference of the depth planes, up to a positive factor.
@@ -179,12 +196,10 @@ PlaneRef LightPlanes::cut_of_supports(PlaneId first, PlaneId second) {
 }
 
 PlaneRef LightPlanes::import_cut(const LightPlanes& other, PlaneRef ref, PlaneId support) {
-  const std::array<std::uint64_t, 3> key{reinterpret_cast<std::uintptr_t>(&other), ref.index(),
-                                         support};
+  const CutKey key{&other, ref.index(), support};
   auto found = cuts_.find(key);
   if (found == cuts_.end()) {
-    const Vector3<mpz_class> normal = other.exact_normal<mpz_class>(PlaneRef(ref.index()));
-    found = cuts_.emplace(key, trace(support, other.integers().in_scene(normal))).first;
+    found = cuts_.emplace(key, trace(support, other.plane_in_scene(ref))).first;
   }
   return ref.flipped() ? -found->second : found->second;
 }

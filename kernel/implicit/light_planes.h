@@ -25,7 +25,6 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -60,6 +59,8 @@ class LightPlanes {
     std::int8_t steepest = 0;  // of a far lamp: the axis of the support normal's largest component
   };
   const DepthPlane& depth_plane(PlaneId plane) const { return shared_->depths[plane]; }
+
+  static constexpr bool kMakesPlanesOfVertices = false;
 
   /// Whether an edge's plane is the one that cut it; always.
   bool knows_identity() const { return true; }
@@ -199,14 +200,32 @@ class LightPlanes {
   PlaneRef add(const FilteredPlane& plane, LightPlaneSource source);
   PlaneRef add_explicit(Vector3<mpz_class> normal);
   PlaneRef trace(PlaneId support, const ExactPlane<mpz_class>& cut);
+  /// A plane as one of the scene, in its own orientation.
+  const ExactPlane<mpz_class>& plane_in_scene(PlaneRef plane) const;
 
   std::shared_ptr<Shared> shared_;
   // Planes after those of the edges; a stack.
   std::vector<FilteredPlane> own_;
   std::vector<LightPlaneSource> sources_;
   std::vector<Explicit> explicit_;
-  std::unordered_map<std::uint64_t, PlaneRef> traces_;     // (support plane, cutting plane)
-  std::map<std::array<std::uint64_t, 3>, PlaneRef> cuts_;  // (other light, its plane, support)
+  std::unordered_map<std::uint64_t, PlaneRef> traces_;  // (support plane, cutting plane)
+  struct CutKey {
+    const LightPlanes* other;
+    std::uint32_t plane;
+    PlaneId support;
+    friend bool operator==(const CutKey&, const CutKey&) = default;
+  };
+  struct CutHash {
+    std::size_t operator()(const CutKey& key) const {
+      constexpr std::size_t kOdd = 0x9e3779b97f4a7c15u;
+      const std::size_t both = (std::size_t{key.plane} << 32 | key.support) * kOdd;
+      return (both ^ both >> 32) + std::hash<const LightPlanes*>()(key.other);
+    }
+  };
+  std::unordered_map<CutKey, PlaneRef, CutHash> cuts_;
+  // Of support planes that are cut, and of planes that cut them for other lights.
+  std::unordered_map<PlaneId, ExactPlane<mpz_class>> supports_;
+  mutable std::unordered_map<std::uint32_t, ExactPlane<mpz_class>> in_scene_;
 };
 
 template <class Int>

@@ -35,6 +35,7 @@ class WatchedLightSpace {
   using Vertex = WatchedVertex<Exact::Vertex>;
   static constexpr bool kExact = false;
   static constexpr bool kParallel = false;
+  static constexpr bool kMakesPlanesOfVertices = false;
 
   WatchedLightSpace(SceneSpace& scene, const LightPoint& light, const KernelOptions& options)
       : scene_(&scene),

@@ -22,9 +22,9 @@ constexpr double kTight = 1e-12;
 
 class ResultWriter {
  public:
-  ResultWriter(TextSink& sink, const Scene& scene, const PreparedScene& prepared,
+  ResultWriter(JsonWriter& json, const Scene& scene, const PreparedScene& prepared,
                const ShadowResult& result, const ResultJsonOptions& options)
-      : json_(sink),
+      : json_(json),
         scene_(scene),
         prepared_(prepared),
         result_(result),
@@ -57,7 +57,6 @@ class ResultWriter {
     if (extras_) extras_->write_result();
     write_findings();
     json_.end_object();
-    json_.finish();
   }
 
  private:
@@ -464,7 +463,7 @@ class ResultWriter {
     }
   }
 
-  JsonWriter json_;
+  JsonWriter& json_;
   const Scene& scene_;
   const PreparedScene& prepared_;
   const ShadowResult& result_;
@@ -479,7 +478,14 @@ class ResultWriter {
 
 void write_result_json(TextSink& sink, const Scene& scene, const PreparedScene& prepared,
                        const ShadowResult& result, const ResultJsonOptions& options) {
-  ResultWriter(sink, scene, prepared, result, options).write();
+  JsonWriter json(sink);
+  write_result_object(json, scene, prepared, result, options);
+  json.finish();
+}
+
+void write_result_object(JsonWriter& json, const Scene& scene, const PreparedScene& prepared,
+                         const ShadowResult& result, const ResultJsonOptions& options) {
+  ResultWriter(json, scene, prepared, result, options).write();
 }
 
 }  // namespace gnomon::report

@@ -21,6 +21,7 @@
 namespace gnomon::report {
 
 struct ResultExtras;  // extras_json.h
+class JsonWriter;     // json_writer.h
 
 struct ResultJsonOptions {
   std::string geometry_digest;   // "sha256:..."
@@ -46,6 +47,10 @@ struct ResultJsonOptions {
 
 void write_result_json(TextSink& sink, const Scene& scene, const PreparedScene& prepared,
                        const ShadowResult& result, const ResultJsonOptions& options);
+
+/// The same object as a value within a larger document.
+void write_result_object(JsonWriter& json, const Scene& scene, const PreparedScene& prepared,
+                         const ShadowResult& result, const ResultJsonOptions& options);
 
 }  // namespace gnomon::report
 

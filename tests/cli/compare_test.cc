@@ -78,9 +78,9 @@ TEST(Compare, JsonIsStableAndHasNoTimesUnlessAsked) {
 }
 
 TEST(Compare, WhatARowNeedsAndDoesNotGetIsARow) {
-  const RunResult refused = compare({"solids", "--algorithm", "merged", "--kernel", "plane"});
+  const RunResult refused = compare({"figure-4f", "--algorithm", "basic", "--kernel", "plane"});
   EXPECT_EQ(refused.status, 0) << refused.err;
-  EXPECT_THAT(refused.out, HasSubstr("refused: it takes area lights alone"));
+  EXPECT_THAT(refused.out, HasSubstr("refused: it takes no area lights"));
   const RunResult time = compare({"quads", "--size", "20000", "--algorithm", "basic", "--kernel",
                                   "rational", "--time", "0.3"});
   EXPECT_EQ(time.status, 0) << time.err;

@@ -110,7 +110,7 @@ TEST_F(WorkOfStats, NamesTheCountersOfTheMethod) {
   const std::string tiling = work({"--algorithm", "tiling:tiles=16"}, city);
   EXPECT_TRUE(std::regex_search(tiling, std::regex("mean p 0\\.[0-9]+"))) << tiling;
   EXPECT_THAT(work({"--algorithm", "svbsp"}, city),
-              AllOf(HasSubstr("nodes "), HasSubstr("depth ")));
+              AllOf(HasSubstr("nodes "), HasSubstr("depth "), HasSubstr("tree bytes ")));
   EXPECT_THAT(work({"--algorithm", "two-pass"}, city), HasSubstr("longest list "));
   EXPECT_EQ(work({"--algorithm", "sectors"}, city), "");
   // One line for each light.

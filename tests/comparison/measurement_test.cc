@@ -76,7 +76,7 @@ TEST(Measurement, EverySystemGivesOneAnswerOnEveryExactKernel) {
   RunRequest crossing = request("two-pass", "rational");
   crossing.scene = "lattice:n=24";
   EXPECT_TRUE(measure(crossing).judgement->confirms);
-  for (const char* system : {"sectors", "svbsp", "receiver", "basic", "tiling:tiles=16",
+  for (const char* system : {"sectors", "svbsp", "receiver", "merged", "basic", "tiling:tiles=16",
                              "svbsp-full", "two-pass", "two-pass:cells=off"}) {
     for (const char* kernel : {"plane", "rational", "epeck"}) {
       const Measurement measured = measure(request(system, kernel));
@@ -97,8 +97,6 @@ TEST(Measurement, LargerScenesAreNotJudged) {
 }
 
 TEST(Measurement, WhatCannotBeRunIsRefused) {
-  EXPECT_EQ(measure(request("merged", "double")).end, RunEnd::kRefused);
-  EXPECT_THAT(measure(request("merged", "double")).why, HasSubstr("area lights alone"));
   RunRequest area = request("basic", "double");
   area.scene = "city:area=1";
   area.lights = LightsAsked::kArea;

@@ -63,6 +63,7 @@ struct Method {
   bool combines_lights = false;   // the set of lights that reach each fragment
   bool explains = false;          // the first decision on which a rounded kernel goes wrong
   bool leaves_out_steps = false;  // runs without the balanced prefix, and without merging fragments
+  bool moves_lights = false;      // lights together, step by step (ShadowOptions::steps)
   bool overlays = false;          // shadows painted over polygons (Cover::kOverlay)
   bool threads = false;           // runs on several
   bool names_casters = true;      // of every fragment in shadow, the polygon that hides it
@@ -81,8 +82,8 @@ std::string_view name_of(Domain domain);
 std::vector<std::string_view> names_of(const MethodNeeds& needs);
 /// "point, directional", "area", or all three.
 std::string name_of(LightKinds lights);
-/// What the method can besides classifying, in words: "combined", "explain", "overlay", "threads",
-/// "witness".
+/// What the method can besides classifying, in words: "combined", "explain", "moving", "overlay",
+/// "threads", "witness".
 std::vector<std::string_view> abilities(const Method& method);
 
 /// Requires: not kAutomatic.

@@ -18,6 +18,14 @@ namespace gnomon {
 /// The order in which polygons are inserted where no answer depends on it.
 enum class InsertionOrder : std::uint8_t { kNearFirst, kFile, kFarFirst };
 
+/// The order of lights in a pipeline: as they are given; those that fewest polygons face first; or
+/// those that move last, and the others so.
+enum class LightOrder : std::uint8_t { kFile, kFacing, kMoving };
+
+/// What the shadow volume trees of lights together grow from: the polygons, or the fragments of
+/// them that earlier lights have left.
+enum class GrowFrom : std::uint8_t { kPolygons, kFragments };
+
 /// What shadow volumes are made of: one of all facing polygons together, with walls at the contour
 /// alone, or one of each polygon.
 enum class VolumesOf : std::uint8_t { kChain, kPolygons };
@@ -52,6 +60,9 @@ struct MethodOptionValues {
   InsertionOrder order = InsertionOrder::kNearFirst;  // svbsp-full, zbuffer
   bool cells = true;                                  // two-pass: in cells of light space
   CellSplit split = CellSplit::kAxis;                 // sectors
+  // svbsp, of lights together:
+  LightOrder light_order = LightOrder::kFile;
+  GrowFrom grow = GrowFrom::kPolygons;
   // shadow-polygons:
   VolumesOf volumes = VolumesOf::kChain;
   WallCount count = WallCount::kFromEye;

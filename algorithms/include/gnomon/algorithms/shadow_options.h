@@ -65,12 +65,21 @@ struct RunControl {
   /// time, on any thread of the run; ShadowResult::lights then stays empty. False stops the run
   /// (kInterrupted). May be empty: all results are kept.
   std::function<bool(LightResult&&)> light_done;
+  /// Is shown the result of each step (ShadowOptions::steps), the first included, as soon as it is
+  /// there. False stops the run (kInterrupted).
+  std::function<bool(const ShadowResult&)> step_done;
 };
 
 struct ShadowOptions {
   KernelPolicy kernel;
   MethodChoice method;
   std::vector<std::uint32_t> lights;  // indices into PreparedScene::lights; empty: all
+  /// Lights that move: the lights of each further step, as many as `lights` and each in the place
+  /// of the one that it has moved from. All positions of a light are lights of the scene. Needs
+  /// `output.combined`, point and directional lights, and svbsp. Each step has the result of a run
+  /// of its lights alone; what has not changed since the step before is not done again. The result
+  /// that is returned has no lights.
+  std::vector<std::vector<std::uint32_t>> steps;
   ShadowOutput output;
   ShadowLimits limits;
   ShadowTuning tuning;

@@ -115,6 +115,17 @@ struct PaintedPolygon {
   std::uint32_t first = 0, count = 0;  // into overlay_points / overlay_exact_points
 };
 
+/// What several lights together, by svbsp, have been made with, and what a step in which some of
+/// them have moved has done of it.
+struct TogetherCounts {
+  std::uint64_t trees = 0, trees_built = 0;
+  std::uint64_t filters_from_nothing = 0, filters = 0;  // loops classified by a tree
+  std::uint64_t tree_bytes = 0;                         // of all trees
+  std::uint64_t tree_bytes_at_once =
+      0;                         // most of them at one time: those of no more use are dropped
+  std::uint64_t kept_bytes = 0;  // fragments that later steps start from
+};
+
 struct ShadowResult {
   std::string kernel;     // id of formats: "plane", "double", ...
   std::string algorithm;  // "sectors", "svbsp", "receiver", "merged", "pieces"; "sectors+receiver"
@@ -136,6 +147,7 @@ struct ShadowResult {
   double scene_bsp_seconds = 0, shadow_seconds = 0;  // CPU time
   StageCounts stages;  // which stage answered; all zero unless ShadowOptions::count_stages
   std::uint64_t bsp_nodes = 0, bsp_fragments = 0, bsp_depth = 0;
+  TogetherCounts together;  // of svbsp
 };
 
 }  // namespace gnomon

@@ -26,6 +26,7 @@ enum class Counter : std::uint8_t {
   kDepth,            // of that tree
   kLongestChain,     // nodes of that tree one below another, each the only child of the one before
   kMeanFilterDepth,  // of the cells that loops came to
+  kTreeBytes,        // memory of that tree
   kTileWrites,       // entries made in tiles
   kClosedTiles,      // tiles that one volume holds wholly
   kTileBytes,        // memory of the tiles
