@@ -29,8 +29,10 @@
 #include "algorithms/contour/contour_bounds.h"
 #include "algorithms/contour/edge_planes.h"
 #include "algorithms/contour/exact_values.h"
+#include "algorithms/contour/far_apex.h"
 #include "algorithms/contour/in_parallel.h"
 #include "algorithms/contour/numbers.h"
+#include "algorithms/contour/scaled_scene.h"
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/kernel/orientation.h"
 #include "gnomon/kernel/sign.h"
@@ -145,67 +147,6 @@ template <class T>
 Vector<T> difference_of(const Vector<T>& a, const Vector<T>& b) {
   return {T(a[0] - b[0]), T(a[1] - b[1]), T(a[2] - b[2])};
 }
-
-/// Positions and the light in a kernel's own numbers: rationals on the grid, or rounded and scaled
-/// by a power of two to a size of 1, so that products of three of them neither over- nor underflow.
-/// A far lamp is scaled by itself, and both are seen from the corner of the grid.
-template <class T>
-class ScaledScene {
- public:
-  ScaledScene(const Geometry& geometry, const LightPoint& light, bool far) : geometry_(geometry) {
-    if constexpr (!std::is_same_v<T, mpq_class>) {
-      for (int k = 0; far && k < 3; ++k) {
-        corner_[k] = geometry.origin[static_cast<std::size_t>(k)].get_d();
-      }
-      double most = 0, most_of_light = 0;
-      for (const std::array<double, 3>& p : geometry.positions) {
-        most = std::max(most, largest({p[0] - corner_[0], p[1] - corner_[1], p[2] - corner_[2]}));
-      }
-      const std::array<double, 3>& l = light.nearest;
-      most_of_light = largest({l[0] - corner_[0], l[1] - corner_[1], l[2] - corner_[2]});
-      if (!light.directional && !far) most = most_of_light = std::max(most, most_of_light);
-      scale_ = power_below(most);
-      light_scale_ = power_below(most_of_light);
-      nearness_ = far ? T(light_scale_ / scale_) : T(0);
-    } else if (far) {
-      // Rays are to be doubles for boxes, however far it is.
-      mpq_div_2exp(nearness_.get_mpq_t(), mpq_class(1).get_mpq_t(), bits_of(light.grid));
-    }
-    for (int k = 0; k < 3; ++k) {
-      if constexpr (std::is_same_v<T, mpq_class>) {
-        light_[k] = light.grid[k];
-        if (far) light_[k] *= nearness_;
-      } else {
-        light_[k] = static_cast<T>((light.nearest[k] - corner_[k]) * light_scale_);
-      }
-    }
-  }
-  Vector<T> position(VertexId v) const {
-    Vector<T> p;
-    for (int k = 0; k < 3; ++k) {
-      if constexpr (std::is_same_v<T, mpq_class>) {
-        p[k] = geometry_.grid.at(v, k);
-      } else {
-        p[k] = static_cast<T>((geometry_.positions[v][k] - corner_[k]) * scale_);
-      }
-    }
-    return p;
-  }
-  const Vector<T>& light() const { return light_; }
-  double scale() const { return scale_; }
-  /// Of z in the third component of a ray: 0 but for a far lamp.
-  const T& nearness() const { return nearness_; }
-
- private:
-  static double power_below(double size) {
-    return size > 0x1p-900 && size < 0x1p900 ? std::ldexp(1.0, -std::ilogb(size)) : 1;
-  }
-  const Geometry& geometry_;
-  std::array<double, 3> corner_{};
-  double scale_ = 1, light_scale_ = 1;
-  T nearness_{};
-  Vector<T> light_;
-};
 
 }  // namespace contour_detail
 
@@ -437,62 +378,6 @@ inline void fill_heights(const LightIntegers& light,
     result.heights[v] = sign * z;
   }
 }
-
-/// Of a far lamp: the way to it from vertices of a narrow grid, times 2^-light_bits, along its
-/// axes.
-class FarApex {
- public:
-  FarApex(const LightIntegers& light, const Vector<double>& to_light)
-      : light_(light),
-        to_light_(to_light),
-        nearness_(std::ldexp(1.0, -static_cast<int>(light.light_bits))) {
-    const std::array<int, 3> axes{light.axes.x, light.axes.y, light.axes.z};
-    constexpr unsigned kShort = 62, kDoubleBits = 53;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const mpz_class& x = light.light.grid[static_cast<std::size_t>(axes[k])];
-      axes_[k] = axes[k];
-      if (bits_of(x) <= kShort) {
-        how_[k] = How::kShort;
-        short_[k] = x.get_si();
-      } else {
-        how_[k] = light.grid_bits() <= kDoubleBits ? How::kDoubles : How::kIntegers;
-      }
-    }
-  }
-  /// Each component off by 3.1u of itself: by u; by 2u and u, since the lamp's has 62 bits at least
-  /// and the vertex's 53 at most; by 2u.
-  Vector<double> operator()(VertexId v) const {
-    const std::int64_t* p = light_.geometry->grid.narrow_point(v);
-    Vector<double> result;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::int64_t x = p[axes_[k]];
-      switch (how_[k]) {
-        case How::kShort:
-          // |x| < 2^63 - 1 and |l| < 2^62: their difference may have 64 bits.
-          result[k] = static_cast<double>(Int128{short_[k]} - x) * nearness_;
-          break;
-        case How::kDoubles:
-          result[k] = to_light_[k] - static_cast<double>(x) * nearness_;
-          break;
-        case How::kIntegers:
-          result[k] =
-              to_double_scaled(mpz_class(light_.light.grid[static_cast<std::size_t>(axes_[k])] -
-                                         static_cast<long>(x)),
-                               static_cast<long>(light_.light_bits));
-      }
-    }
-    return result;
-  }
-
- private:
-  enum class How : std::uint8_t { kShort, kDoubles, kIntegers };
-  const LightIntegers& light_;
-  Vector<double> to_light_;
-  double nearness_;  // of a grid's step
-  std::array<int, 3> axes_{};
-  std::array<How, 3> how_{};
-  std::array<std::int64_t, 3> short_{};
-};
 
 /// The planes of edges, from a narrow grid. Requires: rays and lines.
 inline void fill_planes(const LightIntegers& light, unsigned jobs,

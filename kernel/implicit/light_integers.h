@@ -28,7 +28,7 @@ struct LightIntegers {
   unsigned side_bits;   // signed bits of the side of an edge plane of an input vertex
   unsigned edge_bits;   // magnitude bits of an edge plane
   unsigned cut_bits;    // magnitude bits of a cut of two support planes
-  bool far;             // a lamp beyond is_far(): its doubles are those of a sun, nearly
+  bool far;             // a lamp of kFarBits: its doubles are those of a sun, nearly
   bool narrow;          // grid and light fit into 64 bits, and their differences
   std::array<std::int64_t, 3> narrow_light{};  // the light, if narrow
 

@@ -163,7 +163,7 @@ auto with_integers(const PreparedScene& out, std::size_t most_corners, const F& 
 /// the corner of the vertices, and lamps may be below it. Requires: lights are prepared, and none
 /// has an area.
 void start_at_vertices(std::size_t inputs, ExactGrid& grid, PreparedScene& out) {
-  constexpr unsigned kFarBits = 12;
+  constexpr unsigned kFarBits = 12;  // as LightIntegers::kFarBits of kernel `plane`
   std::array<mpz_class, 3> low, high;
   const auto find_box = [&](const auto& coordinates) {
     for (std::size_t k = 0; k < 3; ++k) {

@@ -136,7 +136,9 @@ TEST(Lights, PointLightsCountForTheGrid) {
   const auto prepared = b.prepare();
   ASSERT_TRUE(prepared);
   EXPECT_EQ(prepared->geometry.step, mpq_class(1, 2));
-  EXPECT_EQ(prepared->lights[0].point.grid, (std::array<mpz_class, 3>{0, 2, 2000000}));
+  // The lamp is so far away that the grid starts at the vertices, and has their bits alone.
+  EXPECT_EQ(prepared->lights[0].point.grid, (std::array<mpz_class, 3>{-1, 2, 2000000}));
+  EXPECT_EQ(prepared->geometry.grid.bits(), 4u);
   EXPECT_EQ(prepared->position_bits, 21u);
   EXPECT_EQ(first_flaw(*prepared, b.scene()), "");
 }
