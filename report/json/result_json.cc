@@ -280,11 +280,12 @@ class ResultWriter {
     write_area_of(side, areas_.nearest(side.polygon, share), share);
   }
 
-  /// Of a share of a side.
-  void write_area_of(const ClassifiedSide& side, double nearest, const mpq_class& share) {
+  /// Of a share of a side, a double or a rational.
+  template <class Share>
+  void write_area_of(const ClassifiedSide& side, double nearest, const Share& share) {
     write_area(json_, nearest, [&]() -> mpq_class {
       if (share == 0) return 0;  // the usual reason for an area of 0
-      return share * precise_area(prepared_, side.polygon);
+      return mpq_class(share) * precise_area(prepared_, side.polygon);
     });
   }
 
