@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -51,6 +52,7 @@ class ConvexMerge {
       if (gone[i] == 0) output.fragments[kept++] = output.fragments[i];
     }
     output.fragments.resize(kept);
+    keep_used_sets(output);
     return merged;
   }
   /// What ClassifiedLoop::casters of the merged fragments are indices into.
@@ -64,6 +66,17 @@ class ConvexMerge {
   struct Witness {
     std::uint32_t caster = Fragment::kNoCaster, casters = Fragment::kNoCaster;
   };
+
+  /// Leaves out the sets of fragments that went into others.
+  void keep_used_sets(ClassifiedLoops<Vertex>& output) {
+    std::vector<std::vector<std::uint32_t>> used;
+    for (ClassifiedLoop& fragment : output.fragments) {
+      if (fragment.casters == Fragment::kNoCaster) continue;
+      used.push_back(std::move(sets_[fragment.casters]));
+      fragment.casters = static_cast<std::uint32_t>(used.size() - 1);
+    }
+    sets_ = std::move(used);
+  }
 
   Loop view(const ClassifiedLoops<Vertex>& output, std::uint32_t fragment) const {
     const LoopRange& range = output.fragments[fragment].loop;

@@ -45,10 +45,6 @@ Expected<std::vector<Position>> parse_cone(const std::string& text, NumberMeanin
 
 /// The planes through a point light and the edges of a polygon, turned to its inside.
 Expected<void> add_cone(Light& light, const std::vector<Position>& polygon) {
-  if (light.is_directional()) {
-    return fail(ErrorCode::kUsage, "--cone: light '" + light.id + "' is directional",
-                "point lights, or --flap");
-  }
   std::vector<Vector> rays;
   for (const Position& point : polygon) rays.push_back(from_to(light.position, point));
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -147,18 +143,23 @@ Expected<void> add_regions(Scene& scene, const RegionArguments& arguments) {
     if (!flap) return tl::unexpected(std::move(flap.error()));
     planes.insert(planes.end(), flap->begin(), flap->end());
   }
-  bool some = false;
+  bool points = false, some = false;
   for (Light& light : scene.lights) {
     if (light.has_area()) continue;
     some = true;
+    light.region.insert(light.region.end(), planes.begin(), planes.end());
+    if (!light.is_point()) continue;
+    points = true;
     for (const std::vector<Position>& cone : cones) {
       if (auto added = add_cone(light, cone); !added) return added;
     }
-    light.region.insert(light.region.end(), planes.begin(), planes.end());
+  }
+  if (!cones.empty() && !points) {
+    return fail(ErrorCode::kUsage, "--cone: there is no point light", "one, or --flap");
   }
   if (some) return {};
-  return fail(ErrorCode::kUsage, "--cone and --flap are of point and directional lights",
-              "at least one of them in the scene");
+  return fail(ErrorCode::kUsage, "--flap: there is no point or directional light",
+              "at least one of them");
 }
 
 }  // namespace gnomon

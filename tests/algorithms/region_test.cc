@@ -148,6 +148,9 @@ TEST(Region, WhatIsNoRegionIsRefused) {
   EXPECT_THAT(refused({{"0,0,0:4,4,0:4,0,0:0,4,0"}, {}}), HasSubstr("not convex"));
   EXPECT_THAT(refused({{"2,2,0:2,2,1:2,2,2"}, {}}), HasSubstr("in a plane with it"));
   Scene scene = table();
+  scene.lights[0].type = LightType::kDirectional;
+  EXPECT_FALSE(add_regions(scene, {{"0,0,0:1,0,0:1,1,0"}, {}}));
+  scene = table();
   const Position point = scene.vertices[0];
   scene.lights[0].region.push_back({point, point, scene.vertices[1]});
   std::string why;

@@ -38,10 +38,10 @@ struct RegionArguments {
   bool none() const { return cones.empty() && flaps.empty(); }
 };
 
-/// Bounds the point and directional lights of a scene. A cone is the pyramid from a light through a
-/// convex polygon; a flap is what is between two planes across an axis, one of which may be left
-/// out ("z:0:"). Errors: kUsage (neither, a cone of a directional light, no such light), kNumber,
-/// kLimit, kGeometry (a polygon that is not convex as a light sees it, or edge-on).
+/// Bounds the lights of a scene. A cone, of point lights, is the pyramid from one through a convex
+/// polygon; a flap, of directional ones, too, is what is between two planes across an axis, one of
+/// which may be left out ("z:0:"). Errors: kUsage (neither, no such light), kNumber, kLimit,
+/// kGeometry (a polygon that is not convex as a light sees it, or edge-on).
 Expected<void> add_regions(Scene& scene, const RegionArguments& arguments);
 
 /// Appends lights to a scene's own. Errors: kId if an id is taken.
