@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "algorithms/run/receiver_run.h"
 #include "algorithms/sectors/sector_run.h"
-#include "algorithms/svbsp/svbsp_run.h"
+#include "algorithms/svbsp/by_svbsp.inl.h"
 #include "fuzz/mistakes/mutant_kernels.h"
 #include "fuzz/mistakes/mutant_space.h"
 

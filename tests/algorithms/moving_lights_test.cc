@@ -275,7 +275,9 @@ TEST(MovingLights, WhereNothingMovesNothingIsDone) {
   options.steps = {{0, 1, 2}};
   std::vector<std::string> results;
   options.control.step_done = [&](const ShadowResult& result) {
-    if (!results.empty()) EXPECT_EQ(result.together.filters, 0u);
+    if (!results.empty()) {
+      EXPECT_EQ(result.together.filters, 0u);
+    }
     results.push_back(json_of(scene, prepared, result));
     return true;
   };

@@ -109,8 +109,10 @@ TEST(SolidCasters, SameClassesInContactAndPenetration) {
       sets += other.caster_sets.size();
     }
     ASSERT_EQ(find_false_witness(*own, *solids), "");
-    const auto report = oracle::check_witnesses(own->scene(), own->prepared(),
-                                                claims_of(*own, *solids), {.tolerance = 0});
+    oracle::WitnessOptions strict;
+    strict.tolerance = 0;
+    const auto report =
+        oracle::check_witnesses(own->scene(), own->prepared(), claims_of(*own, *solids), strict);
     ASSERT_EQ(report.violations, 0u) << report.findings.front().text;
   }
   EXPECT_GT(sets, 50u);
