@@ -208,9 +208,12 @@ template <class Emit>
 bool ReceiverRun<Space>::cut(Workspace& workspace, const LightInSpace<Space>& light,
                              const Trees* trees, PlaneRef receiving, const Loop& piece,
                              const Emit& emit) const {
-  return trees != nullptr ? trees->cut(workspace.space, workspace.record, *workspace.trees, piece,
-                                       receiving, emit)
-                          : light.cut(workspace, piece, emit);
+  if (trees == nullptr) return light.cut(workspace, piece, emit);
+  const auto by_trees = [&](const Loop& loop) {
+    return trees->cut(workspace.space, workspace.record, *workspace.trees, loop, receiving, emit);
+  };
+  return light.has_area() ? by_trees(piece)
+                          : light.clip_to_region(workspace, piece, emit, by_trees);
 }
 
 template <VolumeSpaceModel Space>

@@ -89,6 +89,10 @@ class SectorRun {
                       [&](const auto& range) { body(range.begin(), range.end()); });
   }
   std::vector<SectorItem> import(LoopStore<Vertex>& loops);
+  /// The number, in its part, of an edge of an imported loop (import_loop).
+  static std::uint32_t input_edge(const SectorItem& item, bool reversed, std::uint32_t k) {
+    return reversed ? (2 * item.count - 2 - k) % item.count : k;
+  }
   /// A kernel that has planar points of its own needs no charts.
   static PlaneCharts charts_of(const Geometry& geometry) {
     if constexpr (requires(const Space& space, const Corner<Vertex>& corner) {
@@ -179,7 +183,10 @@ std::vector<SectorItem> SectorRun<Space>::import(LoopStore<Vertex>& loops) {
       if (!space_.knows_identity()) {  // planes of edges are computed here, once a polygon
         for (std::uint32_t k = 0; k < item.count; ++k) {
           PlaneRef& edge = loops.edge(item.first + k);
-          const bool of_contour = !contour_.empty() && contour_[edge.index()] != 0;
+          const bool of_contour =
+              !contour_.empty() &&
+              contour_[scene_.edges(scene_.parts[item.part])[input_edge(item, reversed, k)]
+                           .index()] != 0;
           edge = space_.shadow_plane(edge, loops.vertex(item.first + k),
                                      loops.vertex(item.first + (k + 1 == item.count ? 0 : k + 1)));
           if (of_contour) {

@@ -141,6 +141,12 @@ class LightInSpace {
   /// Finds the volumes that may reach a receiver, for cut().
   void prepare(Workspace& workspace, std::uint32_t part, Side side) const;
 
+  /// For a light without an area: emits what of a loop is outside of its region; inside(loop) gets
+  /// the rest, if there is one. False once either is.
+  template <class Emit, class Inside>
+  bool clip_to_region(Workspace& workspace, const Loop& piece, const Emit& emit,
+                      const Inside& inside) const;
+
  private:
   static constexpr PlaneId kNoPlane = 0xffffffffu;
   /// So many casters are tried for a penumbra that holds a whole receiver.
@@ -159,9 +165,6 @@ class LightInSpace {
     return solid_volumes_[solid] == SolidCasters::kNone ? SolidCasters::kNone : solid;
   }
   void add_solid(Workspace& workspace, std::uint32_t solid, std::uint32_t receiver) const;
-  template <class Emit, class Inside>
-  bool clip_to_region(Workspace& workspace, const Loop& piece, const Emit& emit,
-                      const Inside& inside) const;
   /// The box of a corner's position is as wide as what is known of it.
   UmbraReach umbra_reach(const Space& space, const Loop& light, const Box& receiver) const {
     if (!has_area()) return {};
@@ -489,7 +492,6 @@ void LightInSpace<Space>::drop_behind(Workspace& workspace, std::uint32_t receiv
   });
 }
 
-/// Emits what is outside of the region; inside(loop) gets the rest, if there is one.
 template <VolumeSpaceModel Space>
 template <class Emit, class Inside>
 bool LightInSpace<Space>::clip_to_region(Workspace& workspace, const Loop& piece, const Emit& emit,

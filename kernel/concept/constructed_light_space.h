@@ -164,8 +164,9 @@ class ConstructedLightSpace {
   bool is_cut(PlaneRef ref) const {
     return ref.valid() && !is_edge(ref) && own_[ref.index() - edge_count_].is_cut();
   }
+  /// Edges that other lights cut, and corners of no loop, have no plane here.
   bool is_cut_along(PlaneRef ref, PlaneId support) const {
-    return !is_edge(ref) && own_[ref.index() - edge_count_].support == support;
+    return ref.valid() && !is_edge(ref) && own_[ref.index() - edge_count_].support == support;
   }
   void make_edge_plane(EdgeId edge) {
     const EdgeEnds ends = scene_->geometry().edges[edge];

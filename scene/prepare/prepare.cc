@@ -161,7 +161,7 @@ auto with_integers(const PreparedScene& out, std::size_t most_corners, const F& 
 /// The grid starts at the lower corner of all points. A lamp far beyond the vertices, which are the
 /// first `inputs` points, would give their coordinates as many bits as its own: then it starts at
 /// the corner of the vertices, and lamps may be below it. Requires: lights are prepared, and none
-/// has an area.
+/// has an area or a region.
 void start_at_vertices(std::size_t inputs, ExactGrid& grid, PreparedScene& out) {
   constexpr unsigned kFarBits = 12;  // as LightIntegers::kFarBits of kernel `plane`
   std::array<mpz_class, 3> low, high;
@@ -251,7 +251,11 @@ Expected<Corners> prepare_positions(const Scene& scene, bool with_lights, Prepar
     if (auto error = scene_detail::prepare_lights(scene, grid, inputs, out)) {
       return tl::unexpected(std::move(*error));
     }
-    if (inputs > 0 && std::ranges::none_of(scene.lights, &Light::has_area)) {
+    // Points of regions may lie anywhere, and are on the grid of all points.
+    const auto needs_all = [](const Light& light) {
+      return light.has_area() || !light.region.empty();
+    };
+    if (inputs > 0 && std::ranges::none_of(scene.lights, needs_all)) {
       start_at_vertices(inputs, grid, out);
     }
   }

@@ -204,7 +204,9 @@ TEST(MethodOptions, AreReadAndWritten) {
   EXPECT_EQ(message("basic:tiles=4"),
             "basic:tiles=4: basic has no option 'tiles'; expected one of: cover, prune");
   EXPECT_EQ(message("sectors:tiles=4"),
-            "sectors:tiles=4: sectors has no option 'tiles'; expected no options");
+            "sectors:tiles=4: sectors has no option 'tiles'; expected one of: split");
+  EXPECT_EQ(message("contour:tiles=4"),
+            "contour:tiles=4: contour has no option 'tiles'; expected no options");
   for (const std::string value : {"0", "1025", "-1", "4x", "", "4294967297"}) {
     EXPECT_EQ(message("tiling:tiles=" + value),
               "tiling:tiles=" + value + ": '" + value + "' is no value of tiles; expected 1..1024");

@@ -114,6 +114,17 @@ TEST(Region, ConesArePyramids) {
   }
 }
 
+TEST(Region, OfAFarLamp) {
+  // So far away that the grid would start at the vertices, if it could.
+  Scene scene = table();
+  scene.lights[0].position[2] = Number(0x1p60);
+  ASSERT_TRUE(add_regions(scene, {{}, {"x:3:"}}));
+  for (const MethodId method :
+       {MethodId::kSectors, MethodId::kSvbsp, MethodId::kReceiver, MethodId::kTiling}) {
+    EXPECT_EQ(lit(scene, "floor", method), mpq_class(1, 4));
+  }
+}
+
 TEST(Region, PartsThatCanDoNothingAreLeftOut) {
   Scene scene = table();
   ASSERT_TRUE(add_regions(scene, {{}, {"z:0.5:"}}));  // the floor is outside, and casts below

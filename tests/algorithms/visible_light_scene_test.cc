@@ -64,7 +64,10 @@ TEST_P(VisibleLightScene, LitIsWhatThePointSees) {
   const std::vector<MethodSelection> methods = method_variants();
   std::vector<MethodSelection> exact_methods;
   for (const MethodSelection& method : methods) {
-    if (method_info(method.id).lights.point) exact_methods.push_back(method);
+    // The contour method knows no regions.
+    if (method_info(method.id).lights.point && method_info(method.id).makes_fragments) {
+      exact_methods.push_back(method);
+    }
   }
   constexpr std::size_t kPlaces = 6, kEnough = 60;
   std::size_t compared = 0, partly = 0, cut = 0, turn = 0;
@@ -100,9 +103,10 @@ TEST_P(VisibleLightScene, LitIsWhatThePointSees) {
         if (lit < 0) continue;
         EXPECT_EQ(lit, truth.visible)
             << "seed " << seed << ", light " << id << ", vertex " << vertex << ", by "
-            << text_of(method) << " on " << kernel_info(kernel).name;
-        if (k == 0) {
-          EXPECT_EQ(check_exact(*seen), "") << "seed " << seed;
+            << text_of(method) << " on " << kernel_info(kernel).name << "\n"
+            << text_of(*made);
+        if (seed == 1 && k == 0) {
+          EXPECT_EQ(check_methods(*seen), "");
         }
         ++compared;
         if (lit > 0 && lit < 1) ++partly;
