@@ -9,6 +9,7 @@
 
 #include "gnomon/scene/light_arguments.h"
 #include "scene/base/text_file.h"
+#include "scene/base/vectors.h"
 #include "scene/files/argument_parts.h"
 
 namespace gnomon {
@@ -23,10 +24,7 @@ Vector from_to(const Position& from, const Position& to) {
   return result;
 }
 
-int turn_of(const Vector& a, const Vector& b, const Vector& c) {
-  return sgn(mpq_class(a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                       a[2] * (b[0] * c[1] - b[1] * c[0])));
-}
+int turn_of(const Vector& a, const Vector& b, const Vector& c) { return sgn(dot(a, cross(b, c))); }
 
 Expected<std::vector<Position>> parse_cone(const std::string& text, NumberMeaning meaning) {
   const auto count = std::count(text.begin(), text.end(), ':') + 1;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "scene/base/vectors.h"
+
 namespace gnomon {
 
 namespace {
@@ -44,11 +46,6 @@ Expected<const Light*> chosen_light(const Scene& scene, std::string_view id) {
 }
 
 using Vector = std::array<mpq_class, 3>;
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-mpq_class dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// The plane of a polygon by three of its vertices, counter-clockwise seen from the side.
 Expected<RegionPlane> plane_of(const Scene& scene, const Polygon& polygon, Side side) {
