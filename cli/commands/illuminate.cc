@@ -11,6 +11,7 @@
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
 #include "cli/common/progress.h"
+#include "cli/common/result_shape.h"
 #include "gnomon/algorithms/illumination.h"
 #include "gnomon/scene/number.h"
 #include "report/meshes/shaded_mesh_files.h"
@@ -114,10 +115,7 @@ Expected<void> ask_for_illumination(const IlluminateOptions& options, const Load
     }
   }
   if (!kernel_info(shadows.kernel.id).exact) {
-    return fail(
-        ErrorCode::kUsage,
-        "--illuminate: kernel " + std::string(kernel_info(shadows.kernel.id).name) + " rounds",
-        "an exact kernel: plane, rational or epeck");
+    return needs_exact_kernel("--illuminate", std::string(kernel_info(shadows.kernel.id).name));
   }
   if (loaded.lights.size() > 64) {
     return fail(ErrorCode::kUsage,

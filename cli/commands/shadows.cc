@@ -20,11 +20,11 @@
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
 #include "cli/common/progress.h"
+#include "cli/common/result_shape.h"
 #include "cli/common/scene_options.h"
 #include "cli/common/statistics.h"
 #include "gnomon/algorithms/deep_umbra.h"
 #include "gnomon/kernel/kernel_choice.h"
-#include "gnomon/scene/digest.h"
 #include "report/json/result_json.h"
 #include "report/text/number_text.h"
 
@@ -32,15 +32,13 @@ namespace gnomon::cli {
 
 namespace {
 
-struct ShadowsOptions {
+struct ShadowsOptions : ResultShape {
   SceneOptions scene;
   std::string kernel{"plane"};
   std::string algorithm{kAutomaticName};
   bool identity = false;
   double thickness = kDefaultThickness;
-  bool fragments = false, exact_fractions = false, exact_loops = false;
   bool lit_only = false, shadow_only = false, penumbra_only = false, umbra_only = false;
-  bool combined = false;
   MoveOptions move;
   bool no_merge = false, no_prefix = false, pieces = false;
   bool deep_umbra = false;
@@ -94,12 +92,9 @@ Expected<void> check_move(const ShadowsOptions& options) {
 
 /// What does not go together, whatever the scene is.
 Expected<void> check_options(const ShadowsOptions& options, const KernelChoice& kernel) {
-  for (const auto& [option, given] : {std::pair("--exact-fractions", options.exact_fractions),
-                                      std::pair("--exact-loops", options.exact_loops),
-                                      std::pair("--deep-umbra", options.deep_umbra)}) {
-    if (!given || kernel.exact()) continue;
-    return fail(ErrorCode::kUsage, std::string(option) + ": kernel " + kernel.name() + " rounds",
-                "an exact kernel: plane, rational or epeck");
+  if (auto checked = check_exactness(options, kernel); !checked) return checked;
+  if (options.deep_umbra && !kernel.exact()) {
+    return needs_exact_kernel("--deep-umbra", kernel.name());
   }
   if (auto checked = check_pieces(options); !checked) return checked;
   if (auto checked = check_move(options); !checked) return checked;
@@ -123,10 +118,8 @@ ShadowOptions shadow_options_of(const ShadowsOptions& options, const LoadedScene
   shadows.method.prefix = !options.no_prefix;
   shadows.tuning.jobs = options.scene.jobs;
   shadows.lights = loaded.lights;
-  shadows.output.points = options.fragments || (options.combined && !options.exact_loops);
-  shadows.output.exact_points = options.exact_loops || options.deep_umbra;
-  shadows.output.exact_fractions = options.exact_fractions;
-  shadows.output.combined = options.combined;
+  keep_for(options, shadows.output);
+  if (options.deep_umbra) shadows.output.exact_points = true;
   shadows.output.stage_counts = options.stats;
   shadows.output.merge = !options.no_merge;
   shadows.control.interrupted = &interrupted();
@@ -201,14 +194,7 @@ Expected<std::vector<std::vector<DeepUmbraBounds>>> deep_umbra_of(const ShadowsO
 /// What the result's file holds, but for what is computed from the result.
 report::ResultJsonOptions json_options_of(const ShadowsOptions& options, const LoadedScene& loaded,
                                           const AlgorithmChoice& algorithm) {
-  report::ResultJsonOptions json;
-  json.geometry_digest = geometry_digest(loaded.scene);
-  json.fragments = options.fragments;
-  json.exact_fractions = options.exact_fractions;
-  json.exact_loops = options.exact_loops;
-  json.combined = options.combined && !algorithm.paints();
-  json.overlay = options.combined && algorithm.paints();
-  json.interrupted = &interrupted();
+  report::ResultJsonOptions json = result_json_options(options, loaded, algorithm);
   if (options.lit_only) json.only = LightState::kLit;
   if (options.shadow_only) json.only = LightState::kShadow;
   if (options.penumbra_only) json.only = LightState::kPenumbra;
@@ -344,11 +330,7 @@ void add_shadows_command(CLI::App& app, Action& action) {
       ->check(not_negative())
       ->type_name("F")
       ->default_str(report::shortest(kDefaultThickness));
-  command.add_flag("--fragments", options->fragments, "Write the fragments, as nearest doubles");
-  command.add_flag("--exact-fractions", options->exact_fractions,
-                   "Write fractions as exact rationals \"p/q\" (exact kernels)");
-  command.add_flag("--exact-loops", options->exact_loops,
-                   "Write fragments with exact rational coordinates (exact kernels)");
+  add_shape_options(command, *options);
   auto* combined =
       command.add_flag("--combined", options->combined,
                        "Also write fragments with the set of lights that reach each of them\n(" +

@@ -10,22 +10,21 @@
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
 #include "cli/common/progress.h"
+#include "cli/common/result_shape.h"
 #include "cli/common/scene_options.h"
 #include "cli/common/statistics.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/kernel_choice.h"
-#include "gnomon/scene/digest.h"
 #include "report/json/result_json.h"
 
 namespace gnomon::cli {
 
 namespace {
 
-struct VisibleOptions {
+struct VisibleOptions : ResultShape {
   SceneOptions scene;
   std::string kernel{kernel_info(kDefaultExactKernel).name};
   std::string algorithm{kAutomaticName};
-  bool fragments = false, exact_fractions = false, exact_loops = false, combined = false;
   bool visible_only = false, stats = false;
   std::string output;
 };
@@ -39,10 +38,7 @@ ShadowOptions shadow_options_of(const VisibleOptions& options, const LoadedScene
   algorithm.apply(shadows.method);
   shadows.tuning.jobs = options.scene.jobs;
   shadows.lights = loaded.lights;
-  shadows.output.points = options.fragments || (options.combined && !options.exact_loops);
-  shadows.output.exact_points = options.exact_loops;
-  shadows.output.exact_fractions = options.exact_fractions;
-  shadows.output.combined = options.combined;
+  keep_for(options, shadows.output);
   shadows.output.stage_counts = options.stats;
   shadows.control.interrupted = &interrupted();
   return shadows;
@@ -50,14 +46,7 @@ ShadowOptions shadow_options_of(const VisibleOptions& options, const LoadedScene
 
 Expected<void> write(const VisibleOptions& options, const LoadedScene& loaded,
                      const AlgorithmChoice& algorithm, const ShadowResult& result) {
-  report::ResultJsonOptions json;
-  json.geometry_digest = geometry_digest(loaded.scene);
-  json.fragments = options.fragments;
-  json.exact_fractions = options.exact_fractions;
-  json.exact_loops = options.exact_loops;
-  json.combined = options.combined && !algorithm.paints();
-  json.overlay = options.combined && algorithm.paints();
-  json.interrupted = &interrupted();
+  report::ResultJsonOptions json = result_json_options(options, loaded, algorithm);
   if (options.visible_only) json.only = LightState::kLit;
   auto output = Output::open(options.output);
   if (!output) return tl::unexpected(std::move(output.error()));
@@ -69,12 +58,7 @@ Expected<void> write(const VisibleOptions& options, const LoadedScene& loaded,
 Expected<void> see(const VisibleOptions& options) {
   const auto kernel = parse_kernel_choice(options.kernel);
   if (!kernel) return tl::unexpected(kernel.error());
-  for (const auto& [option, given] : {std::pair("--exact-fractions", options.exact_fractions),
-                                      std::pair("--exact-loops", options.exact_loops)}) {
-    if (!given || kernel->exact()) continue;
-    return fail(ErrorCode::kUsage, std::string(option) + ": kernel " + kernel->name() + " rounds",
-                "an exact kernel: plane, rational or epeck");
-  }
+  if (auto checked = check_exactness(options, *kernel); !checked) return checked;
   const bool loops = options.fragments || options.exact_loops;
   const auto algorithm = parse_algorithm_choice(
       options.algorithm, {{"--combined", options.combined, &Method::combines_lights},
@@ -126,11 +110,7 @@ void add_visible_command(CLI::App& app, Action& action) {
                    "Also the lights: fragments with the set of those that reach each of them, the\n"
                    "eye among them (" +
                        methods_that(&Method::combines_lights) + ")");
-  command.add_flag("--fragments", options->fragments, "Write the fragments, as nearest doubles");
-  command.add_flag("--exact-fractions", options->exact_fractions,
-                   "Write fractions as exact rationals \"p/q\" (exact kernels)");
-  command.add_flag("--exact-loops", options->exact_loops,
-                   "Write fragments with exact rational coordinates (exact kernels)");
+  add_shape_options(command, *options);
   command.add_flag("--visible-only", options->visible_only, "List visible fragments only");
   command.add_flag("--stats", options->stats,
                    "Print counts, times, memory and, for plane, who decided, to standard error");
