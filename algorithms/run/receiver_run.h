@@ -109,8 +109,8 @@ class ReceiverRun {
   LightResult run_light(std::uint32_t light, double from, double to);
   LightResult run_light(const LightInSpace<Space>& light, LightResult result, double from,
                         double to);
-  /// The light cut by the planes of all polygons, a result for each piece. (1992 cuts by the planes
-  /// of those polygons alone that have a part in front of the light's plane.)
+  /// The light cut by the planes of those polygons that have a part in front of its plane, a result
+  /// for each piece (1992, "Preprocess").
   void run_pieces(std::uint32_t light, double from, double to, ShadowResult& outcome);
   using Trees = PenumbraAndUmbra<Space>;
   bool has_trees(const LightInSpace<Space>& light) const {

@@ -337,8 +337,8 @@ void add_shadows_command(CLI::App& app, Action& action) {
                            methods_that(&Method::combines_lights) + ")");
   add_move_option(command, options->move, combined);
   command.add_flag("--pieces", options->pieces,
-                   "Area lights cut by the planes of all polygons first, classes for each piece\n"
-                   "(Chin & Feiner 1992 cut by fewer planes)");
+                   "Area lights cut first by the planes of polygons that have a part in front of\n"
+                   "them (Chin & Feiner 1992), classes for each piece");
   auto* deep_umbra = command.add_flag(
       "--deep-umbra", options->deep_umbra,
       "Area lights: also bounds of the share of each polygon that no light reaches, whatever\n"
