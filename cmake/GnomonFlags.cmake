@@ -14,6 +14,10 @@ function(gnomon_set_flags target)
   endif()
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  # The Python module links the same archives into a shared object. All sources have the same flag, since a
+  # precompiled header serves none that differs. Nobody replaces our functions at load time, and our few
+  # thread-local variables fit into what a loaded module may have of the fast kind.
+  target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition -ftls-model=initial-exec)
   target_compile_options(${target} PUBLIC -ffp-contract=off PRIVATE -Wall -Wextra -Wpedantic)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # GCC 12 sees overlaps in std::string's operator+ where there are none (GCC bug 105651).
