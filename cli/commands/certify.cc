@@ -18,6 +18,7 @@
 #include "cli/common/commands.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/jobs.h"
+#include "cli/common/kernel_choices.h"
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
 #include "cli/common/pixel_method.h"
@@ -42,15 +43,10 @@ namespace gnomon::cli {
 
 namespace {
 
-/// Up to so many parts the slow exact kernels run without being asked for, and every error is
-/// measured.
-constexpr std::size_t kSmallScene = 200;
 /// Regions of error that a report shows of each polygon side.
 constexpr std::size_t kShownRegions = 30;
 /// So many decisions are flipped without being asked for.
 constexpr std::uint32_t kFlips = 30;
-/// Every kernel under the policies of the default set, however slow; all of them count.
-constexpr std::string_view kAllKernels = "all";
 
 bool is_of_image_space(const std::string& algorithm) {
   const std::string name = algorithm.substr(0, algorithm.find(':'));
@@ -90,36 +86,11 @@ struct CertifyCommandOptions {
   }
 };
 
-Expected<std::vector<KernelChoice>> chosen_kernels(const CertifyCommandOptions& options,
+/// A candidate is judged alone unless kernels were named beside it.
+Expected<std::vector<KernelChoice>> kernels_to_run(const CertifyCommandOptions& options,
                                                    std::size_t parts) {
-  std::vector<KernelChoice> kernels;
-  const bool all = std::ranges::find(options.kernels, kAllKernels) != options.kernels.end();
-  for (const std::string& name : options.kernels) {
-    if (name == kAllKernels) continue;
-    const auto kernel = parse_kernel_choice(name);
-    if (!kernel) return tl::unexpected(kernel.error());
-    if (std::ranges::find(kernels, *kernel) == kernels.end()) kernels.push_back(*kernel);
-  }
-  if (!all && (!kernels.empty() || !options.candidates.empty())) return kernels;
-  // With no thickness, as a program that compares with zero; then with the thickness that helps
-  // most.
-  const std::vector<KernelChoice> named =
-      std::exchange(kernels, {{.kernel = KernelId::kFloat},
-                              {.kernel = KernelId::kDouble, .thin = true},
-                              {.kernel = KernelId::kDouble},
-                              {.kernel = KernelId::kDouble, .identity = true},
-                              {.kernel = KernelId::kLongDouble},
-                              {.kernel = KernelId::kEpick}});
-  if (all || parts <= kSmallScene) {
-    kernels.push_back({.kernel = KernelId::kEpeck});
-    kernels.push_back({.kernel = KernelId::kRational});
-  }
-  kernels.push_back({.kernel = KernelId::kPlane});
-  for (const KernelChoice& kernel : named) {
-    if (std::ranges::find(kernels, kernel) == kernels.end()) kernels.push_back(kernel);
-  }
-  std::erase_if(kernels, [](const KernelChoice& choice) { return !has_kernel(choice.kernel); });
-  return kernels;
+  if (options.kernels.empty() && !options.candidates.empty()) return std::vector<KernelChoice>();
+  return chosen_kernels(options.kernels, parts);
 }
 
 Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const CertifyCommandOptions& options) {
@@ -440,7 +411,7 @@ int run_pictures(const CertifyCommandOptions& options) {
   const ThreadLimit threads(options.scene.jobs);
   const auto loaded = load_scene(options.scene, false);
   if (!loaded) return report_error(loaded.error());
-  auto kernels = chosen_kernels(options, loaded->prepared.parts.size());
+  auto kernels = kernels_to_run(options, loaded->prepared.parts.size());
   if (!kernels) return report_error(kernels.error());
   pictures.kernels = *std::move(kernels);
   return run_certify_pixels(pictures, *loaded);
@@ -480,7 +451,7 @@ int run_certify(const CertifyCommandOptions& options) {
   if (options.camera.given() && !options.combined) choose_eye(*loaded);
   warn_of_intent(*loaded);
   drop_repeats(*algorithms, *loaded);
-  const auto kernels = chosen_kernels(options, loaded->prepared.parts.size());
+  const auto kernels = kernels_to_run(options, loaded->prepared.parts.size());
   if (!kernels) return report_error(kernels.error());
 
   CertifyRun run(options, *loaded);
@@ -605,11 +576,7 @@ void add_certify_command(CLI::App& app, Action& action) {
       "  gnomon certify room.json --eye 9,-7,6 --algorithm zbuffer\n"
       "  gnomon certify --corpus tests/regressions --candidate-command ./my-shadows");
   CLI::Option* scene = add_scene_options(command, options->scene);
-  repeatable(command.add_option(
-                 "--kernel", options->kernels,
-                 "A kernel to run, such as double, double+identity or double+thin (thickness 0);\n"
-                 "all: every one, and each counts (repeatable)"))
-      ->type_name("K");
+  add_kernels_option(command, options->kernels);
   add_algorithm_option(command, options->algorithm, "How kernels find shadows.",
                        "both: sectors and receiver, then svbsp and merged; all: every method;\n"
                        "auto: sectors and receiver");

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gnomon convert: a scene in another format, with the same values, or put right first where it does
 // not say what was meant.
-#include <algorithm>
 #include <memory>
-#include <string_view>
 
 #include "cli/commands/repair_options.h"
 #include "cli/common/commands.h"
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
+#include "cli/common/receiver_argument.h"
 #include "cli/common/scene_options.h"
 #include "gnomon/scene/light_arguments.h"
 #include "gnomon/scene/read.h"
@@ -32,14 +31,9 @@ Expected<void> take_sight(const ConvertOptions& options, Scene& scene) {
   if (options.from.empty()) return {};
   auto point = parse_position(options.from, scene.numbers, "--from");
   if (!point) return tl::unexpected(std::move(point.error()));
-  LightSight sight{options.area_light, *std::move(point), options.on, Side::kFront};
-  constexpr std::string_view kBack = ":back";
-  if (options.on.ends_with(kBack) &&
-      std::ranges::find(scene.polygons, options.on, &Polygon::id) == scene.polygons.end()) {
-    sight.receiver.resize(options.on.size() - kBack.size());
-    sight.side = Side::kBack;
-  }
-  auto seen = visible_light_scene(scene, sight);
+  const ReceiverArgument on = parse_receiver(options.on, scene);
+  auto seen =
+      visible_light_scene(scene, {options.area_light, *std::move(point), on.polygon, on.side});
   if (!seen) return tl::unexpected(std::move(seen.error()));
   scene = std::move(*seen);
   return {};
