@@ -186,10 +186,6 @@ Expected<AlgorithmChoice> chosen_algorithm(const IlluminationOptions& options) {
   auto algorithm =
       parse_algorithm_choice(options.algorithm, {{"fragments", true, &Method::makes_fragments}});
   if (!algorithm) return algorithm;
-  if (!method_info(algorithm->point).lights.point) {
-    return fail(ErrorCode::kUsage, "--algorithm " + options.algorithm + " takes no point light",
-                "a method of point lights: a point that looks is one");
-  }
   if (algorithm->paints()) {
     return fail(ErrorCode::kUsage, "--algorithm " + options.algorithm + " paints shadows over lit",
                 "cover=partition: what is seen is summed fragment by fragment");

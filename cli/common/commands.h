@@ -29,6 +29,7 @@ void add_shrink_command(CLI::App& app, Action& action);
 void add_replay_command(CLI::App& app, Action& action);
 void add_fuzz_command(CLI::App& app, Action& action);
 void add_illumination_command(CLI::App& app, Action& action);
+void add_loops_command(CLI::App& app, Action& action);
 void add_visible_command(CLI::App& app, Action& action);
 void add_worker_command(CLI::App& app, Action& action);
 void add_year_command(CLI::App& app, Action& action);

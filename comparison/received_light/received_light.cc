@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -209,7 +210,8 @@ void add_to(KernelReceipt& receipt, std::size_t index, const PointSight& point,
   if (found.exact_share && *found.exact_share != point.visible) receipt.differs = true;
   const double share_off = std::abs(found.visible - point.visible.get_d());
   receipt.share_off = std::max(receipt.share_off, share_off);
-  const double off = std::abs(found.received - point.received.value);
+  double off = std::abs(found.received - point.received.value);
+  if (std::isnan(off)) off = std::numeric_limits<double>::infinity();
   if (point.received.value > 0) {
     receipt.relative_off = std::max(receipt.relative_off, off / point.received.value);
   }

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "gnomon/algorithms/ridge_loops.h"
+
+#include <utility>
+
+#include "algorithms/ridge_edges/light_directions.h"
+#include "algorithms/ridge_edges/loop_depth.h"
+#include "algorithms/ridge_edges/ridge_arcs.h"
+#include "algorithms/ridge_edges/separate_loops.h"
+#include "gnomon/algorithms/components.h"
+#include "scene/base/vectors.h"
+
+namespace gnomon {
+
+namespace {
+
+/// The side of each part that faces the light; kOn where none does.
+std::vector<Side> facing_of(const PreparedScene& scene, const LightPoint& light) {
+  const auto point = [&](VertexId vertex) {
+    return DirectionVector{scene.geometry.grid.at(vertex, 0), scene.geometry.grid.at(vertex, 1),
+                           scene.geometry.grid.at(vertex, 2)};
+  };
+  std::vector<Side> facing;
+  facing.reserve(scene.parts.size());
+  for (const Part& part : scene.parts) {
+    const SupportTriple& plane = scene.geometry.planes[part.plane];
+    const DirectionVector a = point(plane.a);
+    const DirectionVector normal = cross(minus(point(plane.b), a), minus(point(plane.c), a));
+    Sign sign =
+        sign_of(mpz_class(dot(normal, light.directional ? light.grid : minus(light.grid, a))));
+    if (part.flipped) sign = -sign;
+    const bool turns_away = sign == Sign::kNegative && !part.two_sided;
+    facing.push_back(turns_away ? Side::kOn : side_of(sign));
+  }
+  return facing;
+}
+
+RidgeLoop described(const PreparedScene& scene, const StretchLoop& strung,
+                    std::span<const Stretch> stretches, const RidgeArcs& arcs,
+                    const FacingCones& cones) {
+  RidgeLoop loop;
+  std::vector<const DirectionVector*> rays;
+  for (std::size_t i = 0; i < strung.size(); ++i) {
+    const Stretch& stretch = stretches[strung[i]];
+    const Stretch& before = stretches[strung[i == 0 ? strung.size() - 1 : i - 1]];
+    const bool imaginary = before.edge != stretch.edge &&
+                           !arcs.meet_in_space(scene, before.edge, stretch.edge, stretch.from_ray);
+    loop.steps.push_back({stretch.from_ray, stretch.edge, imaginary});
+    rays.push_back(&arcs.rays()[stretch.from_ray].exact);
+  }
+  const Stretch& first = stretches[strung.front()];
+  loop.depth =
+      cones.depth_left_of(arcs.rays()[first.from_ray].exact, arcs.rays()[first.to_ray].exact) -
+      first.inner;
+  if (loop.depth > 1) {
+    loop.kind = LoopKind::kInternal;
+  } else {
+    loop.kind = is_counter_clockwise(rays) ? LoopKind::kExternal : LoopKind::kHole;
+  }
+  return loop;
+}
+
+RidgeLoops loops_of(const PreparedScene& scene, const Component& component,
+                    std::span<const Side> facing, std::span<const FilteredVector> directions) {
+  RidgeLoops result;
+  const FacingCones cones(scene, component.parts, facing, directions);
+  result.facing_parts = static_cast<std::uint32_t>(cones.size());
+  result.edges = ridge_edges_of(scene, component.parts, facing);
+  RidgeArcs arcs(scene, directions, result.edges);
+  arcs.cut(scene, result);
+  const std::vector<Stretch> stretches = arcs.stretches(result.cancelled);
+  for (const StretchLoop& strung : separate_loops(stretches, arcs)) {
+    result.loops.push_back(described(scene, strung, stretches, arcs, cones));
+  }
+  for (const FilteredVector& ray : arcs.rays()) result.rays.push_back(ray.exact);
+  return result;
+}
+
+}  // namespace
+
+const char* name_of(LoopKind kind) {
+  switch (kind) {
+    case LoopKind::kExternal:
+      return "external";
+    case LoopKind::kHole:
+      return "hole";
+    case LoopKind::kInternal:
+      break;
+  }
+  return "internal";
+}
+
+Expected<std::vector<RidgeLoops>> ridge_loops(const Scene& scene, const PreparedScene& prepared,
+                                              std::uint32_t light, OpenComponents open) {
+  if (prepared.lights[light].has_area()) {
+    return fail(ErrorCode::kUsage, "light '" + scene.lights[light].id + "' has an area",
+                "a point or directional light");
+  }
+  const LightPoint& point = prepared.lights[light].point;
+  const std::vector<Side> facing = facing_of(prepared, point);
+  const std::vector<FilteredVector> directions = directions_to(prepared.geometry, point);
+  const std::vector<Component> components = find_components(prepared);
+  std::vector<RidgeLoops> result;
+  for (std::uint32_t i = 0; i < components.size(); ++i) {
+    const Component& component = components[i];
+    if (!component.is_closed && open == OpenComponents::kRefused) {
+      return fail(ErrorCode::kGeometry, unpaired_edge_text(scene, prepared, component.unpaired),
+                  "closed solids; --open takes borders for ridge edges");
+    }
+    RidgeLoops loops = loops_of(prepared, component, facing, directions);
+    if (loops.facing_parts == 0) continue;
+    loops.component = i;
+    result.push_back(std::move(loops));
+  }
+  return result;
+}
+
+}  // namespace gnomon
