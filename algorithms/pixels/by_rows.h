@@ -18,10 +18,10 @@
 
 namespace gnomon {
 
-/// A Run is made from a task and has fill_row(row), work(), which is added up, and covered(), the
-/// pairs of a sample and a part that covers it.
-template <class Run>
-Expected<PixelWork> by_rows(const PixelTask& task) {
+/// `make()` gives a thread its own run, which has fill_row(row), work(), which is added up, and
+/// covered(), the pairs of a sample and a part that covers it.
+template <class Make>
+Expected<PixelWork> by_rows_of(const PixelTask& task, const Make& make) {
   const std::uint32_t rows = task.frame.height;
   const auto threads =
       std::min<std::uint32_t>(static_cast<std::uint32_t>(thread_count(task.options.jobs)), rows);
@@ -31,7 +31,7 @@ Expected<PixelWork> by_rows(const PixelTask& task) {
   std::mutex mutex;
   std::atomic<bool> stopped = false;
   const auto work = [&](std::uint32_t first) {
-    Run run(task);
+    auto run = make();
     for (std::uint32_t row = first; row < rows; row += threads) {
       if (task.interrupted()) stopped = true;
       if (stopped) return;
@@ -55,6 +55,12 @@ Expected<PixelWork> by_rows(const PixelTask& task) {
   total.work[Counter::kDepthComplexity] =
       covered * kMillion / (std::uint64_t{rows} * task.frame.width);
   return total;
+}
+
+/// Of runs that are made from a task alone.
+template <class Run>
+Expected<PixelWork> by_rows(const PixelTask& task) {
+  return by_rows_of(task, [&] { return Run(task); });
 }
 
 }  // namespace gnomon

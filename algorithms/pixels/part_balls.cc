@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 namespace {
@@ -87,6 +88,51 @@ bool PartBalls::are_apart(const LightPoint& light, std::uint32_t a, std::uint32_
   if (!(sine_first < 0.7 && sine_second < 0.7)) return false;
   const Vector chord = minus(divided(to_first, far_first), divided(to_second, far_second));
   return length(chord) > 1.2 * (sine_first + sine_second) + kRelative;
+}
+
+namespace {
+
+/// Two directions of length 1 across a third one.
+std::array<Vector, 2> across(const Vector& direction) {
+  const Vector aside = std::fabs(direction[0]) < 0.6 ? Vector{1, 0, 0} : Vector{0, 1, 0};
+  const auto cross = [](const Vector& a, const Vector& b) -> Vector {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  Vector first = cross(direction, aside);
+  first = divided(first, length(first));
+  return {first, cross(direction, first)};
+}
+
+}  // namespace
+
+Box PartBalls::outline(const LightPoint& light, std::uint32_t part) const {
+  const Ball3& ball = balls_[part];
+  const double slack = 4 * margin_;
+  Vector middle{};
+  double reach = 2;  // all directions
+  if (light.directional) {
+    const auto [u, v] = across(divided(light.nearest, length(light.nearest)));
+    middle = {dot(u, ball.centre), dot(v, ball.centre), 0};
+    reach = ball.radius * (1 + kRelative) + kRelative * largest(ball.centre) + slack;
+  } else {
+    const Vector to_ball = minus(ball.centre, light.nearest);
+    const double far = length(to_ball), sine = (ball.radius + slack) / far;
+    if (sine < 0.7) {
+      middle = divided(to_ball, far);
+      reach = 1.2 * sine + kRelative;
+    }
+  }
+  // No number means everything.
+  if (!std::isfinite(reach) || !std::isfinite(middle[0] + middle[1] + middle[2])) {
+    constexpr double kMost = std::numeric_limits<double>::max();
+    return {{-kMost, -kMost, -kMost}, {kMost, kMost, kMost}};
+  }
+  Box box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] = middle[k] - reach;
+    box.high[k] = middle[k] + reach;
+  }
+  return box;
 }
 
 }  // namespace gnomon

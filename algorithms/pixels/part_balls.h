@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "algorithms/partition/box.h"
 #include "gnomon/kernel/image_frame.h"
 #include "gnomon/scene/prepare.h"
 
@@ -25,6 +26,10 @@ class PartBalls {
   bool misses_row(std::uint32_t part, std::uint32_t row) const;
   /// Does no ray to the light meet both parts?
   bool are_apart(const LightPoint& light, std::uint32_t a, std::uint32_t b) const;
+  /// A box of the part's outline as the light sees it: of a lamp on the sphere of directions around
+  /// it, of a sun across its rays, flat in the third coordinate. No ray meets two parts whose boxes
+  /// are apart.
+  Box outline(const LightPoint& light, std::uint32_t part) const;
 
  private:
   using Vector = std::array<double, 3>;

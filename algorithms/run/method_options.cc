@@ -158,6 +158,12 @@ constexpr std::array kOptions = {
                                           : v.order == InsertionOrder::kFile    ? "file"
                                                                                 : "far");
                      }},
+    MethodOption{
+        .name = "lazy",
+        .values = "on|off",
+        .summary = "lists of possible casters are made of visible polygons alone",
+        .read = [](MethodOptionValues& v, std::string_view t) { return read_switch(v.lazy, t); },
+        .text = [](const MethodOptionValues& v) { return on_or_off(v.lazy); }},
     MethodOption{.name = "light-order",
                  .values = "file|facing|moving",
                  .summary = "of lights together: as given, fewest facing polygons first, or those "
@@ -174,6 +180,24 @@ constexpr std::array kOptions = {
                        return std::string(v.light_order == LightOrder::kFile     ? "file"
                                           : v.light_order == LightOrder::kFacing ? "facing"
                                                                                  : "moving");
+                     }},
+    MethodOption{.name = "lists",
+                 .values = "all|sectors|tiles",
+                 .summary = "who is asked for the list of a polygon's possible casters: all "
+                            "polygons, those in the same sectors or in the same tiles of what the "
+                            "light sees",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<ListsBy>(v.lists, t,
+                                                 {{"all", ListsBy::kAll},
+                                                  {"sectors", ListsBy::kSectors},
+                                                  {"tiles", ListsBy::kTiles}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.lists == ListsBy::kAll       ? "all"
+                                          : v.lists == ListsBy::kSectors ? "sectors"
+                                                                         : "tiles");
                      }},
     MethodOption{
         .name = "grow",

@@ -11,6 +11,7 @@
 #include "algorithms/contour/by_contour.h"
 #include "algorithms/run/by_receiver.h"
 #include "algorithms/run/on_every_kernel.h"
+#include "algorithms/scan_out/by_scan_out.h"
 #include "algorithms/sectors/by_sectors.h"
 #include "algorithms/shadow_polygons/by_shadow_polygons.h"
 #include "algorithms/svbsp/by_svbsp.h"
@@ -51,6 +52,10 @@ constexpr std::array<std::string_view, 6> kShadowPolygonsOptions = {
 constexpr std::array kShadowPolygonsCounters = {
     kSamples,     kSpans,          kDepthTests,      kWalls,     kActiveWalls,    kWallTests,
     kWallSamples, kNeighbourTests, kNeighbourMisses, kWallBytes, kDepthComplexity};
+constexpr std::array<std::string_view, 2> kScanOutOptions = {"lists", "lazy"};
+constexpr std::array kScanOutCounters = {kSamples,      kSpans,       kEvents,         kDepthTests,
+                                         kOverlapTests, kTileWrites,  kListEntries,    kLongestList,
+                                         kListBytes,    kCasterTests, kDepthComplexity};
 constexpr std::array kSectorsCounters = {kShadowPolygons, kCellCuts};
 constexpr std::array kTwoPassCounters = {kClips, kShadowPolygons, kLists, kLongestList,
                                          kDeepestStack};
@@ -177,6 +182,18 @@ constexpr std::array kImageMethods = {
            .counts_casters = true,
            .options = kShadowPolygonsOptions,
            .counters = kShadowPolygonsCounters},
+    Method{.id = MethodId::kScanOut,
+           .name = "scan-out",
+           .summary = "spans of visible polygons, each against the list of its casters",
+           .source = "Crow 1977, class one; Appel 1967; Bouknight & Kelley 1970",
+           .lights = {.point = true},
+           .domain = Domain::kImageSpace,
+           .needs = {.camera = true},
+           .threads = true,
+           .names_casters = false,
+           .makes_fragments = false,
+           .options = kScanOutOptions,
+           .counters = kScanOutCounters},
 };
 
 template <template <class> class Run>
@@ -269,6 +286,7 @@ MethodFunction run_of(MethodId method, const Pick& pick) {
     case MethodId::kAutomatic:
     case MethodId::kZbuffer:  // pixel_function() has those of image space
     case MethodId::kShadowPolygons:
+    case MethodId::kScanOut:
       break;
   }
   return nullptr;
@@ -286,6 +304,8 @@ PixelFunction pixel_function(MethodId method, KernelId kernel) {
       return on_kernel<ByZbuffer>(kernel);
     case MethodId::kShadowPolygons:
       return on_kernel<ByShadowPolygons>(kernel);
+    case MethodId::kScanOut:
+      return on_kernel<ByScanOut>(kernel);
     default:
       return nullptr;
   }

@@ -60,6 +60,11 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kSolids, "solids", "closed convex ones that cast as wholes", kSum},
     {Counter::kVolumePlanes, "volume planes", "of all shadow volumes", kSum},
     {Counter::kMerged, "merged", "fragments that went into neighbours", kSum},
+    {Counter::kEvents, "events", "where spans of a row begin or end", kSum},
+    {Counter::kOverlapTests, "overlap tests", "pairs of polygons whose outlines are compared",
+     kSum},
+    {Counter::kListEntries, "list entries", "polygons on lists of possible casters", kSum},
+    {Counter::kListBytes, "list bytes", "memory of lists of possible casters", kMost},
 }};
 
 }  // namespace

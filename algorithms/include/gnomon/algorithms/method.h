@@ -34,6 +34,7 @@ enum class MethodId : std::uint8_t {
   // Of image space:
   kZbuffer,
   kShadowPolygons,
+  kScanOut,
 };
 
 /// Where a method finds its regions: on the polygons themselves, or in a picture of them.

@@ -52,6 +52,10 @@ enum class MergeOf : std::uint8_t { kSiblings, kConvex, kNone };
 /// them, as in a program that does not know which plane made which edge.
 enum class EdgesInTree : std::uint8_t { kOwn, kAll };
 
+/// Who is asked for the list of possible casters of a polygon: all, those in the same leaves of a
+/// tree of outlines as the light sees them, or those in the same tiles.
+enum class ListsBy : std::uint8_t { kAll, kSectors, kTiles };
+
 /// Each method reads its own of them (Method::options).
 struct MethodOptionValues {
   Cover cover = Cover::kPartition;
@@ -71,6 +75,8 @@ struct MethodOptionValues {
   CastersAre casters = CastersAre::kPolygons;  // receiver
   MergeOf merge = MergeOf::kSiblings;          // svbsp
   EdgesInTree edges = EdgesInTree::kOwn;       // svbsp
+  ListsBy lists = ListsBy::kSectors;           // scan-out
+  bool lazy = false;                           // scan-out: lists of visible polygons alone
   friend bool operator==(const MethodOptionValues&, const MethodOptionValues&) = default;
 };
 

@@ -57,8 +57,12 @@ enum class Counter : std::uint8_t {
   kSolids,           // closed convex solids that cast as wholes
   kVolumePlanes,     // of all shadow volumes
   kMerged,           // fragments that went into neighbours
+  kEvents,           // where spans of a row begin or end
+  kOverlapTests,     // pairs of polygons whose outlines are compared
+  kListEntries,      // polygons on lists of possible casters
+  kListBytes,        // memory of these lists
 };
-inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kMerged) + 1;
+inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kListBytes) + 1;
 
 /// How the counts of two lights, or of two parts of one run, make one.
 enum class CountKind : std::uint8_t { kSum, kMost };
