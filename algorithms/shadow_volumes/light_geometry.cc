@@ -81,7 +81,36 @@ class Builder {
     for (std::size_t i = 0; i < n; ++i) {
       face.edges.push_back(edge(face.loop[i], face.loop[(i + 1) % n]));
     }
-    face.plane = plane({face.loop[0], face.loop[1], face.loop[2]}, face.flipped);
+    face.plane = plane(wide_triple(face.loop), face.flipped);
+  }
+
+  /// Three corners that are far apart, in the loop's order, since rounded kernels have the light's
+  /// plane from them; the same wherever the loop begins.
+  SupportTriple wide_triple(const std::vector<VertexId>& loop) const {
+    const auto square = [](const Vector3<mpz_class>& v) { return dot(v, v); };
+    const auto farthest = [&](const auto& measure) {
+      std::size_t best = 0;
+      mpz_class most = measure(loop[0]);
+      for (std::size_t i = 1; i < loop.size(); ++i) {
+        mpz_class own = measure(loop[i]);
+        if (own > most || (own == most && loop[i] < loop[best])) {
+          best = i;
+          most = std::move(own);
+        }
+      }
+      return best;
+    };
+    const VertexId first = *std::min_element(loop.begin(), loop.end());
+    const std::size_t a =
+        farthest([&](VertexId v) { return square(difference(at(v), at(first))); });
+    const std::size_t b =
+        farthest([&](VertexId v) { return square(difference(at(v), at(loop[a]))); });
+    const std::size_t c = farthest([&](VertexId v) {
+      return square(normal({loop[a], loop[b], v}));
+    });
+    std::array<std::size_t, 3> corners{a, b, c};
+    std::sort(corners.begin(), corners.end());
+    return {loop[corners[0]], loop[corners[1]], loop[corners[2]]};
   }
 
   PlaneRef edge(VertexId from, VertexId to) {
