@@ -75,16 +75,29 @@ DirectionVector primitive(DirectionVector vector) {
   return vector;
 }
 
-std::vector<FilteredVector> directions_to(const Geometry& geometry, const LightPoint& light) {
-  std::vector<FilteredVector> directions;
-  directions.reserve(geometry.positions.size());
+LightDirections::LightDirections(const Geometry& geometry, const LightPoint& light) {
+  std::vector<DirectionVector> all;
+  all.reserve(geometry.positions.size());
   const SunChart chart(light.grid);
+  std::size_t bits = 0;
   for (VertexId vertex = 0; vertex < geometry.positions.size(); ++vertex) {
     const DirectionVector point{geometry.grid.at(vertex, 0), geometry.grid.at(vertex, 1),
                                 geometry.grid.at(vertex, 2)};
-    directions.emplace_back(light.directional ? chart.of(point) : minus(light.grid, point));
+    all.push_back(light.directional ? chart.of(point) : minus(light.grid, point));
+    if (!light.directional) continue;
+    bits = std::max({bits, mpz_sizeinbase(all.back()[0].get_mpz_t(), 2),
+                     mpz_sizeinbase(all.back()[1].get_mpz_t(), 2)});
   }
-  return directions;
+  if (light.directional) mpz_mul_2exp(unit.get_mpz_t(), unit.get_mpz_t(), bits);
+  of.reserve(all.size());
+  for (DirectionVector& direction : all) {
+    if (light.directional) direction[2] = unit;
+    of.emplace_back(std::move(direction));
+  }
+}
+
+DirectionVector LightDirections::exported(const DirectionVector& direction) const {
+  return primitive({direction[0] * unit, direction[1] * unit, direction[2]});
 }
 
 }  // namespace gnomon

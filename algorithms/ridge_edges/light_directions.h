@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Points of a scene as directions seen from a light, with the sign of three of them, exactly. One
 // form for lamps and suns: of a lamp a direction is the vector from the point to the lamp, of a sun
-// (u, v, 1) in a chart across its rays. A loop is counter-clockwise as the light sees it where
-// det(a, b, c) > 0.
+// (u, v, w) in a chart across its rays, with one w for all that is about as large as u and v, so
+// that directions of length 1 are as far apart as the points. A loop is counter-clockwise as the
+// light sees it where det(a, b, c) > 0.
 #ifndef GNOMON_ALGORITHMS_RIDGE_EDGES_LIGHT_DIRECTIONS_H
 #define GNOMON_ALGORITHMS_RIDGE_EDGES_LIGHT_DIRECTIONS_H
 
@@ -33,7 +34,15 @@ Sign side(const FilteredVector& a, const FilteredVector& b);
 DirectionVector primitive(DirectionVector vector);
 
 /// The directions of all vertices of a scene to one light.
-std::vector<FilteredVector> directions_to(const Geometry& geometry, const LightPoint& light);
+struct LightDirections {
+  LightDirections(const Geometry& geometry, const LightPoint& light);
+
+  /// (u, v, 1) in the sun's chart, a multiple of it; of a lamp the direction itself.
+  DirectionVector exported(const DirectionVector& direction) const;
+
+  std::vector<FilteredVector> of;  // by vertices
+  mpz_class unit = 1;              // w of a sun
+};
 
 }  // namespace gnomon
 

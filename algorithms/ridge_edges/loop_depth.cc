@@ -13,6 +13,8 @@ namespace gnomon {
 
 namespace {
 
+using scene_detail::Box;
+
 /// An integer direction that has all of the loop's less than a quarter turn away, if one is found:
 /// every direction that has not is added to it, which ends where there is one and some room.
 std::optional<DirectionVector> pole_of(std::span<const DirectionVector* const> loop) {
@@ -70,10 +72,50 @@ double solid_angle(std::span<const DirectionVector* const> loop) {
   return sum < 0 ? sum + kAll : sum;
 }
 
+/// The box of a cone on the unit sphere: of its rays, and as much more as the sphere bulges out of
+/// their hull, 1 - cos of the angle from the middle to the farthest.
+Box box_of(std::span<const VertexId> loop, std::span<const FilteredVector> directions) {
+  constexpr double kRounding = 1e-12;
+  std::array<double, 3> middle{};
+  Box box = Box::empty();
+  for (const VertexId vertex : loop) {
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += directions[vertex].nearest[k];
+  }
+  const double length = std::hypot(middle[0], middle[1], middle[2]);
+  double farthest = 4;  // no middle: all directions
+  if (length > 0) {
+    farthest = 0;
+    for (double& c : middle) c /= length;
+    for (const VertexId vertex : loop) {
+      const std::array<double, 3> apart = minus(directions[vertex].nearest, middle);
+      farthest = std::max(farthest, dot(apart, apart));
+    }
+  }
+  const double bulge = (farthest < 1 ? farthest / 2 : 4) + kRounding;
+  for (const VertexId vertex : loop) {
+    for (int k = 0; k < 3; ++k) {
+      const double c = directions[vertex].nearest[static_cast<std::size_t>(k)];
+      box.add(k, c - bulge, c + bulge);
+    }
+  }
+  return box;
+}
+
+Box box_of(const FilteredVector& ray) {
+  constexpr double kRounding = 1e-12;
+  Box box = Box::empty();
+  for (int k = 0; k < 3; ++k) {
+    const double c = ray.nearest[static_cast<std::size_t>(k)];
+    box.add(k, c - kRounding, c + kRounding);
+  }
+  return box;
+}
+
 }  // namespace
 
 FacingCones::FacingCones(const PreparedScene& scene, std::span<const std::uint32_t> parts,
                          std::span<const Side> facing, std::span<const FilteredVector> directions) {
+  std::vector<Box> boxes;
   for (const std::uint32_t index : parts) {
     const Part& part = scene.parts[index];
     if (facing[index] == Side::kOn || !part.casts) continue;
@@ -85,7 +127,20 @@ FacingCones::FacingCones(const PreparedScene& scene, std::span<const std::uint32
           cross(directions[turned ? b : a].exact, directions[turned ? a : b].exact));
     }
     starts_.push_back(static_cast<std::uint32_t>(normals_.size()));
+    boxes.push_back(box_of(loop, directions));
   }
+  tree_.emplace(boxes);
+}
+
+bool FacingCones::holds(std::uint32_t cone, const FilteredVector& middle,
+                        const FilteredVector& left, const FilteredVector& ahead) const {
+  for (std::uint32_t k = starts_[cone]; k < starts_[cone + 1]; ++k) {
+    Sign sign = side(normals_[k], middle);
+    if (sign == Sign::kZero) sign = side(normals_[k], left);
+    if (sign == Sign::kZero) sign = side(normals_[k], ahead);
+    if (sign != Sign::kPositive) return false;
+  }
+  return true;
 }
 
 std::uint32_t FacingCones::depth_left_of(const DirectionVector& from,
@@ -96,16 +151,9 @@ std::uint32_t FacingCones::depth_left_of(const DirectionVector& from,
   for (std::size_t k = 0; k < 3; ++k) sum[k] = from[k] + to[k];
   const FilteredVector middle(sum), left(cross(from, to)), ahead(cross(left.exact, sum));
   std::uint32_t depth = 0;
-  for (std::size_t i = 0; i + 1 < starts_.size(); ++i) {
-    bool holds = true;
-    for (std::uint32_t k = starts_[i]; holds && k < starts_[i + 1]; ++k) {
-      Sign sign = side(normals_[k], middle);
-      if (sign == Sign::kZero) sign = side(normals_[k], left);
-      if (sign == Sign::kZero) sign = side(normals_[k], ahead);
-      holds = sign == Sign::kPositive;
-    }
-    if (holds) ++depth;
-  }
+  tree_->for_each_that_meets(box_of(middle), [&](std::uint32_t cone) {
+    if (holds(cone, middle, left, ahead)) ++depth;
+  });
   return depth;
 }
 

@@ -4,12 +4,14 @@
 #define GNOMON_ALGORITHMS_RIDGE_EDGES_LOOP_DEPTH_H
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "algorithms/ridge_edges/light_directions.h"
 #include "gnomon/kernel/sign.h"
 #include "gnomon/scene/prepare.h"
+#include "scene/geometry/box_tree.h"
 
 namespace gnomon {
 
@@ -24,8 +26,12 @@ class FacingCones {
   std::size_t size() const { return starts_.size() - 1; }
 
  private:
+  bool holds(std::uint32_t cone, const FilteredVector& middle, const FilteredVector& left,
+             const FilteredVector& ahead) const;
+
   std::vector<FilteredVector> normals_;  // of the planes through light and edges, inwards
   std::vector<std::uint32_t> starts_{0};
+  std::optional<scene_detail::BoxTree> tree_;  // of the cones on the unit sphere
 };
 
 /// Whether a loop of rays is counter-clockwise as the light sees it, that is, goes round less than

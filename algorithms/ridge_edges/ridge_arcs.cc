@@ -146,7 +146,8 @@ RidgeArcs::RidgeArcs(const PreparedScene& scene, std::span<const FilteredVector>
   }
 }
 
-void RidgeArcs::cut(const PreparedScene& scene, RidgeLoops& loops) {
+bool RidgeArcs::cut(const PreparedScene& scene, RidgeLoops& loops,
+                    const std::atomic<bool>* interrupted) {
   std::vector<Box> boxes;
   boxes.reserve(arcs_.size());
   for (const RidgeArc& arc : arcs_) {
@@ -155,6 +156,7 @@ void RidgeArcs::cut(const PreparedScene& scene, RidgeLoops& loops) {
   const BoxTree tree(boxes);
   std::vector<std::uint32_t> near;
   for (std::uint32_t i = 0; i < arcs_.size(); ++i) {
+    if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) return false;
     near.clear();
     tree.for_each_that_meets(boxes[i], [&](std::uint32_t j) {
       if (j > i) near.push_back(j);
@@ -163,6 +165,7 @@ void RidgeArcs::cut(const PreparedScene& scene, RidgeLoops& loops) {
     loops.pairs += near.size();
     for (const std::uint32_t j : near) cut_pair(scene, i, j, loops);
   }
+  return true;
 }
 
 /// `of_end`: the side of the arc's plane that the end of another is on.

@@ -4,6 +4,7 @@
 #ifndef GNOMON_ALGORITHMS_RIDGE_EDGES_RIDGE_ARCS_H
 #define GNOMON_ALGORITHMS_RIDGE_EDGES_RIDGE_ARCS_H
 
+#include <atomic>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -54,8 +55,8 @@ class RidgeArcs {
             std::span<const RidgeEdge> edges);
 
   /// Finds all that cut them: PIPs, ends of others on them, and stretches that several share.
-  /// Adds to `loops` its crossings and counts.
-  void cut(const PreparedScene& scene, RidgeLoops& loops);
+  /// Adds to `loops` its crossings and counts. False if `interrupted`, which may be null, is true.
+  bool cut(const PreparedScene& scene, RidgeLoops& loops, const std::atomic<bool>* interrupted);
   /// All stretches, less those that run both ways along one another, which are counted.
   std::vector<Stretch> stretches(std::uint64_t& cancelled) const;
 

@@ -60,19 +60,27 @@ RidgeLoop described(const PreparedScene& scene, const StretchLoop& strung,
   return loop;
 }
 
-RidgeLoops loops_of(const PreparedScene& scene, const Component& component,
-                    std::span<const Side> facing, std::span<const FilteredVector> directions) {
+Expected<RidgeLoops> loops_of(const PreparedScene& scene, const Component& component,
+                              std::span<const Side> facing, const LightDirections& directions,
+                              const std::atomic<bool>* interrupted) {
   RidgeLoops result;
-  const FacingCones cones(scene, component.parts, facing, directions);
+  const FacingCones cones(scene, component.parts, facing, directions.of);
   result.facing_parts = static_cast<std::uint32_t>(cones.size());
   result.edges = ridge_edges_of(scene, component.parts, facing);
-  RidgeArcs arcs(scene, directions, result.edges);
-  arcs.cut(scene, result);
+  RidgeArcs arcs(scene, directions.of, result.edges);
+  if (!arcs.cut(scene, result, interrupted)) {
+    return fail(ErrorCode::kInterrupted, "interrupted");
+  }
   const std::vector<Stretch> stretches = arcs.stretches(result.cancelled);
   for (const StretchLoop& strung : separate_loops(stretches, arcs)) {
+    if (interrupted != nullptr && interrupted->load(std::memory_order_relaxed)) {
+      return fail(ErrorCode::kInterrupted, "interrupted");
+    }
     result.loops.push_back(described(scene, strung, stretches, arcs, cones));
   }
-  for (const FilteredVector& ray : arcs.rays()) result.rays.push_back(ray.exact);
+  for (const FilteredVector& ray : arcs.rays()) {
+    result.rays.push_back(directions.exported(ray.exact));
+  }
   return result;
 }
 
@@ -91,14 +99,15 @@ const char* name_of(LoopKind kind) {
 }
 
 Expected<std::vector<RidgeLoops>> ridge_loops(const Scene& scene, const PreparedScene& prepared,
-                                              std::uint32_t light, OpenComponents open) {
+                                              std::uint32_t light, OpenComponents open,
+                                              const std::atomic<bool>* interrupted) {
   if (prepared.lights[light].has_area()) {
     return fail(ErrorCode::kUsage, "light '" + scene.lights[light].id + "' has an area",
                 "a point or directional light");
   }
   const LightPoint& point = prepared.lights[light].point;
   const std::vector<Side> facing = facing_of(prepared, point);
-  const std::vector<FilteredVector> directions = directions_to(prepared.geometry, point);
+  const LightDirections directions(prepared.geometry, point);
   const std::vector<Component> components = find_components(prepared);
   std::vector<RidgeLoops> result;
   for (std::uint32_t i = 0; i < components.size(); ++i) {
@@ -107,10 +116,11 @@ Expected<std::vector<RidgeLoops>> ridge_loops(const Scene& scene, const Prepared
       return fail(ErrorCode::kGeometry, unpaired_edge_text(scene, prepared, component.unpaired),
                   "closed solids; --open takes borders for ridge edges");
     }
-    RidgeLoops loops = loops_of(prepared, component, facing, directions);
-    if (loops.facing_parts == 0) continue;
-    loops.component = i;
-    result.push_back(std::move(loops));
+    auto loops = loops_of(prepared, component, facing, directions, interrupted);
+    if (!loops) return tl::unexpected(std::move(loops.error()));
+    if (loops->facing_parts == 0) continue;
+    loops->component = i;
+    result.push_back(*std::move(loops));
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/common/commands.h"
+#include "cli/common/interrupt.h"
 #include "cli/common/jobs.h"
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
@@ -49,9 +50,9 @@ Expected<void> find_loops(const LoopsOptions& options) {
     return fail(ErrorCode::kUsage, std::to_string(loaded->lights.size()) + " lights",
                 "one; --light chooses it");
   }
-  const auto found =
-      ridge_loops(loaded->scene, loaded->prepared, loaded->lights.front(),
-                  options.open ? OpenComponents::kAllowed : OpenComponents::kRefused);
+  const auto found = ridge_loops(loaded->scene, loaded->prepared, loaded->lights.front(),
+                                 options.open ? OpenComponents::kAllowed : OpenComponents::kRefused,
+                                 &interrupted());
   if (!found) return tl::unexpected(found.error());
   const report::RidgeLoopsOf loops{loaded->scene, loaded->prepared, loaded->lights.front(), *found};
   if (options.output != "-") {

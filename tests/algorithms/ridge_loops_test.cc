@@ -167,14 +167,14 @@ Areas areas_of(const std::vector<RidgeLoops>& components) {
 /// Of all facing parts, by their own loops.
 mpq_class facing_area(const Case& scene, const std::vector<RidgeLoops>& components) {
   const PreparedScene& prepared = scene.prepared();
-  const auto directions = directions_to(prepared.geometry, prepared.lights[0].point);
+  const LightDirections directions(prepared.geometry, prepared.lights[0].point);
   const auto solids = find_components(prepared);
   mpq_class sum = 0;
   for (const RidgeLoops& loops : components) {
     for (const std::uint32_t part : solids[loops.component].parts) {
       std::vector<std::array<mpz_class, 3>> rays;
       for (const VertexId vertex : prepared.loop(prepared.parts[part])) {
-        rays.push_back(directions[vertex].exact);
+        rays.push_back(directions.exported(directions.of[vertex].exact));
       }
       // Those that look away are clockwise.
       if (const mpq_class own = doubled_area(rays); own > 0) sum += own;
@@ -187,26 +187,31 @@ mpq_class facing_area(const Case& scene, const std::vector<RidgeLoops>& componen
 /// to its end, once, but for what was cancelled.
 void expect_whole(const Case& scene, const std::vector<RidgeLoops>& components) {
   const PreparedScene& prepared = scene.prepared();
-  const auto directions = directions_to(prepared.geometry, prepared.lights[0].point);
+  const LightDirections directions(prepared.geometry, prepared.lights[0].point);
   std::vector<Side> facing(prepared.parts.size(), Side::kOn);
   for (std::uint32_t i = 0; i < facing.size(); ++i) {
     std::vector<std::array<mpz_class, 3>> rays;
     for (const VertexId vertex : prepared.loop(prepared.parts[i])) {
-      rays.push_back(directions[vertex].exact);
+      rays.push_back(directions.of[vertex].exact);
     }
     const mpz_class turn = dot(rays[0], cross(rays[1], rays[2]));
     if (turn > 0) facing[i] = Side::kFront;
   }
   const auto solids = find_components(prepared);
   for (const RidgeLoops& loops : components) {
-    const FacingCones cones(prepared, solids[loops.component].parts, facing, directions);
+    const FacingCones cones(prepared, solids[loops.component].parts, facing, directions.of);
     std::size_t steps = 0;
     for (const RidgeLoop& loop : loops.loops) {
       steps += loop.steps.size();
       for (std::size_t i = 0; i < loop.steps.size(); ++i) {
         const LoopStep &step = loop.steps[i],
                        &next = loop.steps[i + 1 == loop.steps.size() ? 0 : i + 1];
-        const auto &from = loops.rays[step.ray], &to = loops.rays[next.ray];
+        const auto back = [&](std::uint32_t index) {
+          auto ray = loops.rays[index];
+          ray[2] *= directions.unit;
+          return ray;
+        };
+        const auto from = back(step.ray), to = back(next.ray);
         // Where several run along one another the depth changes by as many.
         EXPECT_GE(cones.depth_left_of(from, to), loop.depth);
         EXPECT_LT(cones.depth_left_of(to, from), loop.depth);

@@ -14,6 +14,7 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -77,9 +78,9 @@ struct RidgeLoops {
   std::vector<RidgeEdge> edges;
   std::vector<PseudoIntersection> crossings;
   std::vector<RidgeLoop> loops;
-  /// Where loops turn, as directions: of a directional light (u, v, 1) in a chart across its
-  /// direction, of a point light from the point to the light. Seen from the light, the left of a to
-  /// b is where det(a, b, x) > 0. Primitive integers.
+  /// Where loops turn, as directions: of a directional light a multiple of (u, v, 1) in a chart
+  /// across its direction, of a point light of the way from the point to the light. Seen from the
+  /// light, the left of a to b is where det(a, b, x) > 0. Primitive integers.
   std::vector<std::array<mpz_class, 3>> rays;
   std::uint64_t pairs = 0;      // of edges that were tested for crossing
   std::uint64_t cancelled = 0;  // stretches of edges that run both ways along one another
@@ -100,12 +101,13 @@ enum class OpenComponents : std::uint8_t { kRefused, kAllowed };
 /// taken. Where two cross this is the other edge, as in the paper (section 2.4).
 ///
 /// Errors: kUsage (an area light), kGeometry (an open component, unless allowed; names polygon and
-/// edge).
+/// edge), kInterrupted (`interrupted`, if given, became true).
 /// Cost: n log n for n edges, and the pairs whose boxes of directions meet; for each loop one look
 /// at every facing part of its component.
 Expected<std::vector<RidgeLoops>> ridge_loops(const Scene& scene, const PreparedScene& prepared,
                                               std::uint32_t light,
-                                              OpenComponents open = OpenComponents::kRefused);
+                                              OpenComponents open = OpenComponents::kRefused,
+                                              const std::atomic<bool>* interrupted = nullptr);
 
 }  // namespace gnomon
 
