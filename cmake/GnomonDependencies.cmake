@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-3.0-or-later
 # Libraries that the components link: GMP::GMP, GMP::GMPXX, MPFR::MPFR, tl::expected, fmt::fmt,
-# TBB::tbb, OpenSSL::Crypto, CLI11::CLI11, gnomon_rapidjson (headers), CGAL::CGAL (headers; only
+# TBB::tbb, OpenSSL::Crypto, pugixml::pugixml, CLI11::CLI11, gnomon_rapidjson (headers), CGAL::CGAL (headers; only
 # through CGAL_SOURCES, since its interface carries -frounding-math).
 
 # Whoever adds this project as a subdirectory links these libraries through ours.
@@ -12,6 +12,7 @@ find_package(MPFR REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
+find_package(pugixml REQUIRED)
 
 if(GNOMON_CGAL_KERNELS)
   set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)

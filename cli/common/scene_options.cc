@@ -92,6 +92,13 @@ CLI::Option* add_scene_file_options(CLI::App& command, SceneOptions& options) {
       .add_option("--lod", options.lod,
                   "Of CityJSON: this level of detail alone, instead of each object's highest")
       ->type_name("L");
+  command
+      .add_option("--up", options.up,
+                  "Which axis of the file points upwards [of glTF y, of others z]; (x, y, z) of a\n"
+                  "file with y up becomes (x, -z, y), exactly. Lights of options are in the axes "
+                  "of the result")
+      ->check(CLI::IsMember({"y", "z"}))
+      ->type_name("y|z");
   add_jobs_option(command, options.jobs);
   return scene;
 }
@@ -135,6 +142,7 @@ ReadOptions read_options(const SceneOptions& options) {
   result.skip_bad = options.skip_bad;
   result.keep_axes = options.keep_axes;
   result.lod = options.lod;
+  if (!options.up.empty()) result.up = options.up == "y" ? UpAxis::kY : UpAxis::kZ;
   return result;
 }
 

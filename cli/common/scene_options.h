@@ -30,6 +30,7 @@ struct SceneOptions {
   bool skip_bad = false;                  // polygons that cannot be used are left out
   bool keep_axes = false;                 // of energy models, where the command turns its suns
   std::string lod;                        // of CityJSON; empty: the highest
+  std::string up;                         // "y" or "z"; empty: as the format has it
 };
 
 /// Also --jobs, since preparation takes all processors. The option of the scene's file is returned:

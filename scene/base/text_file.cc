@@ -33,13 +33,41 @@ Expected<void> not_utf8(std::string_view text, const std::string& file, std::siz
               place_in_text(file, text, offset));
 }
 
+/// Do the first bytes of a file of that size (0: not known) begin a format of binary data?
+bool goes_on_behind_zeros(std::string_view begin, std::size_t size) {
+  return begin.starts_with("ply") || begin.starts_with("glTF") ||
+         is_size_of_binary_stl(begin, size);
+}
+
+Expected<std::string> read_bytes(const std::filesystem::path& path, bool stops_at_zeros);
+
 }  // namespace
+
+bool is_size_of_binary_stl(std::string_view begin, std::size_t size) {
+  constexpr std::size_t kHeader = 84, kTriangle = 50;
+  if (begin.size() < kHeader) return false;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    count |= std::size_t{static_cast<unsigned char>(begin[kHeader - 4 + i])} << (8 * i);
+  }
+  return size == kHeader + kTriangle * count;
+}
 
 std::string shown_name(const std::filesystem::path& path) {
   return path == "-" ? "<stdin>" : path.string();
 }
 
 Expected<std::string> read_file(const std::filesystem::path& path) {
+  return read_bytes(path, true);
+}
+
+Expected<std::string> read_all_bytes(const std::filesystem::path& path) {
+  return read_bytes(path, false);
+}
+
+namespace {
+
+Expected<std::string> read_bytes(const std::filesystem::path& path, bool stops_at_zeros) {
   const std::string name = shown_name(path);
   if (path.empty()) return file_error("", "no file name", "a file, or - for standard input");
   const bool standard = path == "-";
@@ -63,7 +91,8 @@ Expected<std::string> read_file(const std::filesystem::path& path) {
     }
     if (count == 0) return text;
     text.append(chunk.get(), static_cast<std::size_t>(count));
-    if (text.size() <= kChunk && !text.starts_with("ply") && text.find('\0') != std::string::npos) {
+    if (stops_at_zeros && text.size() <= kChunk && text.find('\0') != std::string::npos &&
+        !goes_on_behind_zeros(text, regular ? static_cast<std::size_t>(status.st_size) : 0)) {
       return text;
     }
     if (!regular && text.size() > kMostStreamBytes) {
@@ -72,6 +101,8 @@ Expected<std::string> read_file(const std::filesystem::path& path) {
     }
   }
 }
+
+}  // namespace
 
 ErrorPlace PlacesInText::at(std::string file, std::size_t offset, std::string pointer) {
   const std::size_t first = byte_order_mark(text_);

@@ -18,9 +18,15 @@ namespace gnomon {
 std::string shown_name(const std::filesystem::path& path);
 
 /// All bytes of a file; `-` is standard input. A file that holds a NUL byte in its first 64 KiB and
-/// is no PLY is not read to its end, since no text format goes on from there. Errors: kFile
-/// (absent, unreadable, a directory), kLimit (an endless stream).
+/// is no PLY, no glTF and no STL is not read to its end, since no text format goes on from there.
+/// Errors: kFile (absent, unreadable, a directory), kLimit (an endless stream).
 Expected<std::string> read_file(const std::filesystem::path& path);
+/// The same, to the end whatever the file holds.
+Expected<std::string> read_all_bytes(const std::filesystem::path& path);
+
+/// Has a file the size that binary STL has? That format has no other mark: 80 bytes of anything,
+/// the number of its triangles in 4, and 50 for each of them.
+bool is_size_of_binary_stl(std::string_view begin, std::size_t size);
 
 /// Lines and columns of many bytes of one text, as place_in_text() has them. Cheap as long as
 /// offsets grow: all together cost as much as the last.

@@ -15,8 +15,8 @@
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/unusable.h"
 #include "scene/energyplus/energy_model.h"
-#include "scene/energyplus/exact_vector.h"
 #include "scene/energyplus/wall_frame.h"
+#include "scene/model/decimal_vector.h"
 
 namespace gnomon::energy {
 

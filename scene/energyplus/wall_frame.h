@@ -9,9 +9,11 @@
 #include <optional>
 #include <vector>
 
-#include "scene/energyplus/exact_vector.h"
+#include "scene/model/decimal_vector.h"
 
 namespace gnomon::energy {
+
+using namespace decimals;
 
 /// Which corner the vertices of surfaces begin with, by GlobalGeometryRules.
 enum class FirstCorner : std::uint8_t { kUpperLeft, kLowerLeft, kLowerRight, kUpperRight };

@@ -2,7 +2,6 @@
 #include "scene/files/foreign_formats.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <iterator>
 #include <string>
 
@@ -18,7 +17,6 @@ struct Beginning {
 
 /// What such files begin with, in the very bytes.
 constexpr Beginning kBeginnings[] = {
-    {"glTF", "binary glTF"},
     {"ISO-10303-21", "STEP (such as IFC)"},
     {"HEADER;FILE_DESCRIPTION", "STEP (such as IFC)"},
     {"Kaydara FBX Binary", "FBX"},
@@ -51,19 +49,12 @@ struct Mark {
 
 /// Root elements, with or without a prefix.
 constexpr Mark kXmlMarks[] = {
-    {"gbXML", "gbXML"},
-    {"CityModel", "CityGML"},
-    {"COLLADA", "COLLADA"},
-    {"X3D", "X3D"},
-    {"ifcXML", "ifcXML"},
-    {"kml", "KML"},
-    {"svg", "SVG"},
-    {"html", "HTML"},
-    {"HTML", "HTML"},
-    {"amf", "AMF"},
-    {"FeatureCollection", "GML"},
-    {"Indoor", "IndoorGML"},
-    {"VTKFile", "VTK"},
+    {"CityModel", "CityGML"}, {"COLLADA", "COLLADA"},
+    {"X3D", "X3D"},           {"ifcXML", "ifcXML"},
+    {"kml", "KML"},           {"svg", "SVG"},
+    {"html", "HTML"},         {"HTML", "HTML"},
+    {"amf", "AMF"},           {"FeatureCollection", "GML"},
+    {"Indoor", "IndoorGML"},  {"VTKFile", "VTK"},
     {"model", "3MF's model"},
 };
 
@@ -72,25 +63,13 @@ constexpr Mark kJsonMarks[] = {
     {R"("type":"CityJSONFeature")", "CityJSON (a feature without the file that it is of)"},
     {R"("type":"FeatureCollection")", "GeoJSON"},
     {R"("type":"Topology")", "TopoJSON"},
-    {R"("type":"Room")", "HBJSON"},
-    {R"("type":"RoomEnergyPropertiesAbridged")", "HBJSON"},
-    {R"("type":"ModelEnergyProperties")", "HBJSON"},
-    {R"("type":"ModelRadianceProperties")", "HBJSON"},
-    {R"("type":"ModelProperties")", "HBJSON or DFJSON"},
-    {R"("type":"Face3D")", "HBJSON"},
-    {R"("asset":{)", "glTF"},
-    {R"("meshes":[)", "glTF"},
 };
 
 /// Words of texts that are neither XML nor JSON, where a line begins.
 constexpr Mark kLineMarks[] = {
     {"SimulationControl,", "an IDF without surfaces"},
     {"OS:Version", "OpenStudio (OSM)"},
-    {"facet normal", "STL"},
     {"SECTION", "DXF"},
-    {"void plastic", "Radiance"},
-    {"void light", "Radiance"},
-    {"void glow", "Radiance"},
     {"#include", "POV-Ray, or a program"},
     {"newmtl", "materials of OBJ (MTL)"},
 };
@@ -146,25 +125,9 @@ std::optional<std::string_view> format_by_lines(std::string_view text) {
   return std::nullopt;
 }
 
-/// Binary STL has no mark but its size: 84 bytes and 50 for each triangle.
-bool is_binary_stl(std::string_view text) {
-  constexpr std::size_t kHeader = 84, kTriangle = 50;
-  if (text.size() < kHeader) return false;
-  std::uint64_t count = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    count |= std::uint64_t{static_cast<unsigned char>(text[kHeader - 4 + i])} << (8 * i);
-  }
-  if (count == 0 || text.size() == kHeader + kTriangle * count) return count != 0;
-  // read_file() does not read such files to their end. Then the attribute of the first triangle,
-  // which nearly every writer leaves 0, has to do.
-  return text.size() == kFarEnough && text.size() < kHeader + kTriangle * count &&
-         text[kHeader + kTriangle - 1] == 0 && text[kHeader + kTriangle - 2] == 0;
-}
-
 }  // namespace
 
 std::optional<std::string_view> foreign_format(std::string_view text) {
-  if (is_binary_stl(text)) return "binary STL";
   text = first_word_on(text.substr(0, kFarEnough));
   for (const Beginning& known : kBeginnings) {
     if (text.starts_with(known.bytes)) return known.name;

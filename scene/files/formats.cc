@@ -30,6 +30,18 @@ constexpr FileFormat kFormats[] = {
      looks_like_epjson, read_epjson, nullptr},
     {SceneFormat::kIdf, "idf", "IDF", "idf", Holds::kSurfaces,
      looks_like_idf, read_idf, nullptr},
+    {SceneFormat::kHbJson, "hbjson", "HBJSON", "hbjson", Holds::kSurfaces,
+     looks_like_hbjson, read_hbjson, nullptr},
+    {SceneFormat::kGbXml, "gbxml", "gbXML", "xml", Holds::kSurfaces,
+     looks_like_gbxml, read_gbxml, nullptr},
+    {SceneFormat::kRadiance, "rad", "Radiance", "rad", Holds::kSurfaces,
+     looks_like_radiance, read_radiance, nullptr},
+    {SceneFormat::kGltf, "gltf", "glTF", "gltf", Holds::kMesh,
+     looks_like_gltf, read_gltf, nullptr, nullptr, UpAxis::kY},
+    {SceneFormat::kGlb, "glb", "binary glTF", "glb", Holds::kMesh,
+     looks_like_glb, read_gltf, nullptr, nullptr, UpAxis::kY},
+    {SceneFormat::kStl, "stl", "STL", "stl", Holds::kMesh,
+     looks_like_stl, read_stl, nullptr},
 };
 // clang-format on
 

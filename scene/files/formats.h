@@ -48,6 +48,7 @@ struct FileFormat {
   /// Reads a file of which only a part at a time is in memory; null if that cannot be.
   Expected<ReadResult> (*stream)(TextWindow& window, const std::string& file,
                                  const ReadOptions& options) = nullptr;
+  UpAxis up = UpAxis::kZ;  // unless ReadOptions say otherwise
 };
 
 /// All formats, in the order in which messages list them.

@@ -22,6 +22,10 @@ constexpr std::string_view kEnergyKeys[] = {"\"BuildingSurface:Detailed\"",
                                             "\"GlobalGeometryRules\"", "\"Shading:Site:Detailed\"",
                                             "\"Shading:Building:Detailed\""};
 
+/// Types of which a building model of honeybee has some.
+constexpr std::string_view kHoneybeeWords[] = {"\"ModelProperties\"", "\"Face3D\"", "\"ShadeMesh\"",
+                                               "\"ModelEnergyProperties\""};
+
 }  // namespace
 
 std::optional<SceneFormat> json_dialect(std::string_view text) {
@@ -34,6 +38,10 @@ std::optional<SceneFormat> json_dialect(std::string_view text) {
   for (const std::string_view key : kEnergyKeys) {
     if (has_key(text, key)) return SceneFormat::kEpJson;
   }
+  for (const std::string_view word : kHoneybeeWords) {
+    if (text.find(word) != std::string_view::npos) return SceneFormat::kHbJson;
+  }
+  if (has_key(text, "\"asset\"") && has_key(text, "\"version\"")) return SceneFormat::kGltf;
   return SceneFormat::kJson;
 }
 

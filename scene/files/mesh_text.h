@@ -69,12 +69,15 @@ class MeshBuilder {
   void spoil_face(Error why);
   std::size_t vertex_count() const { return scene_.vertices.size(); }
   std::size_t face_count() const { return scene_.polygons.size(); }
+  const std::string& face_id() const { return scene_.polygons.back().id; }
 
   /// How many vertices there will be: a greater index is an error at once. Faces may come first.
   void expect_vertices(std::uint64_t count) { expected_vertices_ = count; }
   /// One index of the face under construction, counted from 0.
   Expected<void> add_index(std::int64_t index, std::size_t offset);
   Expected<void> end_face(std::size_t offset);
+  /// The last face, which is called by its number otherwise.
+  void call_face(std::string id) { scene_.polygons.back().id = std::move(id); }
 
   void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
   /// Messages count indices from this number: 1 in OBJ.

@@ -13,6 +13,7 @@
 #include "scene/files/left_out.h"
 #include "scene/files/plain_json_scene.h"
 #include "scene/files/readers.h"
+#include "scene/files/up_axis.h"
 #include "scene/json/json_text.h"
 
 namespace gnomon {
@@ -43,7 +44,15 @@ namespace {
 
 bool is_any_json(std::optional<SceneFormat> format) {
   return format == SceneFormat::kJson || format == SceneFormat::kCityJson ||
-         format == SceneFormat::kCityJsonSeq || format == SceneFormat::kEpJson;
+         format == SceneFormat::kCityJsonSeq || format == SceneFormat::kEpJson ||
+         format == SceneFormat::kHbJson || format == SceneFormat::kGltf;
+}
+
+/// The scene with z up.
+Expected<ReadResult> turned_up(Expected<ReadResult> read, SceneFormat format,
+                               const ReadOptions& options) {
+  if (read && options.up.value_or(file_format(format).up) == UpAxis::kY) turn_y_up(read->scene);
+  return read;
 }
 
 Expected<ReadResult> parse_known_format(const std::string& text, const std::string& file,
@@ -75,7 +84,7 @@ Expected<ReadResult> parse_known_format(const std::string& text, const std::stri
                 shown_format_titles(), ErrorPlace{file, 0, 0, {}});
   }
   try {
-    return file_format(*format).read(text, file, options);
+    return turned_up(file_format(*format).read(text, file, options), *format, options);
   } catch (const std::bad_alloc&) {
     return fail(ErrorCode::kLimit, "the scene does not fit into memory", {},
                 ErrorPlace{file, 0, 0, {}});
@@ -103,7 +112,8 @@ std::optional<Expected<ReadResult>> read_streamed_file(const std::filesystem::pa
   if (!format || file_format(*format).stream == nullptr) return std::nullopt;
   auto window = TextWindow::of_file(path);
   if (!window) return std::nullopt;
-  return file_format(*format).stream(*window, shown_name(path), options);
+  return turned_up(file_format(*format).stream(*window, shown_name(path), options), *format,
+                   options);
 }
 
 }  // namespace
@@ -124,7 +134,8 @@ Expected<ReadResult> parse_scene(std::string text, const std::string& file,
   const auto own = format_by_content(text);
   const auto named = options.format ? options.format : format_by_extension(file);
   if (own && named && !is_any_json(named) && *own != *named &&
-      file_format(*own).holds == Holds::kSurfaces) {
+      (file_format(*own).holds == Holds::kSurfaces || file_format(*own).up == UpAxis::kY ||
+       *own == SceneFormat::kStl)) {
     return fail(ErrorCode::kFormat,
                 "this is " + std::string(file_format(*own).title) + ", and called " +
                     std::string(file_format(*named).title),
@@ -142,7 +153,9 @@ Expected<ReadResult> parse_scene(std::string text, const std::string& file,
 Expected<ReadResult> read_scene(const std::filesystem::path& path, const ReadOptions& options) {
   Expected<std::string> text;
   try {
-    if (auto plain = read_plain_file(path, options)) return *std::move(plain);
+    if (auto plain = read_plain_file(path, options)) {
+      return turned_up(*std::move(plain), SceneFormat::kJson, options);
+    }
     if (auto streamed = read_streamed_file(path, options)) return *std::move(streamed);
     text = read_file(path);
   } catch (const std::bad_alloc&) {

@@ -10,6 +10,7 @@
 #include "scene/base/text_file.h"
 #include "scene/files/mesh_text.h"
 #include "scene/files/readers.h"
+#include "scene/files/usable_id.h"
 
 namespace gnomon {
 
@@ -21,13 +22,17 @@ struct Drawn {
   std::size_t count = 0;
 };
 
-Expected<void> read_vertex(Tokens& tokens, MeshBuilder& mesh, const Token& keyword) {
+/// `weighted` counts the vertices with a weight that is not 1.
+Expected<void> read_vertex(Tokens& tokens, MeshBuilder& mesh, const Token& keyword,
+                           std::size_t& weighted) {
   Position position;
   std::size_t count = 0;
+  bool has_weight = false;
   while (auto token = tokens.in_line()) {
     // Behind the coordinates: a weight, or a colour. It has to be a number, and is not used.
     auto value = mesh.number(*token);
     if (!value) return tl::unexpected(std::move(value.error()));
+    if (count == position.size()) has_weight = !(*value == Number(1.0));
     if (count < position.size()) position[count] = *std::move(value);
     ++count;
   }
@@ -36,6 +41,7 @@ Expected<void> read_vertex(Tokens& tokens, MeshBuilder& mesh, const Token& keywo
     return mesh.error(ErrorCode::kFormat, "a vertex of " + std::to_string(count) + " numbers",
                       "three coordinates", keyword.offset);
   }
+  if (has_weight && count == position.size() + 1) ++weighted;
   mesh.add_vertex(std::move(position));
   return {};
 }
@@ -78,25 +84,37 @@ Expected<void> read_face(Tokens& tokens, MeshBuilder& mesh, const Token& keyword
 }
 
 /// The groups and objects of a file: `g` puts the faces that follow into all groups that it names,
-/// `o` into one object. Group and object of one name are one group.
+/// `o` into one object. Group and object of one name are one group. Faces are called by the names
+/// of both, and numbered within them: OBJECT/GROUP/0, OBJECT/GROUP/1, ...
 class NamedGroups {
  public:
   void read_names(Tokens& tokens, bool object) {
     auto& current = object ? object_ : groups_;
+    std::string& prefix = object ? object_prefix_ : group_prefix_;
     current.clear();
+    prefix.clear();
     // Without a name, g goes back to the group named so.
-    while (const auto name = tokens.in_line()) current.push_back(index_of(name->text));
+    while (const auto name = tokens.in_line()) {
+      current.push_back(index_of(name->text));
+      prefix += usable_id(name->text) + "/";
+    }
     if (current.empty() && !object) current.push_back(index_of("default"));
+    const bool is_one = object_prefix_ == group_prefix_;
+    // Faces of one name are numbered together wherever they stand.
+    next_ = &counts_[is_one ? object_prefix_ : object_prefix_ + group_prefix_];
+    prefix_ = is_one ? object_prefix_ : object_prefix_ + group_prefix_;
   }
-  void add_face(std::uint32_t face) {
+  void add_face(std::uint32_t face, MeshBuilder& mesh) {
     for (const auto* current : {&object_, &groups_}) {
       for (const std::size_t group : *current) {
         std::vector<std::uint32_t>& faces = all_[group].polygons;
         if (faces.empty() || faces.back() != face) faces.push_back(face);
       }
     }
+    if (!prefix_.empty()) mesh.call_face(prefix_ + std::to_string((*next_)++));
+    if (mesh.skips_bad()) ids_.push_back(prefix_.empty() ? std::to_string(face) : mesh.face_id());
   }
-  /// Faces are called by their numbers; some of them may have been left out.
+  /// Some of the faces may have been left out.
   void write(Scene& scene) {
     if (all_.empty()) return;
     std::unordered_map<std::string_view, std::uint32_t> polygons;
@@ -106,9 +124,10 @@ class NamedGroups {
     for (PolygonGroup& group : all_) {
       std::vector<std::uint32_t> kept;
       for (const std::uint32_t face : group.polygons) {
-        const auto found = polygons.find(std::to_string(face));
+        const auto found = ids_.empty() ? polygons.end() : polygons.find(ids_[face]);
         if (found != polygons.end()) kept.push_back(found->second);
       }
+      if (ids_.empty()) kept = std::move(group.polygons);
       group.polygons = std::move(kept);
     }
     std::erase_if(all_, [](const PolygonGroup& group) { return group.polygons.empty(); });
@@ -129,7 +148,11 @@ class NamedGroups {
 
   std::vector<PolygonGroup> all_;  // in the order of their names in the file
   std::unordered_map<std::string, std::size_t> index_;
-  std::vector<std::size_t> object_, groups_;  // those of the faces that come
+  std::vector<std::size_t> object_, groups_;               // those of the faces that come
+  std::string object_prefix_, group_prefix_, prefix_;      // of the same
+  std::unordered_map<std::string, std::uint32_t> counts_;  // of the faces of each prefix
+  std::uint32_t* next_ = nullptr;                          // of those of this one
+  std::vector<std::string> ids_;                           // of all faces, if some are left out
 };
 
 /// A line that cannot be used is passed over where that was asked for.
@@ -189,6 +212,7 @@ Expected<ReadResult> read_obj(const std::string& text, const std::string& file,
                                     {"p", "point elements (p)"},
                                     {"curv", "curves (curv)"},
                                     {"surf", "free-form surfaces (surf)"}}};
+  std::size_t weighted = 0;
   NamedGroups groups;
   Tokens tokens(text, byte_order_mark(text), Tokens::Continuation::kBackslash);
   do {
@@ -196,10 +220,11 @@ Expected<ReadResult> read_obj(const std::string& text, const std::string& file,
     if (!keyword) continue;
     Expected<void> done;
     if (keyword->text == "v") {
-      done = read_vertex(tokens, mesh, *keyword);
+      done = read_vertex(tokens, mesh, *keyword, weighted);
     } else if (keyword->text == "f") {
       done = read_face(tokens, mesh, *keyword);
-      if (done) groups.add_face(static_cast<std::uint32_t>(mesh.face_count() - 1));
+      if (!done && skip(mesh, *keyword, done.error())) done = {};
+      if (done) groups.add_face(static_cast<std::uint32_t>(mesh.face_count() - 1), mesh);
     } else if (keyword->text == "g" || keyword->text == "o") {
       groups.read_names(tokens, keyword->text == "o");
     } else {
@@ -213,6 +238,11 @@ Expected<ReadResult> read_obj(const std::string& text, const std::string& file,
   } while (tokens.next_line());
   if (mesh.vertex_count() == 0 && mesh.face_count() == 0) {
     return mesh.error(ErrorCode::kFormat, "no vertex and no face", "an OBJ file: v and f lines", 0);
+  }
+  if (weighted != 0) {
+    mesh.warn(std::to_string(weighted) +
+              (weighted == 1 ? " vertex has a weight" : " vertices have weights") +
+              " other than 1, which are ignored: the three coordinates count");
   }
   for (const Drawn& drawn : passed_over) {
     if (drawn.count != 0) mesh.warn(std::to_string(drawn.count) + " " + drawn.name + " ignored");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // What the table of formats (formats.h) has of each: the test whether a file looks like one, and
-// the reader. Each reader gets a whole file and its name for messages. Those of CityJSON and of the
-// energy engine have rooms of their own (cityjson/, energyplus/).
+// the reader. Each reader gets a whole file and its name for messages, from which those of formats
+// that name other files find them. Readers of city models, building models, Radiance and glTF have
+// rooms of their own.
 #ifndef GNOMON_SCENE_FILES_READERS_H
 #define GNOMON_SCENE_FILES_READERS_H
 
@@ -25,6 +26,12 @@ Likeness looks_like_cityjson(std::string_view text);
 Likeness looks_like_cityjson_sequence(std::string_view text);
 Likeness looks_like_epjson(std::string_view text);
 Likeness looks_like_idf(std::string_view text);
+Likeness looks_like_hbjson(std::string_view text);
+Likeness looks_like_gbxml(std::string_view text);
+Likeness looks_like_radiance(std::string_view text);
+Likeness looks_like_gltf(std::string_view text);
+Likeness looks_like_glb(std::string_view text);
+Likeness looks_like_stl(std::string_view text);
 
 Expected<ReadResult> read_json(const std::string& text, const std::string& file,
                                const ReadOptions& options);
@@ -44,6 +51,17 @@ Expected<ReadResult> read_cityjson_sequence(const std::string& text, const std::
 Expected<ReadResult> read_epjson(const std::string& text, const std::string& file,
                                  const ReadOptions& options);
 Expected<ReadResult> read_idf(const std::string& text, const std::string& file,
+                              const ReadOptions& options);
+Expected<ReadResult> read_hbjson(const std::string& text, const std::string& file,
+                                 const ReadOptions& options);
+Expected<ReadResult> read_gbxml(const std::string& text, const std::string& file,
+                                const ReadOptions& options);
+Expected<ReadResult> read_radiance(const std::string& text, const std::string& file,
+                                   const ReadOptions& options);
+/// glTF as JSON or binary: the content tells.
+Expected<ReadResult> read_gltf(const std::string& text, const std::string& file,
+                               const ReadOptions& options);
+Expected<ReadResult> read_stl(const std::string& text, const std::string& file,
                               const ReadOptions& options);
 
 /// What read_cityjson_sequence() says of the same text, of which only a line at a time is in

@@ -16,12 +16,13 @@ std::string counted(std::size_t count, const char* singular, const char* plural)
 }
 
 /// What a mesh format has no place for.
-std::vector<std::string> left_out_of_mesh(const Scene& scene, Holds holds) {
+std::vector<std::string> left_out_of_mesh(const Scene& scene, const FileFormat& format) {
+  const bool keeps_ids = format.format == SceneFormat::kObj && !obj_groups(scene).empty();
   std::size_t holes = 0, ids = 0, flags = 0;
   for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
     const Polygon& polygon = scene.polygons[i];
     holes += polygon.holes.size();
-    if (polygon.id != std::to_string(i)) ++ids;
+    if (!keeps_ids && polygon.id != std::to_string(i)) ++ids;
     if (!polygon.casts || scene.is_two_sided(polygon)) ++flags;
   }
   std::vector<std::string> warnings;
@@ -35,7 +36,7 @@ std::vector<std::string> left_out_of_mesh(const Scene& scene, Holds holds) {
     warnings.push_back(counted(scene.lights.size(), "light", "lights") + end);
   }
   if (!scene.extra.empty()) warnings.push_back("\"extra\"" + end);
-  if (scene.numbers == NumberMeaning::kDecimal && holds == Holds::kMesh) {
+  if (scene.numbers == NumberMeaning::kDecimal && format.holds == Holds::kMesh) {
     warnings.emplace_back("the numbers are decimals: read the file with --numbers decimal");
   }
   return warnings;
@@ -67,7 +68,7 @@ Expected<WrittenScene> scene_to_text(const Scene& scene, SceneFormat format) {
   if (file.holds == Holds::kSurfaces) {
     result.warnings = left_out_of_cityjson(scene);
   } else if (file.holds != Holds::kScene) {
-    result.warnings = left_out_of_mesh(scene, file.holds);
+    result.warnings = left_out_of_mesh(scene, file);
   }
   Expected<std::string> text = file.write(scene);
   if (!text) {

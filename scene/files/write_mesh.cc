@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// The writers of OBJ, OFF and PLY: vertices and loops.
+// The writers of OBJ, OFF and PLY: vertices and loops, in OBJ also ids that are those of groups.
 #include <bit>
 #include <limits>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
 
 #include "scene/files/writers.h"
 
@@ -67,7 +71,28 @@ std::string ply_header(const Scene& scene, const char* encoding) {
   return text;
 }
 
+/// Is it one word of an OBJ file?
+bool is_obj_name(std::string_view name) {
+  return !name.empty() && name.find_first_of(" \t\r\v\f\n\\#") == std::string_view::npos;
+}
+
 }  // namespace
+
+std::vector<std::string_view> obj_groups(const Scene& scene) {
+  std::vector<std::string_view> groups;
+  std::unordered_map<std::string_view, std::uint32_t> counts;
+  for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
+    const std::string_view id = scene.polygons[i].id;
+    const std::size_t slash = id.rfind('/');
+    const std::string_view group = slash == std::string_view::npos ? "" : id.substr(0, slash);
+    const std::string number =
+        std::to_string(group.empty() ? static_cast<std::uint32_t>(i) : counts[group]++);
+    const bool is_called_so = id == (group.empty() ? number : std::string(group) + "/" + number);
+    if (!is_called_so || (!group.empty() && !is_obj_name(group))) return {};
+    groups.push_back(group);
+  }
+  return groups;
+}
 
 Expected<std::string> write_obj(const Scene& scene) {
   std::string text;
@@ -75,7 +100,14 @@ Expected<std::string> write_obj(const Scene& scene) {
   if (auto done = append_vertices(text, scene, "v "); !done) {
     return tl::unexpected(std::move(done.error()));
   }
-  for (const Polygon& polygon : scene.polygons) {
+  const std::vector<std::string_view> groups = obj_groups(scene);
+  std::string_view group;
+  for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
+    const Polygon& polygon = scene.polygons[i];
+    if (!groups.empty() && groups[i] != group) {
+      group = groups[i];
+      text += group.empty() ? "g\n" : "g " + std::string(group) + "\n";
+    }
     text += 'f';
     for (const VertexId vertex : polygon.loop) {
       text += " " + std::to_string(std::uint64_t{vertex} + 1);

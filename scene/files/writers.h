@@ -4,6 +4,7 @@
 #define GNOMON_SCENE_FILES_WRITERS_H
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gnomon/scene/write.h"
@@ -12,6 +13,9 @@ namespace gnomon {
 
 Expected<std::string> write_json(const Scene& scene);
 Expected<std::string> write_obj(const Scene& scene);
+/// The group of an OBJ file that each polygon is in (empty: none), so that it is called there as it
+/// is; nothing at all if some id is none of an OBJ file.
+std::vector<std::string_view> obj_groups(const Scene& scene);
 Expected<std::string> write_off(const Scene& scene);
 Expected<std::string> write_ply_ascii(const Scene& scene);
 Expected<std::string> write_ply_binary(const Scene& scene);

@@ -30,7 +30,7 @@ TEST(ReadObj, VerticesAndFaces) {
   EXPECT_THAT(scene.polygons[1].loop, ElementsAre(0, 1, 3));
   EXPECT_THAT(scene.polygons[2].loop, ElementsAre(3, 2, 1));
   EXPECT_THAT(scene.polygons[3].loop, ElementsAre(0, 1, 2));
-  EXPECT_EQ(scene.polygons[3].id, "3");
+  EXPECT_EQ(scene.polygons[3].id, "thing/group/3");
 }
 
 TEST(ReadObj, ContinuedLines) {

@@ -111,20 +111,20 @@ TEST(ForeignFormats, AreCalledByTheirNames) {
   };
   EXPECT_EQ(foreign(R"({ "type": "CityJSON", "version": "1.1", "CityObjects": {} })", "a.obj"),
             "this is CityJSON, and called OBJ");
-  EXPECT_EQ(foreign(R"({"type": "Model", "rooms": [{"type": "Room"}]})", "a.json"), is("HBJSON"));
-  EXPECT_EQ(foreign(R"({"asset": {"version": "2.0"}, "meshes": []})", "a.json"), is("glTF"));
+  EXPECT_EQ(foreign(R"({"type": "Model", "properties": {"type": "ModelProperties"}})", "a.obj"),
+            "this is HBJSON, and called OBJ");
+  EXPECT_EQ(foreign(R"({"asset": {"version": "2.0"}, "meshes": []})", "a.off"),
+            "this is glTF, and called OFF");
   EXPECT_EQ(foreign(R"({"type": "FeatureCollection"})", "a.json"), is("GeoJSON"));
-  EXPECT_EQ(foreign("<?xml version=\"1.0\"?>\n<gbXML xmlns=\"x\">\n</gbXML>", "a.xml"),
-            is("gbXML"));
+  EXPECT_EQ(foreign("<?xml version=\"1.0\"?>\n<gbXML xmlns=\"x\">\n</gbXML>", "a.obj"),
+            "this is gbXML, and called OBJ");
   EXPECT_EQ(foreign("<core:CityModel>", "a.obj"), is("CityGML"));
   EXPECT_EQ(foreign("<a/>", "a.json"), is("XML"));
   EXPECT_EQ(foreign("! comment\n\nBuildingSurface:Detailed,\n  wall;\n", "a.obj"),
             "this is IDF, and called OBJ");
-  EXPECT_EQ(foreign("solid cube\nfacet normal 0 0 1\n", "a.stl"), is("STL"));
-  EXPECT_EQ(
-      foreign(std::string(80, 'x') + std::string("\1\0\0\0", 4) + std::string(50, '\0'), "a.stl"),
-      is("binary STL"));
-  EXPECT_EQ(foreign("glTF\2", "a.glb"), is("binary glTF"));
+  EXPECT_EQ(foreign("solid cube\nfacet normal 0 0 1\n", "a.ply"), "this is STL, and called PLY");
+  EXPECT_EQ(foreign("glTF\2", "a.obj"), "this is binary glTF, and called OBJ");
+  EXPECT_EQ(foreign("<core:CityModel>", "a.xml"), is("CityGML"));
   EXPECT_EQ(foreign("ISO-10303-21;\nHEADER;", "a.ifc"), is("STEP (such as IFC)"));
   // A broken file of a format that is read says what is broken.
   EXPECT_THAT(foreign("{\"format\": \"gnomon-scene\", \"asset\": {}}", "a.json"),

@@ -6,7 +6,7 @@
 // a binary PLY is exactly that float); every error names one place; memory stays within a small
 // multiple of the file, whatever counts the file announces; no input ends in a crash. A UTF-8 byte
 // order mark is accepted. Polygons of OBJ, OFF and PLY are taken as they are, with their index as
-// id.
+// id, in OBJ behind the name of their object or group.
 #ifndef GNOMON_SCENE_READ_H
 #define GNOMON_SCENE_READ_H
 
@@ -22,6 +22,9 @@
 
 namespace gnomon {
 
+/// Which axis of a file points upwards. Scenes have z up.
+enum class UpAxis : std::uint8_t { kZ, kY };
+
 struct ReadOptions {
   std::optional<NumberMeaning> numbers;  // overrides the file; meshes are doubles otherwise
   std::optional<SceneFormat> format;     // instead of extension and content
@@ -35,6 +38,9 @@ struct ReadOptions {
   /// Of EnergyPlus' formats: the building stays in its own axes where that is exact, and the sun
   /// has to be turned by what "extra" says of its north.
   bool keep_axes = false;
+  /// The axis of the file that points upwards, where it is another than its format has (glTF: y,
+  /// all others: z). From y up (x, y, z) becomes (x, -z, y), exactly, lights and all.
+  std::optional<UpAxis> up;
 };
 
 struct LeftOutPolygon {

@@ -23,9 +23,16 @@ enum class SceneFormat : std::uint8_t {
   kCityJsonSeq,
   kEpJson,
   kIdf,
+  kHbJson,
+  kGbXml,
+  kRadiance,
+  kGltf,
+  kGlb,
+  kStl,
 };
 
-/// "json", "obj", "off", "ply" (ascii), "ply-binary", "cityjson", "cityjsonseq", "epjson", "idf".
+/// "json", "obj", "off", "ply" (ascii), "ply-binary", "cityjson", "cityjsonseq", "epjson", "idf",
+/// "hbjson", "gbxml", "rad", "gltf", "glb" (binary glTF), "stl".
 std::string_view format_name(SceneFormat format);
 /// The names of all formats that can be written.
 std::vector<std::string> written_format_names();
@@ -35,8 +42,8 @@ std::string shown_scene_extensions();
 std::string shown_written_extensions();
 
 std::optional<SceneFormat> format_by_name(std::string_view name);
-/// The format of .json, .obj, .off, ..., in upper or lower case. CityJSON and epJSON may be in
-/// files called .json, too.
+/// The format of .json, .obj, .off, ..., in upper or lower case. CityJSON, epJSON and HBJSON may
+/// be in files called .json, too.
 std::optional<SceneFormat> format_by_extension(const std::filesystem::path& path);
 /// The format that the first bytes fit; nothing if they fit none.
 std::optional<SceneFormat> format_by_content(std::string_view text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-#include "scene/energyplus/exact_vector.h"
+#include "scene/model/decimal_vector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "scene/model/decimal_arithmetic.h"
 
-namespace gnomon::energy {
+namespace gnomon::decimals {
 
 namespace {
 
@@ -138,4 +138,4 @@ Angle angle_of(const Number& degrees) {
   return angle;
 }
 
-}  // namespace gnomon::energy
+}  // namespace gnomon::decimals

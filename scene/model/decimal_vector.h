@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Vectors of decimals: exact sums and products, lengths and unit vectors as exact as decimals can
 // have them. Requires of all: decimal coordinates.
-#ifndef GNOMON_SCENE_ENERGYPLUS_EXACT_VECTOR_H
-#define GNOMON_SCENE_ENERGYPLUS_EXACT_VECTOR_H
+#ifndef GNOMON_SCENE_MODEL_DECIMAL_VECTOR_H
+#define GNOMON_SCENE_MODEL_DECIMAL_VECTOR_H
 
 #include <vector>
 
 #include "gnomon/scene/scene.h"
 
-namespace gnomon::energy {
+namespace gnomon::decimals {
 
 Position sum(const Position& a, const Position& b);
 Position difference(const Position& a, const Position& b);
@@ -44,6 +44,6 @@ struct Angle {
 };
 Angle angle_of(const Number& degrees);
 
-}  // namespace gnomon::energy
+}  // namespace gnomon::decimals
 
-#endif  // GNOMON_SCENE_ENERGYPLUS_EXACT_VECTOR_H
+#endif  // GNOMON_SCENE_MODEL_DECIMAL_VECTOR_H

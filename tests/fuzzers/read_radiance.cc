@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A Radiance file, beside which there are no others.
+#include "harness.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace gnomon::fuzzers;
+  check_scene_file(text_of(data, size), "input.rad", gnomon::SceneFormat::kRadiance);
+  return 0;
+}
