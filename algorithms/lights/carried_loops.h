@@ -88,6 +88,10 @@ class LoopCarrier {
     return loop_.view({0, loop_.size(), part_index}, support);
   }
 
+  /// Who made an edge of the loop that to_light() gave last, from `carried`.
+  const EdgeOrigin& origin_of(const Carried& carried, std::uint32_t edge) const {
+    return carried.edges[order_[edge]];
+  }
   /// Takes a piece of the loop that to_light() gave last back from the light's space; edges that
   /// `from`, that loop, has keep their origin.
   Carried from_light(const LoopView<Vertex>& piece, const Carried& from, Side side,

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "algorithms/lights/carried_loops.h"
+#include "algorithms/lights/merge_together.h"
 #include "algorithms/partition/classified_loop.h"
 #include "algorithms/scene_bsp/scene_bsp.h"
 
@@ -156,11 +157,26 @@ class Pipeline {
   /// Loops that filter() has classified.
   std::uint64_t filtered() const { return filtered_; }
 
-  /// The fragments, as the result tells of them.
+  /// The fragments, as the result tells of them; by MergeOf::kConvex neighbours that the same
+  /// lights reach are merged. What is kept for later steps stays as it is.
   void put_out(const RunTask& task, ShadowResult& result) {
     const RunOptions options = run_options_of(task.options);
     std::vector<std::uint32_t> marks;
     for (const auto& light : lights_) marks.push_back(light->space.plane_mark());
+    if (options.output.merge && task.options.method.options.merge == MergeOf::kConvex) {
+      put_out_merged(task.rules, result);
+    } else {
+      put_out_all(options, result);
+    }
+    for (std::size_t i = 0; i < marks.size(); ++i) lights_[i]->space.release_planes(marks[i]);
+    const auto key = [&](const CombinedFragment& fragment) {
+      return std::pair(scene_.parts[fragment.part].polygon, -static_cast<int>(fragment.side));
+    };
+    std::ranges::stable_sort(result.combined, {}, key);
+  }
+
+ private:
+  void put_out_all(const RunOptions& options, ShadowResult& result) {
     for (std::uint32_t piece = 0; piece < bsp_.pieces.size(); ++piece) {
       const std::uint32_t part = bsp_.pieces[piece].part;
       for (const Side side : {Side::kFront, Side::kBack}) {
@@ -176,14 +192,47 @@ class Pipeline {
         }
       }
     }
-    for (std::size_t i = 0; i < marks.size(); ++i) lights_[i]->space.release_planes(marks[i]);
-    const auto key = [&](const CombinedFragment& fragment) {
-      return std::pair(scene_.parts[fragment.part].polygon, -static_cast<int>(fragment.side));
-    };
-    std::ranges::stable_sort(result.combined, {}, key);
+  }
+  void put_out_merged(const Rules& rules, ShadowResult& result) {
+    std::vector<std::vector<std::uint32_t>> pieces_of(scene_.parts.size());
+    for (std::uint32_t piece = 0; piece < bsp_.pieces.size(); ++piece) {
+      pieces_of[bsp_.pieces[piece].part].push_back(piece);
+    }
+    for (std::uint32_t part = 0; part < scene_.parts.size(); ++part) {
+      for (const Side side : {Side::kFront, Side::kBack}) {
+        put_out_merged(part, side, pieces_of[part], rules, result);
+      }
+    }
+  }
+  /// All fragments of a side, in the space of the last light that it faces.
+  void put_out_merged(std::uint32_t part, Side side, std::span<const std::uint32_t> pieces,
+                      const Rules& rules, ShadowResult& result) {
+    const auto& of_side = items_.of[index_of(side)];
+    const auto some =
+        std::ranges::find_if(pieces, [&](std::uint32_t piece) { return of_side[piece].count > 0; });
+    if (some == pieces.end()) return;
+    const std::uint32_t run = of_side[*some].last_run;  // of all of them
+    LightScene<Space>& light = *lights_[run];
+    const std::uint32_t mark = light.space.plane_mark();
+    MergeTogether<Space> merge(light.space, rules);
+    for (const std::uint32_t piece : pieces) {
+      const PieceItems& own = of_side[piece];
+      for (const Item& item : std::span(items_.all).subspan(own.first, own.count)) {
+        const CarriedLoop<Vertex>& carried = item.stored->loop;
+        merge.add(carrier_.to_light(carried, part, side, run), item.lit_by,
+                  [&](std::uint32_t edge) { return carrier_.origin_of(carried, edge); });
+      }
+    }
+    merge.run();
+    merge.for_each([&](const LoopView<Vertex>& loop, std::uint64_t lit_by) {
+      CombinedFragment fragment{part, side, lit_by};
+      export_loop(light.space, scene_.geometry, light.options, loop, fragment,
+                  result.combined_points, result.combined_exact_points);
+      result.combined.push_back(fragment);
+    });
+    light.space.release_planes(mark);
   }
 
- private:
   static std::shared_ptr<StoredLoop> store(CarriedLoop<Vertex> loop) {
     return std::make_shared<StoredLoop>(std::move(loop));
   }

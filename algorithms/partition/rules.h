@@ -72,6 +72,9 @@ struct Rules {
   /// A vertex on the edge of a neighbouring face is a vertex of that face, too: its illumination
   /// is the same from both sides (shading_mesh.h, "no T-vertices").
   bool neighbour_vertices_are_in_the_face = true;
+  /// Fragments of several lights together become one only if the same lights reach them ("A
+  /// result": a fragment has one class under each light).
+  bool merged_fragments_agree_on_every_light = true;
   /// Which fragments stay: null for all of them, however thin they are, since fragments tile their
   /// polygon ("A result").
   bool (*fragment_stays)(const LoopShape&) = nullptr;

@@ -46,6 +46,12 @@ std::string distance_text(double value) {
 }
 
 constexpr std::array kOptions = {
+    MethodOption{
+        .name = "caps",
+        .values = "on|off",
+        .summary = "volumes end behind the last receiver that they may reach",
+        .read = [](MethodOptionValues& v, std::string_view t) { return read_switch(v.caps, t); },
+        .text = [](const MethodOptionValues& v) { return on_or_off(v.caps); }},
     MethodOption{.name = "casters",
                  .values = "polygons|solids",
                  .summary = "closed convex solids cast polygon by polygon, or as wholes",
@@ -112,6 +118,14 @@ constexpr std::array kOptions = {
         .summary = "with z-fail: the plane beyond which no wall is drawn, scene units; 0: none",
         .read = [](MethodOptionValues& v, std::string_view t) { return read_distance(v.far, t); },
         .text = [](const MethodOptionValues& v) { return distance_text(v.far); }},
+    MethodOption{
+        .name = "interleaved",
+        .values = "on|off",
+        .summary = "receivers go down trees that still grow, in the order of a scene BSP from the "
+                   "light's centroid",
+        .read = [](MethodOptionValues& v,
+                   std::string_view t) { return read_switch(v.interleaved, t); },
+        .text = [](const MethodOptionValues& v) { return on_or_off(v.interleaved); }},
     MethodOption{.name = "merge",
                  .values = "siblings|convex|off",
                  .summary = "which fragments become one: children of a split, also neighbours that "

@@ -33,9 +33,12 @@ constexpr std::array<std::string_view, 1> kSectorsOptions = {"split"};
 constexpr std::array<std::string_view, 2> kTwoPassOptions = {"cells", "cover"};
 constexpr std::array<std::string_view, 4> kSvbspOptions = {"light-order", "grow", "edges", "merge"};
 constexpr std::array<std::string_view, 1> kReceiverOptions = {"casters"};
+constexpr std::array<std::string_view, 3> kMergedOptions = {"casters", "interleaved", "caps"};
 constexpr std::array kSvbspCounters = {kScenePieces,  kShadowPolygons,  kNodes,     kDepth,
                                        kLongestChain, kMeanFilterDepth, kTreeBytes, kMerged};
 constexpr std::array kReceiverCounters = {kVolumes, kSolids, kVolumePlanes};
+constexpr std::array kMergedCounters = {kScenePieces,  kVolumes, kSolids,
+                                        kVolumePlanes, kNodes,   kDepth};
 constexpr std::array kBasicCounters = {kScenePieces, kVolumes, kTests,  kCovered,
                                        kDied,        kClips,   kNulled, kShadowPolygons};
 constexpr std::array kTilingCounters = {
@@ -109,7 +112,9 @@ constexpr std::array kObjectMethods = {
            .combines_lights = true,
            .explains = true,
            .leaves_out_steps = true,
-           .threads = true},
+           .threads = true,
+           .options = kMergedOptions,
+           .counters = kMergedCounters},
     Method{.id = MethodId::kPieces,
            .name = "pieces",
            .summary = "the light cut by polygon planes, classes for each piece",

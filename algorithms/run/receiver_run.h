@@ -24,9 +24,12 @@
 #include "algorithms/partition/rules.h"
 #include "algorithms/partition/run_options.h"
 #include "algorithms/run/by_receiver.h"
+#include "algorithms/scene_bsp/scene_bsp.inl.h"
 #include "algorithms/shadow_volumes/caster_tree.h"
 #include "algorithms/shadow_volumes/light_geometry.h"
 #include "algorithms/shadow_volumes/light_in_space.h"
+#include "algorithms/volume_trees/filtered_sides.h"
+#include "algorithms/volume_trees/interleaved_order.h"
 #include "algorithms/volume_trees/light_by_planes.h"
 #include "algorithms/volume_trees/penumbra_and_umbra.h"
 #include "gnomon/algorithms/components.h"
@@ -117,6 +120,13 @@ class ReceiverRun {
     return light.has_area() ? options_.method.area != MethodId::kReceiver
                             : options_.method.point == MethodId::kMerged;
   }
+  using Order = InterleavedOrder<Space>;
+  bool is_interleaved() const { return options_.method.options.interleaved; }
+  /// The order of all parts from everywhere, made when it is first asked for. False if stopped.
+  bool order_scene();
+  /// The trees if a side that sees the light goes down them, else null. `trees`: may be null.
+  const Trees* taken_by(Workspace& workspace, const Trees* trees, std::uint32_t part,
+                        Side side) const;
   /// Readies a side that sees the light for cut(). Returns the trees if it goes down them, else
   /// null. `trees`: may be null.
   const Trees* prepare_side(Workspace& workspace, const LightInSpace<Space>& light,
@@ -126,10 +136,23 @@ class ReceiverRun {
   template <class Emit>
   bool cut(Workspace& workspace, const LightInSpace<Space>& light, const Trees* trees,
            PlaneRef receiving, const Loop& piece, const Emit& emit) const;
-  /// `trees`: may be null.
+  /// `trees`: may be null. `filtered`: the sides that went down trees while they grew.
   std::vector<SideResult> run_part(Workspace& workspace, const LightInSpace<Space>& light,
-                                   const Trees* trees, std::uint32_t part);
-  bool build_trees(const LightInSpace<Space>& light, double from, double to, Trees& trees);
+                                   const Trees* trees, const FilteredSides<Vertex>& filtered,
+                                   std::uint32_t part);
+  /// Readies the trees for all sides that see the light and that they take; these sides are told to
+  /// `filtered`. False if stopped.
+  bool begin_trees(const LightInSpace<Space>& light, Trees& trees, FilteredSides<Vertex>& filtered);
+  bool build_trees(const LightInSpace<Space>& light, double from, double to, Trees& trees,
+                   WorkCounts& counts);
+  /// Grows the trees and filters the sides that they take at the same time (1992, "Algorithm").
+  bool interleave(const LightInSpace<Space>& light, double from, double to, Trees& trees,
+                  FilteredSides<Vertex>& filtered, LightResult& result);
+  /// Whether all volumes were cast; else why not is noted.
+  bool is_done(typename Trees::Outcome outcome);
+  Trees make_trees(const LightInSpace<Space>& light) {
+    return {space_, light, scene_, tree_, run_options_, options_.method.options.caps, rules_};
+  }
   void combine(const LightList& lights, double from, double to, ShadowResult& outcome);
   RunOutcome stop_reason() const;
 
@@ -142,6 +165,7 @@ class ReceiverRun {
   Space space_;
   CasterTree tree_;
   SolidCasters solids_;
+  std::optional<std::vector<BspNode>> order_;  // nodes of a scene BSP of all parts
   std::atomic<std::uint64_t> pieces_ = 0;
   std::atomic<bool> stopped_ = false, no_ieee_ = false;
   StageCounts stages_;
@@ -186,14 +210,11 @@ bool ReceiverRun<Space>::for_each(std::size_t n, double from, double to, const B
 }
 
 template <VolumeSpaceModel Space>
-const PenumbraAndUmbra<Space>* ReceiverRun<Space>::prepare_side(Workspace& workspace,
-                                                                const LightInSpace<Space>& light,
-                                                                const Trees* trees,
-                                                                std::uint32_t part,
-                                                                Side side) const {
-  const PlaneRef receiving = plane_of_side(scene_.parts[part], side);
-  if (trees == nullptr || !trees->takes(workspace.space, workspace.record, receiving)) {
-    light.prepare(workspace, part, side);
+const PenumbraAndUmbra<Space>* ReceiverRun<Space>::taken_by(Workspace& workspace,
+                                                            const Trees* trees, std::uint32_t part,
+                                                            Side side) const {
+  if (trees == nullptr ||
+      !trees->takes(workspace.space, workspace.record, plane_of_side(scene_.parts[part], side))) {
     return nullptr;
   }
   if (!workspace.trees) {
@@ -201,6 +222,17 @@ const PenumbraAndUmbra<Space>* ReceiverRun<Space>::prepare_side(Workspace& works
         std::make_unique<VolumeTreeWorkspace<Space>>(workspace.space, options_.output.merge);
   }
   return trees;
+}
+
+template <VolumeSpaceModel Space>
+const PenumbraAndUmbra<Space>* ReceiverRun<Space>::prepare_side(Workspace& workspace,
+                                                                const LightInSpace<Space>& light,
+                                                                const Trees* trees,
+                                                                std::uint32_t part,
+                                                                Side side) const {
+  const Trees* taken = taken_by(workspace, trees, part, side);
+  if (taken == nullptr) light.prepare(workspace, part, side);
+  return taken;
 }
 
 template <VolumeSpaceModel Space>
@@ -219,7 +251,9 @@ bool ReceiverRun<Space>::cut(Workspace& workspace, const LightInSpace<Space>& li
 template <VolumeSpaceModel Space>
 std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
                                                      const LightInSpace<Space>& light,
-                                                     const Trees* trees, std::uint32_t index) {
+                                                     const Trees* trees,
+                                                     const FilteredSides<Vertex>& filtered,
+                                                     std::uint32_t index) {
   const Part& part = scene_.parts[index];
   std::vector<SideResult> sides;
   ShadowReason reason = ShadowReason::kNone;
@@ -231,14 +265,19 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
       if (reason == ShadowReason::kNone) reason = sight.reason;
       continue;
     }
-    const Trees* taken_by = prepare_side(workspace, light, trees, index, side);
+    const bool is_filtered = filtered.has(index, side);
+    const Trees* taken = is_filtered ? nullptr : prepare_side(workspace, light, trees, index, side);
     const Loop whole = part_loop(workspace.space, scene_, index, workspace.whole);
     sink.begin(index, side, light.has_area());
-    cut(workspace, light, taken_by, plane_of_side(part, side), whole,
-        [&](const PieceClass& state, const Loop& loop) {
-          sink.add(state, loop);
-          return count_piece();
-        });
+    const auto add = [&](const PieceClass& state, const Loop& loop) {
+      sink.add(state, loop);
+      return count_piece();
+    };
+    if (is_filtered) {
+      filtered.for_each(index, side, part.plane, add);
+    } else {
+      cut(workspace, light, taken, plane_of_side(part, side), whole, add);
+    }
     if (stopped_) return sides;
     sink.collapse(whole);
     sink.name_witnesses([&](std::uint32_t caster, const Loop& piece) {
@@ -252,39 +291,6 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
     sides.push_back(
         dark_side(index, Side::kFront, reason, light.has_area(), options_.output.exact_fractions));
   return sides;
-}
-
-/// The trees of the merged algorithm, for all sides that see the light and that they take. False if
-/// stopped.
-template <VolumeSpaceModel Space>
-bool ReceiverRun<Space>::build_trees(const LightInSpace<Space>& light, double from, double to,
-                                     Trees& trees) {
-  std::vector<std::uint32_t> receivers;
-  {
-    Workspace workspace(space_.fork(), rules_);
-    for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
-      if (stopped()) return false;
-      for (const Side side : {Side::kFront, Side::kBack}) {
-        if (side == Side::kBack && !scene_.parts[i].two_sided) break;
-        if (light.sight(workspace, i, side).sees() &&
-            trees.takes(workspace.space, workspace.record, plane_of_side(scene_.parts[i], side))) {
-          receivers.push_back(i);
-          break;
-        }
-      }
-    }
-    stages_ += workspace.space.stage_counts();
-  }
-  using Outcome = typename Trees::Outcome;
-  const Outcome outcome = trees.build(receivers, [&](double share) {
-    if (options_.control.progress) options_.control.progress(from + (to - from) * share);
-    return !stopped();
-  });
-  if (outcome == Outcome::kTooManyNodes) {
-    pieces_ = options_.limits.fragments + 1;
-    stopped_ = true;
-  }
-  return outcome == Outcome::kDone;
 }
 
 template <VolumeSpaceModel Space>
@@ -357,10 +363,13 @@ template <VolumeSpaceModel Space>
 LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, LightResult result,
                                           double from, double to) {
   std::optional<Trees> merged;
+  FilteredSides<Vertex> filtered;
   if (has_trees(light)) {
-    merged.emplace(space_, light, scene_, tree_, run_options_, rules_);
+    merged.emplace(make_trees(light));
     const double middle = from + (to - from) / 2;
-    if (!build_trees(light, from, middle, *merged)) return result;
+    const bool done = is_interleaved() ? interleave(light, from, middle, *merged, filtered, result)
+                                       : build_trees(light, from, middle, *merged, result.work);
+    if (!done) return result;
     from = middle;
   }
   std::vector<std::vector<SideResult>> parts(scene_.parts.size());
@@ -379,13 +388,13 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
     const std::uint64_t cells_before = workspace.cutter.cells(),
                         vanished_before = workspace.cutter.vanished();
     const std::uint64_t filtered_before = workspace.trees ? workspace.trees->filter.vanished() : 0;
-    parts[order[i]] = run_part(workspace, light, merged ? &*merged : nullptr, order[i]);
+    parts[order[i]] = run_part(workspace, light, merged ? &*merged : nullptr, filtered, order[i]);
     if (workspace.trees) vanished += workspace.trees->filter.vanished() - filtered_before;
     cells += workspace.cutter.cells() - cells_before;
     vanished += workspace.cutter.vanished() - vanished_before;
   });
   result.tree_nodes = cells + (merged ? merged->node_count() : 0);
-  result.dropped_slivers = vanished + (merged ? merged->findings() : 0);
+  result.dropped_slivers += vanished + (merged ? merged->findings() : 0);
   if (stopped_) return result;
   for (std::vector<SideResult>& sides : parts) {
     for (SideResult& side : sides) {
@@ -444,9 +453,10 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
     const double step = (middle - from) / static_cast<double>(lights.size());
     for (std::size_t i = 0; i < lights.size(); ++i) {
       if (!has_trees(lights[i])) continue;
-      trees[i].emplace(space_, lights[i], scene_, tree_, run_options_, rules_);
+      trees[i].emplace(make_trees(lights[i]));
       const double begin = from + step * static_cast<double>(i);
-      if (!build_trees(lights[i], begin, begin + step, *trees[i])) return;
+      WorkCounts counts;  // those of the light alone are told
+      if (!build_trees(lights[i], begin, begin + step, *trees[i], counts)) return;
     }
     from = middle;
   }
@@ -463,13 +473,13 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
             {now.append(part_loop(workspace.space, scene_, part, workspace.whole)), 0, 0});
         seen = true;
       }
-      const Trees* taken_by =
+      const Trees* taken =
           prepare_side(workspace, lights[i], trees[i] ? &*trees[i] : nullptr, part, side);
       next.clear();
       fragments.clear();
       for (const Piece& piece : pieces) {
         const bool done =
-            cut(workspace, lights[i], taken_by, plane_of_side(scene_.parts[part], side),
+            cut(workspace, lights[i], taken, plane_of_side(scene_.parts[part], side),
                 now.view(piece.loop, plane), [&](const PieceClass& state, const Loop& loop) {
                   Piece fragment{next.append(loop), piece.lit_by, piece.penumbra_of};
                   const std::uint64_t bit = std::uint64_t{1} << i;
@@ -564,5 +574,7 @@ Expected<ShadowResult> ByReceiver<Kernel>::run(const RunTask& task) {
 }
 
 }  // namespace gnomon
+
+#include "algorithms/run/receiver_trees.inl.h"
 
 #endif  // GNOMON_ALGORITHMS_RUN_RECEIVER_RUN_H

@@ -111,6 +111,24 @@ class LightInSpace {
     const auto parts = static_cast<std::uint32_t>(scene_.parts.size());
     return caster == Fragment::kNoCaster || caster < parts ? SolidCasters::kNone : caster - parts;
   }
+  /// The volumes that make up all shadows: those of solids that cast as wholes, and of all parts
+  /// that cast by themselves.
+  std::vector<std::uint32_t> casting_volumes() const;
+  /// Those of them that a part has, alone or as one of a solid; [begin, end).
+  std::pair<std::uint32_t, std::uint32_t> casting_volumes_of(std::uint32_t part) const {
+    const std::uint32_t solid = caster_of(part);
+    if (solid == SolidCasters::kNone) return volumes_of(part);
+    return {solid_volumes_[solid], solid_volumes_[solid] + 1};
+  }
+  /// The box of whatever casts a volume, in fractions of the grid's extent.
+  Box caster_box(std::uint32_t volume) const {
+    const std::uint32_t caster = store_[volume].caster;
+    const std::uint32_t solid = solid_of(caster);
+    if (solid == SolidCasters::kNone) return tree_->box(caster);
+    Box box;
+    for (const std::uint32_t part : solids_->solids[solid]) box.add(tree_->box(part));
+    return box;
+  }
   /// Faces of a solid that together shadow all of a piece of the receiver that was prepared, none
   /// of whose polygons is needless. Requires: the solid shadows all of the piece.
   std::vector<std::uint32_t> faces_hiding(Workspace& workspace, const Loop& piece,
@@ -325,19 +343,26 @@ std::vector<std::uint32_t> LightInSpace<Space>::faces_hiding(Workspace& workspac
 }
 
 template <VolumeSpaceModel Space>
-void LightInSpace<Space>::count(WorkCounts& counts) const {
-  const auto add = [&](const ShadowVolume& volume) {
-    ++counts[Counter::kVolumes];
-    counts[Counter::kVolumePlanes] += volume.penumbra_count + volume.umbra_count;
-  };
+std::vector<std::uint32_t> LightInSpace<Space>::casting_volumes() const {
+  std::vector<std::uint32_t> volumes;
   for (std::uint32_t part = 0; part < scene_.parts.size(); ++part) {
     if (caster_of(part) != SolidCasters::kNone) continue;
-    for (std::uint32_t i = first_volume_[part]; i < first_volume_[part + 1]; ++i) add(store_[i]);
+    for (std::uint32_t i = first_volume_[part]; i < first_volume_[part + 1]; ++i) {
+      volumes.push_back(i);
+    }
   }
-  for (const std::uint32_t volume : solid_volumes_) {
-    if (volume == SolidCasters::kNone) continue;
-    ++counts[Counter::kSolids];
-    add(store_[volume]);
+  std::ranges::copy_if(solid_volumes_, std::back_inserter(volumes),
+                       [](std::uint32_t volume) { return volume != SolidCasters::kNone; });
+  return volumes;
+}
+
+template <VolumeSpaceModel Space>
+void LightInSpace<Space>::count(WorkCounts& counts) const {
+  for (const std::uint32_t i : casting_volumes()) {
+    const ShadowVolume& volume = store_[i];
+    ++counts[Counter::kVolumes];
+    counts[Counter::kVolumePlanes] += volume.penumbra_count + volume.umbra_count;
+    if (solid_of(volume.caster) != SolidCasters::kNone) ++counts[Counter::kSolids];
   }
 }
 

@@ -4,6 +4,9 @@
 // directional light has no penumbra: one tree is the set union of its shadow volumes (Thibault &
 // Naylor 1987), and what it holds is in shadow.
 //
+// Receivers go down finished trees, or trees that still grow, where whoever calls cut() knows that
+// all casters that hide light from the receiver have been cast (interleaved_order.h).
+//
 // Volumes must not depend on the receiver. They do not where the receiver's plane has no vertex of
 // the light behind it: then A_R = A, so that A_O = A n {P_O > 0} is a matter of the caster's side
 // alone, whether its plane cuts the light or not, and the umbra, which asks for all of A_R, of A.
@@ -35,6 +38,7 @@
 #include "algorithms/shadow_volumes/light_in_space.h"
 #include "algorithms/volume_trees/balanced_prefix.h"
 #include "algorithms/volume_trees/bounding_box.h"
+#include "algorithms/volume_trees/end_caps.h"
 #include "algorithms/volume_trees/volume_tree.h"
 
 namespace gnomon {
@@ -47,12 +51,14 @@ class PenumbraAndUmbra {
 
   /// The trees' planes are added to `space`, which must be forked afterwards.
   PenumbraAndUmbra(Space& space, const LightInSpace<Space>& light, const PreparedScene& scene,
-                   const CasterTree& boxes, const RunOptions& options, const Rules& rules)
+                   const CasterTree& boxes, const RunOptions& options, bool caps,
+                   const Rules& rules)
       : space_(&space),
         light_(&light),
         scene_(&scene),
         boxes_(&boxes),
         options_(&options),
+        has_caps_(caps),
         rules_(rules),
         penumbra_(space, rules),
         umbra_(space, rules) {}
@@ -65,10 +71,19 @@ class PenumbraAndUmbra {
   /// to 3 times as much.
   static constexpr std::uint32_t kReceiversALeaf = 64;
 
-  /// Makes the trees for those receivers (parts), which must include all that cut() will be asked
-  /// for. `step(share)` is called between casters and returns false to stop.
+  /// The light's casting volumes by the distance of their casters from it: the volumes of near
+  /// casters hold those of far ones, which then go into few cells. In the other order the trees
+  /// explode.
+  std::vector<std::uint32_t> near_first() const;
+  /// Readies the trees for those receivers (parts), which must include all that cut() will be asked
+  /// for. Adds the last planes to the space.
+  void begin(std::span<const std::uint32_t> receivers);
+  /// Adds one of the light's volumes to the trees. False if they have too many nodes.
+  bool cast(std::uint32_t volume);
+  /// Casts those volumes in this order. `step(share)` is called before each and returns false to
+  /// stop. Requires: begin().
   template <class Step>
-  Outcome build(std::span<const std::uint32_t> receivers, const Step& step);
+  Outcome cast_all(std::span<const std::uint32_t> volumes, const Step& step);
 
   /// Whether a side that sees the light can be filtered: its plane does not cut the light.
   bool takes(Space& space, SplitRecord& record, PlaneRef receiving) const {
@@ -84,12 +99,14 @@ class PenumbraAndUmbra {
            const Loop& whole, PlaneRef receiving, const Emit& emit) const;
 
   std::uint64_t node_count() const { return penumbra_.node_count() + umbra_.node_count(); }
+  /// Of the deeper tree. O(nodes).
+  std::uint64_t depth() const { return std::max(penumbra_.depth(), umbra_.depth()); }
   std::uint64_t findings() const {
     return penumbra_.findings() + umbra_.findings() + splitter_.findings();
   }
 
  private:
-  std::vector<std::uint32_t> near_first() const;
+  void plan_caps(std::span<const std::uint32_t> receivers);
   /// Some point in front of a side: of the light, or of the scene's box for a directional light.
   /// None if the scene has none.
   std::optional<Corner<Vertex>> before(Space& space, PlaneRef receiving) const;
@@ -102,14 +119,15 @@ class PenumbraAndUmbra {
   const PreparedScene* scene_;
   const CasterTree* boxes_;
   const RunOptions* options_;
+  bool has_caps_;
   Rules rules_;
-  Polyhedron<Vertex> box_;  // that volumes are cut out of
+  Polyhedron<Vertex> box_;       // that volumes are cut out of
+  std::vector<VolumeEnd> ends_;  // by volume; empty: there are no caps
   VolumeTree<Space> penumbra_, umbra_;
   PolyhedronSplitter<Space> splitter_;
+  Polyhedron<Vertex> volume_;
 };
 
-/// Sorts the volumes by the distance of their casters from the light: the volumes of near casters
-/// hold those of far ones, which then go into few cells. In the other order the trees explode.
 template <VolumeSpaceModel Space>
 std::vector<std::uint32_t> PenumbraAndUmbra<Space>::near_first() const {
   const LightShape<Vertex> light = light_->shape();
@@ -125,10 +143,9 @@ std::vector<std::uint32_t> PenumbraAndUmbra<Space>::near_first() const {
     const std::array<Ball, 3> corner = space_->position(light.loop.corner(i));
     for (std::size_t k = 0; k < 3; ++k) centre[k] += corner[k].middle / light.loop.size();
   }
-  const VolumeStore& store = light_->volumes();
   std::vector<std::pair<double, std::uint32_t>> keys;
-  for (std::uint32_t i = 0; i < store.size(); ++i) {
-    const Box& box = boxes_->box(store[i].caster);
+  for (const std::uint32_t i : light_->casting_volumes()) {
+    const Box box = light_->caster_box(i);
     double square = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double step = (box.low[k] + box.high[k]) / 2 - centre[k];
@@ -144,9 +161,7 @@ std::vector<std::uint32_t> PenumbraAndUmbra<Space>::near_first() const {
 }
 
 template <VolumeSpaceModel Space>
-template <class Step>
-typename PenumbraAndUmbra<Space>::Outcome PenumbraAndUmbra<Space>::build(
-    std::span<const std::uint32_t> receivers, const Step& step) {
+void PenumbraAndUmbra<Space>::begin(std::span<const std::uint32_t> receivers) {
   // Volumes that end at others do so only where no plane but the volumes' cuts them.
   if (options_->prefix && rules_.volumes_continue_behind_others) {
     std::vector<Box> receiver_boxes;
@@ -159,25 +174,55 @@ typename PenumbraAndUmbra<Space>::Outcome PenumbraAndUmbra<Space>::build(
   // Volumes are cut out of the scene's box, or the part of it that is in front of an area light.
   box_ = make_box(*space_, {0, 0, 0}, {1, 1, 1});
   if (light_->has_area()) splitter_.clip(*space_, light_->plane(), false, box_);
+  if (has_caps_) plan_caps(receivers);
+}
+
+/// The penumbra holds the umbra, so that both end where it does.
+template <VolumeSpaceModel Space>
+void PenumbraAndUmbra<Space>::plan_caps(std::span<const std::uint32_t> receivers) {
+  EndCaps caps(scene_->parts.size(), receivers,
+               [&](std::uint32_t part) { return boxes_->box(part); });
   const VolumeStore& store = light_->volumes();
+  ends_.resize(store.size());
+  for (const std::uint32_t i : light_->casting_volumes()) {
+    const auto whole = light_->has_area() ? store.penumbra(store[i]) : store.umbra(store[i]);
+    cut_volume(*space_, box_, whole, splitter_, volume_);
+    ends_[i] = caps.end_of(*space_, volume_, store[i].caster);
+  }
+}
+
+template <VolumeSpaceModel Space>
+bool PenumbraAndUmbra<Space>::cast(std::uint32_t index) {
+  const VolumeStore& store = light_->volumes();
+  const ShadowVolume& own = store[index];
+  if (!ends_.empty() && ends_[index].reaches_nothing) return true;
   const std::uint64_t most = options_->limits.fragments > ~std::uint64_t{0} / kMostNodesAFragment
                                  ? ~std::uint64_t{0}
                                  : kMostNodesAFragment * options_->limits.fragments;
-  Polyhedron<Vertex> volume;
-  std::size_t done = 0;
-  for (const std::uint32_t i : near_first()) {
-    if (!step(static_cast<double>(done++) / static_cast<double>(store.size()))) {
+  for (const bool is_umbra : {false, true}) {
+    const auto planes = is_umbra ? store.umbra(own) : store.penumbra(own);
+    if (planes.empty()) continue;
+    cut_volume(*space_, box_, planes, splitter_, volume_);
+    if (!ends_.empty()) {
+      for (const PlaneRef cap : ends_[index].caps) splitter_.clip(*space_, cap, true, volume_);
+    }
+    if (!(is_umbra ? umbra_ : penumbra_)
+             .insert(volume_, planes.front().index(), own.caster, most)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+template <VolumeSpaceModel Space>
+template <class Step>
+typename PenumbraAndUmbra<Space>::Outcome PenumbraAndUmbra<Space>::cast_all(
+    std::span<const std::uint32_t> volumes, const Step& step) {
+  for (std::size_t i = 0; i < volumes.size(); ++i) {
+    if (!step(static_cast<double>(i) / static_cast<double>(volumes.size()))) {
       return Outcome::kStopped;
     }
-    for (const bool is_umbra : {false, true}) {
-      const auto planes = is_umbra ? store.umbra(store[i]) : store.penumbra(store[i]);
-      if (planes.empty()) continue;
-      cut_volume(*space_, box_, planes, splitter_, volume);
-      if (!(is_umbra ? umbra_ : penumbra_)
-               .insert(volume, planes.front().index(), store[i].caster, most)) {
-        return Outcome::kTooManyNodes;
-      }
-    }
+    if (!cast(volumes[i])) return Outcome::kTooManyNodes;
   }
   return Outcome::kDone;
 }

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -66,6 +67,8 @@ class VolumeTree {
               std::uint64_t most_nodes);
 
   std::uint64_t node_count() const { return nodes_.size() - 1; }
+  /// Nodes on the longest way from the root to a cell. O(nodes).
+  std::uint64_t depth() const { return depth_of(std::span<const Node>(nodes_)); }
   /// Counts what PolyhedronSplitter could not make as it should: 0 on exact kernels.
   std::uint64_t findings() const { return splitter_.findings(); }
 

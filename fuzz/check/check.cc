@@ -145,6 +145,7 @@ class SceneCheck {
   bool is_left_out(Property property) const {
     return property == Property::kClaims || property == Property::kRoundTrip ||
            property == Property::kWritten || property == Property::kBorders ||
+           property == Property::kTogether ||
            (property == Property::kMetamorphic && (options_.seed >> 48) % 2 != 0);
   }
   bool wanted(Property property) const {
@@ -235,7 +236,24 @@ class SceneCheck {
     if (!subject.exact() && fragments && wanted(Property::kBorders)) {
       check_borders(classified, name);
     }
+    if (wanted(Property::kTogether) && combines(subject, scene_)) {
+      check_together(subject, std::move(options), name);
+    }
     if (is_first) first_ = std::move(classified.result);
+  }
+
+  /// All lights at once, judged one after another (Claims::combined).
+  void check_together(const Subject& subject, ShadowOptions options, const std::string& name) {
+    tell("lights together by " + name);
+    options.output.combined = true;
+    Expected<ShadowResult> result = compute_shadows(*prepared_, options, subject.mistake);
+    // More fragments than each light has alone are no finding.
+    if (!result && result.error().code == ErrorCode::kLimit) return;
+    if (!result) return add_error(result.error(), name);
+    Classified classified = judged_->claim(std::move(*result), options, name);
+    classified.claims.lights.clear();  // by themselves they have been judged
+    if (!classified.claims.combined) classified.claims.combined.emplace();
+    judge_regions(subject, classified.claims, name, Property::kTogether);
   }
 
   void check_pictures(const Subject& subject, const std::string& name) {
@@ -327,30 +345,44 @@ class SceneCheck {
     judge(subject, *candidate, name);
   }
 
+  /// By the oracle's exact regions. None if it did not judge.
+  std::optional<oracle::ComparisonTotals> judge_regions(const Subject& subject,
+                                                        const Claims& candidate,
+                                                        const std::string& name,
+                                                        Property property) {
+    const bool must_be_exact = subject.exact() || options_.strict;
+    tell("oracle on " + name);
+    oracle::CertifyOptions options;
+    options.tolerance = options_.tolerance;
+    options.share_tolerance = options_.share_tolerance;
+    options.width = options_.width;
+    options.strict = must_be_exact;
+    options.most_regions = 4;
+    const Expected<oracle::Report> report = judged_->judge(candidate, options);
+    if (!report) {
+      add_error(report.error(), name);
+      return std::nullopt;
+    }
+    if (report->oracle_fault) {
+      add({Property::kSelf, name, "contradiction", {}, {}, report->reason});
+    }
+    const bool wrong = must_be_exact && report->told_shares == 0
+                           ? report->verdict != oracle::Verdict::kIdentical
+                           : report->verdict == oracle::Verdict::kFailed;
+    if (wrong) add_verdict(*report, name, property);
+    return report->totals;
+  }
+
   void judge(const Subject& subject, const Claims& candidate, const std::string& name) {
     const bool must_be_exact = subject.exact() || options_.strict;
     // How grave a false claim of a rounded result is, only the oracle can tell.
     const bool claims = !subject.foreign() && wanted(Property::kClaims);
     double share = 0, width = 0;
     if (wanted(Property::kOracle) || wanted(Property::kSelf) || (claims && !must_be_exact)) {
-      tell("oracle on " + name);
-      oracle::CertifyOptions options;
-      options.tolerance = options_.tolerance;
-      options.share_tolerance = options_.share_tolerance;
-      options.width = options_.width;
-      options.strict = must_be_exact;
-      options.most_regions = 4;
-      const Expected<oracle::Report> report = judged_->judge(candidate, options);
-      if (!report) return add_error(report.error(), name);
-      if (report->oracle_fault) {
-        add({Property::kSelf, name, "contradiction", {}, {}, report->reason});
-      }
-      const bool wrong = must_be_exact && report->told_shares == 0
-                             ? report->verdict != oracle::Verdict::kIdentical
-                             : report->verdict == oracle::Verdict::kFailed;
-      if (wrong) add_verdict(*report, name);
-      share = worst_share(report->totals);
-      width = report->totals.width.upper;
+      const auto totals = judge_regions(subject, candidate, name, Property::kOracle);
+      if (!totals) return;
+      share = worst_share(*totals);
+      width = totals->width.upper;
     }
     // Foreign results need not name casters, and have no claims then.
     if (!claims) return;
@@ -374,8 +406,8 @@ class SceneCheck {
                      totals.worst_outside});
   }
 
-  void add_verdict(const oracle::Report& report, const std::string& name) {
-    Failure failure{Property::kOracle, name, "missing", {}, {}, report.reason};
+  void add_verdict(const oracle::Report& report, const std::string& name, Property property) {
+    Failure failure{property, name, "missing", {}, {}, report.reason};
     const oracle::ComparisonTotals& totals = report.totals;
     if (report.problems.empty()) failure.disagreement = "off-plane";
     if (report.worst && report.worst->kind != oracle::ErrorKind::kNone) {

@@ -28,6 +28,8 @@ constexpr std::array kProperties = {
                  "an exact result, written as doubles and read back, passes verify and certify"},
     PropertyInfo{Property::kBorders, "borders",
                  "the verdict on a rounded result by borders is the one by measuring"},
+    PropertyInfo{Property::kTogether, "lights-together",
+                 "the lights that reach each fragment are those that the oracle says, one by one"},
 };
 
 }  // namespace

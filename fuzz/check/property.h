@@ -27,6 +27,7 @@ enum class Property : std::uint8_t {
   kSelf,         // the oracle does not contradict itself
   kWritten,      // exact results written as doubles and read back pass every judge
   kBorders,      // success proven by borders is success measured
+  kTogether,     // several lights together have the classes that each has alone
 };
 
 struct PropertyInfo {

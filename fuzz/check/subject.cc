@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "fuzz/check/subject.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -42,6 +43,10 @@ Expected<void> check_mistake(const Subject& subject, const std::string& whole) {
   if (subject.mistake == Mistake::kThicknessTooSmall && subject.kernel.thin) {
     return fail(ErrorCode::kUsage, "'" + whole + "': its planes have no thickness anyway",
                 "a kernel without +thin");
+  }
+  if (subject.mistake == Mistake::kCombinedBitLost && subject.options.merge != MergeOf::kConvex) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': " + mistake + " is a mistake of merging",
+                "svbsp:merge=convex");
   }
   const KernelId kernel = subject.kernel.kernel;
   // A picture has no area lights.
@@ -116,6 +121,16 @@ Expected<Subject> parse_subject(std::string_view text) {
     return tl::unexpected(checked.error());
   }
   return subject;
+}
+
+bool combines(const Subject& subject, const Scene& scene) {
+  constexpr std::size_t kMostLights = 64;
+  const bool is_sound = subject.mistake == Mistake::kNone || is_of_lights_together(subject.mistake);
+  if (subject.foreign() || !is_sound || scene.lights.size() > kMostLights) return false;
+  // Lights of any kind beside an area light are combined by its method.
+  const bool area = std::ranges::any_of(scene.lights, &Light::has_area);
+  return method_info(area ? subject.area_algorithm : subject.algorithm).combines_lights &&
+         subject.options.cover == Cover::kPartition;
 }
 
 ShadowOptions shadow_options(const Subject& subject) {

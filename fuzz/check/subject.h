@@ -12,6 +12,7 @@
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/error.h"
 #include "gnomon/kernel/kernel_choice.h"
+#include "gnomon/scene/scene.h"
 
 namespace gnomon::fuzz {
 
@@ -38,6 +39,9 @@ std::string name_of(const Subject& subject);
 /// Errors: kUsage, with the names that there are; for a mistake that changes nothing of what that
 /// kernel and those algorithms do.
 Expected<Subject> parse_subject(std::string_view text);
+
+/// Whether it can classify these lights together, and its mistake, if it has one, may be made then.
+bool combines(const Subject& subject, const Scene& scene);
 
 /// Options that run it, but for its mistake: exact points kept, exact fractions if it has them, one
 /// thread. compute_shadows(scene, options, subject.mistake) adds the mistake (mistakes/compute.h).

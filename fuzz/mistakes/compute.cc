@@ -20,7 +20,7 @@ constexpr double kTooThick = 0x1p-7;
 Expected<void> check_mistake(const PreparedScene& scene, const ShadowOptions& options,
                              const LightList& lights, Mistake mistake) {
   const std::string name = "mutation " + std::string(name_of(mistake));
-  if (options.output.combined)
+  if (options.output.combined && !is_of_lights_together(mistake))
     return fail(ErrorCode::kUsage, name + " of lights together", "one by one");
   if (mistake == Mistake::kThicknessTooSmall && options.kernel.thickness == 0) {
     return fail(ErrorCode::kUsage, name + " of planes that have no thickness", "a thickness");

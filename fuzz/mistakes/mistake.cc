@@ -77,6 +77,9 @@ constexpr std::array kMistakes = {
                 "walls are kept in the order of depth in which a row first meets them", kCrow1977},
     MistakeInfo{Mistake::kOnePerspective, "one-perspective",
                 "what a lamp sees is mapped by one division, also beside and behind it", kCrow1977},
+    MistakeInfo{Mistake::kCombinedBitLost, "combined-bit-lost",
+                "fragments that one of several lights together tells apart become one, dark for it",
+                kChin1989},
 };
 
 }  // namespace
@@ -96,6 +99,8 @@ std::string_view name_of(Mistake mistake) {
   }
   return {};
 }
+
+bool is_of_lights_together(Mistake mistake) { return mistake == Mistake::kCombinedBitLost; }
 
 namespace {
 
@@ -161,6 +166,7 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kClosedTileKeepsDead:
       return method == MethodId::kTiling;
     case Mistake::kBspEdgesLeftOut:
+    case Mistake::kCombinedBitLost:  // of lights together, where it merges across splits
       return svbsp;
     case Mistake::kSupportBeforeEdges:
       return method == MethodId::kSvbspFull;
@@ -221,6 +227,7 @@ bool applies_to_area(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kEyeCountedOnce:
     case Mistake::kWallsKeepOrder:
     case Mistake::kOnePerspective:
+    case Mistake::kCombinedBitLost:
       return false;
   }
   return false;

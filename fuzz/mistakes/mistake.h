@@ -45,6 +45,7 @@ enum class Mistake : std::uint8_t {
   kEyeCountedOnce,     // an eye on the plane of a volume is outside it for all samples
   kWallsKeepOrder,     // walls kept in the order of depth in which they were met
   kOnePerspective,     // what a light sees mapped by one perspective division
+  kCombinedBitLost,    // lights together: fragments that one light tells apart become one
 };
 
 struct MistakeInfo {
@@ -59,6 +60,9 @@ std::span<const MistakeInfo> mistakes();
 std::optional<Mistake> mistake_by_name(std::string_view name);
 /// Empty for kNone.
 std::string_view name_of(Mistake mistake);
+
+/// Whether it is a mistake about several lights together; others are made one by one.
+bool is_of_lights_together(Mistake mistake);
 
 /// Whether a mistake is one that this method can make on this kernel, for point and directional
 /// lights, and for area lights. Of kNone it is true. Requires: a method, not kAutomatic.

@@ -107,6 +107,9 @@ Rules rules_of(Mistake mistake) {
     case Mistake::kOnePerspective:
       rules.light_looks_all_around = false;
       break;
+    case Mistake::kCombinedBitLost:
+      rules.merged_fragments_agree_on_every_light = false;
+      break;
     case Mistake::kOnSwapped:
       rules.on_goes_to_its_own_side = false;
       break;

@@ -70,26 +70,37 @@ constexpr std::array kZoo = {
              kWrongLight},
     ZooEntry{"one-perspective", Mistake::kOnePerspective, "plane/shadow-polygons", kPointScenes,
              kWrongLight},
+    ZooEntry{"combined-bit-lost", Mistake::kCombinedBitLost, "plane/svbsp:merge=convex",
+             kPointScenes, "misclassified"},
     ZooEntry{"area-on-swapped", Mistake::kOnSwapped, "plane", kAreaScenes, "misclassified"},
 };
 
 /// Are all fragments the same, corner by corner, and all shares?
 bool same(const ShadowResult& a, const ShadowResult& b) {
-  return std::ranges::equal(a.lights, b.lights, [](const LightResult& one, const LightResult& two) {
-    return one.exact_points == two.exact_points &&
-           std::ranges::equal(one.exact_fractions, two.exact_fractions, {}, &ExactFractions::lit,
-                              &ExactFractions::lit) &&
-           std::ranges::equal(one.parts, two.parts,
-                              [](const PartResult& p, const PartResult& q) {
-                                return p.part == q.part && p.side == q.side &&
-                                       p.reason == q.reason && p.fragment_count == q.fragment_count;
-                              }) &&
-           std::ranges::equal(one.fragments, two.fragments,
-                              [](const Fragment& f, const Fragment& g) {
-                                return f.state == g.state && f.caster == g.caster &&
-                                       f.reason == g.reason && f.count == g.count;
-                              });
-  });
+  const bool same_together =
+      a.combined_exact_points == b.combined_exact_points &&
+      std::ranges::equal(a.combined, b.combined,
+                         [](const CombinedFragment& f, const CombinedFragment& g) {
+                           return f.part == g.part && f.side == g.side && f.count == g.count &&
+                                  f.lit_by == g.lit_by && f.penumbra_of == g.penumbra_of;
+                         });
+  return same_together &&
+         std::ranges::equal(a.lights, b.lights, [](const LightResult& one, const LightResult& two) {
+           return one.exact_points == two.exact_points &&
+                  std::ranges::equal(one.exact_fractions, two.exact_fractions, {},
+                                     &ExactFractions::lit, &ExactFractions::lit) &&
+                  std::ranges::equal(one.parts, two.parts,
+                                     [](const PartResult& p, const PartResult& q) {
+                                       return p.part == q.part && p.side == q.side &&
+                                              p.reason == q.reason &&
+                                              p.fragment_count == q.fragment_count;
+                                     }) &&
+                  std::ranges::equal(one.fragments, two.fragments,
+                                     [](const Fragment& f, const Fragment& g) {
+                                       return f.state == g.state && f.caster == g.caster &&
+                                              f.reason == g.reason && f.count == g.count;
+                                     });
+         });
 }
 
 Expected<ZooVerdict> judge_shadows(const ZooEntry& entry, const ZooCase& zoo_case) {

@@ -24,7 +24,8 @@ oracle::CertifyOptions certify_options() {
 }  // namespace
 
 ZooCase::ZooCase(const ZooEntry& entry, const Scene& scene, PreparedScene prepared)
-    : scene_(scene),
+    : entry_(entry),
+      scene_(scene),
       prepared_(std::move(prepared)),
       judged_(scene_, prepared_),
       sound_(*parse_subject(entry.sound)) {}
@@ -32,6 +33,7 @@ ZooCase::ZooCase(const ZooEntry& entry, const Scene& scene, PreparedScene prepar
 Expected<ShadowResult> ZooCase::shadows(Mistake mistake) const {
   ShadowOptions options = shadow_options(sound_);
   options.limits.fragments = kMostFragments;
+  options.output.combined = is_of_lights_together(entry_.mistake);
   return compute_shadows(prepared_, options, mistake);
 }
 

@@ -22,14 +22,15 @@ namespace gnomon::fuzz {
 
 class ZooCase {
  public:
-  /// Keeps a reference to the scene.
+  /// Keeps references to both.
   ZooCase(const ZooEntry& entry, const Scene& scene, PreparedScene prepared);
   ZooCase(const ZooCase&) = delete;
   ZooCase& operator=(const ZooCase&) = delete;
 
   const PreparedScene& prepared() const { return prepared_; }
 
-  /// What the subject comes to with that mistake. Errors: those of compute_shadows().
+  /// What the subject comes to with that mistake, its lights together if the entry is about them.
+  /// Errors: those of compute_shadows().
   Expected<ShadowResult> shadows(Mistake mistake) const;
   Claims candidate_of(const ShadowResult& result, std::string name) const;
   oracle::Report certified(const Claims& candidate) const;
@@ -54,6 +55,7 @@ class ZooCase {
   oracle::MeshReport check(const ShadingMesh& mesh) const;
 
  private:
+  const ZooEntry& entry_;
   const Scene& scene_;
   PreparedScene prepared_;
   JudgedScene judged_;

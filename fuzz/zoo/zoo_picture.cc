@@ -9,6 +9,7 @@
 #include "fuzz/findings/finding_picture.h"
 #include "fuzz/zoo/zoo_case.h"
 #include "gnomon/algorithms/painters_order.h"
+#include "gnomon/result/shared_claims.h"
 #include "report/pictures/picture.h"
 #include "report/pictures/shaded_picture.h"
 #include "report/text/text_sink.h"
@@ -50,10 +51,12 @@ Expected<std::string> shadow_picture(const ZooEntry& entry, const Scene& scene,
   exact.output.exact_points = exact.output.exact_fractions = true;
   const auto right = compute_shadows(zoo_case.prepared(), exact);
   if (!right) return tl::unexpected(right.error());
-  const Claims shown = zoo_case.candidate_of(*wrong, entry.mutant());
+  Claims shown = zoo_case.candidate_of(*wrong, entry.mutant());
   const Claims truth = zoo_case.candidate_of(*right, "exact");
   const oracle::Report report = zoo_case.certified(shown);
   if (report.verdict != oracle::Verdict::kFailed || !report.worst) return shows_nothing(entry);
+  // Wrong is then what each light has of them all.
+  if (shown.combined) shown = shared_claims(shown, scene).front();
   for (std::uint32_t light = 0; light < shown.lights.size(); ++light) {
     if (shown.lights[light].id != report.worst->light) continue;
     const FindingPicture picture(scene, light, report.worst);

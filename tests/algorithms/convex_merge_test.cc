@@ -98,5 +98,68 @@ TEST(ConvexMerge, FragmentsAloneChange) {
   EXPECT_LT(siblings, off);
 }
 
+// --- Several lights together ---
+
+ShadowOptions together(KernelId kernel, MergeOf merge) {
+  ShadowOptions options = options_for(kernel);
+  options.method.point = MethodId::kSvbsp;
+  options.method.options.merge = merge;
+  options.output.combined = true;
+  return options;
+}
+
+TEST(ConvexMerge, WhatOneLightCutInVainIsOnePieceAgain) {
+  // Two suns: the shadows of two sheets cut the floor for each of them. What the same suns reach is
+  // merged across the planes of either.
+  Scene scene =
+      under_the_sun({{"left", 0, 0, 1, 1, 1}, {"right", 1, 0, 2, 1, 2}, {"p", -1, -1, 3, 3, 0}});
+  Light second = scene.lights[0];
+  second.id = "second";
+  second.position = {Number(1.0), Number(0.0), Number(1.0)};
+  scene.lights.push_back(second);
+  const auto own = Case::make(std::move(scene));
+  const auto usual = compute_shadows(own->prepared(), together(KernelId::kPlane, MergeOf::kNone));
+  const auto siblings =
+      compute_shadows(own->prepared(), together(KernelId::kPlane, MergeOf::kSiblings));
+  const auto convex =
+      compute_shadows(own->prepared(), together(KernelId::kPlane, MergeOf::kConvex));
+  ASSERT_TRUE(usual && siblings && convex);
+  EXPECT_LT(convex->combined.size(), siblings->combined.size());
+  EXPECT_LE(siblings->combined.size(), usual->combined.size());
+  EXPECT_EQ(judge(*own, *convex).verdict, oracle::Verdict::kIdentical);
+}
+
+TEST(ConvexMerge, SetsOfLightsStayTrueOnExactKernels) {
+  std::uint64_t before = 0, after = 0;
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    const auto& family = fuzz::families()[seed % fuzz::families().size()];
+    if (family.name == "MixedMagnitudes") continue;  // thousands of digits
+    Scene scene = family.make(seed);
+    if (scene.vertices.size() < 3) continue;
+    for (std::size_t i = 0; i < 2; ++i) {
+      Light& lamp = scene.lights.emplace_back();
+      lamp.id = "more" + std::to_string(i);
+      // In the planes of polygons, most often.
+      for (std::size_t k = 0; k < 3; ++k) {
+        lamp.position[k] = scene.vertices[(7 * seed + 3 * i + k) % scene.vertices.size()][k];
+      }
+    }
+    const auto own = Case::make(std::move(scene));
+    if (!own) continue;
+    SCOPED_TRACE(family.name + " " + std::to_string(seed) + "\n" + text_of(own->scene()));
+    for (const KernelId kernel : kExactKernels) {
+      const auto siblings = compute_shadows(own->prepared(), together(kernel, MergeOf::kSiblings));
+      const auto convex = compute_shadows(own->prepared(), together(kernel, MergeOf::kConvex));
+      ASSERT_TRUE(siblings && convex);
+      ASSERT_LE(convex->combined.size(), siblings->combined.size());
+      before += siblings->combined.size();
+      after += convex->combined.size();
+      const oracle::Report report = judge(*own, *convex);
+      ASSERT_EQ(report.verdict, oracle::Verdict::kIdentical) << report.reason;
+    }
+  }
+  EXPECT_LT(after, before);
+}
+
 }  // namespace
 }  // namespace gnomon::test

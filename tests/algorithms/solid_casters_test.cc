@@ -44,12 +44,13 @@ Scene with_lights(Scene scene) {
   return scene;
 }
 
-ShadowOptions by_receiver(CastersAre casters) {
-  ShadowOptions options = options_for(KernelId::kPlane);
-  options.method.point = MethodId::kReceiver;
+ShadowOptions by(MethodId method, CastersAre casters, KernelId kernel = KernelId::kPlane) {
+  ShadowOptions options = options_for(kernel);
+  options.method.point = method;
   options.method.options.casters = casters;
   return options;
 }
+ShadowOptions by_receiver(CastersAre casters) { return by(MethodId::kReceiver, casters); }
 
 TEST(SolidCasters, ACubeHasNinePlanes) {
   Scene scene;
@@ -123,6 +124,58 @@ TEST(SolidCasters, OracleAgrees) {
   const auto solids = compute_shadows(own->prepared(), by_receiver(CastersAre::kSolids));
   ASSERT_TRUE(solids);
   EXPECT_EQ(judge(*own, *solids).verdict, oracle::Verdict::kIdentical);
+}
+
+// --- In the volume trees ---
+
+TEST(SolidCasters, TreesHoldFewerVolumesAndNodes) {
+  std::uint64_t few_nodes = 0, many_nodes = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const auto own = Case::make(boxes(seed));
+    const auto polygons =
+        compute_shadows(own->prepared(), by(MethodId::kMerged, CastersAre::kPolygons));
+    const auto solids =
+        compute_shadows(own->prepared(), by(MethodId::kMerged, CastersAre::kSolids));
+    ASSERT_TRUE(polygons && solids);
+    for (std::size_t l = 0; l < solids->lights.size(); ++l) {
+      const WorkCounts &few = solids->lights[l].work, &many = polygons->lights[l].work;
+      EXPECT_LE(few[Counter::kVolumes], many[Counter::kVolumes]);
+      EXPECT_LE(few[Counter::kVolumePlanes], many[Counter::kVolumePlanes]);
+      few_nodes += few[Counter::kNodes];
+      many_nodes += many[Counter::kNodes];
+    }
+  }
+  EXPECT_LT(few_nodes, many_nodes);
+}
+
+TEST(SolidCasters, TreesAgreeWithTheOracleOnExactKernels) {
+  std::size_t sets = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    const auto own = Case::make(boxes(seed));
+    ASSERT_TRUE(own);
+    SCOPED_TRACE("seed " + std::to_string(seed) + "\n" + text_of(own->scene()));
+    const auto polygons = compute_shadows(own->prepared(), by_receiver(CastersAre::kPolygons));
+    for (const KernelId kernel : kExactKernels) {
+      for (const bool interleaved : {false, true}) {
+        ShadowOptions options = by(MethodId::kMerged, CastersAre::kSolids, kernel);
+        options.method.options.interleaved = interleaved;
+        options.output.combined = seed % 3 == 0;
+        const auto solids = compute_shadows(own->prepared(), options);
+        ASSERT_TRUE(solids) << to_string(solids.error());
+        for (std::size_t l = 0; l < solids->lights.size(); ++l) {
+          const LightResult &one = polygons->lights[l], &other = solids->lights[l];
+          for (std::size_t i = 0; i < one.parts.size(); ++i) {
+            ASSERT_EQ(one.exact_fractions[i].lit, other.exact_fractions[i].lit) << i;
+          }
+          sets += other.caster_sets.size();
+        }
+        ASSERT_EQ(find_false_witness(*own, *solids), "");
+        if (kernel != KernelId::kPlane) continue;
+        ASSERT_EQ(judge(*own, *solids).verdict, oracle::Verdict::kIdentical);
+      }
+    }
+  }
+  EXPECT_GT(sets, 50u);
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"sectors", {"partition", "two_pass"}},
         {"contour", {"partition", "two_pass", "sectors"}},
         {"shadow_volumes", {"partition"}},
-        {"volume_trees", {"partition", "shadow_volumes"}},
+        {"volume_trees", {"partition", "scene_bsp", "shadow_volumes"}},
         {"pixels", {"partition"}},
         {"zbuffer", {"partition", "pixels"}},
         {"shadow_polygons", {"partition", "pixels"}},

@@ -176,21 +176,44 @@ std::string check_combined(const Case& scene, ShadowOptions options) {
       }
     }
   }
-  return {};
+  // Each light by itself, and of the sets, one after another.
+  const bool judged =
+      options.method.area == MethodId::kMerged && options.kernel.id == KernelId::kPlane;
+  return judged ? compare_with_oracle(scene, *result) : std::string();
 }
 
-std::vector<ShadowOptions> variants() {
-  std::vector<ShadowOptions> all;
+/// A way to the shadows of a scene, and how much is asked of it besides its fractions.
+struct Variant {
+  ShadowOptions options;
+  bool oracle = false, combined = false, bounds = false;
+};
+
+/// The volume trees in all their ways.
+void add_merged(ShadowOptions options, std::vector<Variant>& all) {
+  const bool plane = options.kernel.id == KernelId::kPlane;
+  options.tuning.jobs = 1;
+  options.method.area = MethodId::kMerged;
+  if (options.kernel.id != KernelId::kEpeck) {
+    options.output.merge = false;
+    all.push_back({options, !plane, true});
+    options.output.merge = true;
+  }
+  options.method.options.interleaved = true;
+  all.push_back({options, plane});
+  options.method.options.interleaved = options.kernel.id == KernelId::kRational;
+  options.method.options.caps = true;
+  all.push_back({options});
+}
+
+std::vector<Variant> variants() {
+  std::vector<Variant> all;
   for (const KernelId kernel : kExactKernels) {
     ShadowOptions options = options_for(kernel);
     options.tuning.jobs = kernel == KernelId::kPlane ? 2 : 1;
     options.method.point = kernel == KernelId::kRational ? MethodId::kReceiver : MethodId::kSectors;
-    all.push_back(options);
-    if (kernel == KernelId::kEpeck) continue;
-    options.tuning.jobs = 1;
-    options.output.merge = false;
-    options.method.area = MethodId::kMerged;
-    all.push_back(options);
+    const bool is_first = all.empty();
+    all.push_back({options, is_first, is_first, is_first});
+    add_merged(options, all);
   }
   return all;
 }
@@ -199,19 +222,15 @@ std::vector<ShadowOptions> variants() {
 
 std::string check_area_exact(const Case& scene) {
   ShadowResult first;
-  for (const ShadowOptions& options : variants()) {
-    Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
+  for (const Variant& variant : variants()) {
+    Expected<ShadowResult> result = compute_shadows(scene.prepared(), variant.options);
     if (!result) return to_string(result.error());
     const bool is_first = first.kernel.empty();
     std::string wrong = check_sums(scene, *result);
     if (wrong.empty() && !is_first) wrong = compare_results(scene, first, *result);
-    if (wrong.empty() && (is_first || options.method.area == MethodId::kMerged)) {
-      wrong = compare_with_oracle(scene, *result);
-    }
-    if (wrong.empty() && is_first) wrong = check_bounds(scene, *result, options);
-    if (wrong.empty() && (is_first || options.method.area == MethodId::kMerged)) {
-      wrong = check_combined(scene, options);
-    }
+    if (wrong.empty() && variant.oracle) wrong = compare_with_oracle(scene, *result);
+    if (wrong.empty() && variant.bounds) wrong = check_bounds(scene, *result, variant.options);
+    if (wrong.empty() && variant.combined) wrong = check_combined(scene, variant.options);
     if (!wrong.empty()) return wrong;
     if (is_first) first = std::move(*result);
   }

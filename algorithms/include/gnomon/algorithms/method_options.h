@@ -72,11 +72,13 @@ struct MethodOptionValues {
   WallCount count = WallCount::kFromEye;
   bool neighbours = false;   // also by those next in depth alone
   double near = 0, far = 0;  // planes that clip walls, scene units from the eye; 0: none
-  CastersAre casters = CastersAre::kPolygons;  // receiver
+  CastersAre casters = CastersAre::kPolygons;  // receiver, merged
   MergeOf merge = MergeOf::kSiblings;          // svbsp
   EdgesInTree edges = EdgesInTree::kOwn;       // svbsp
   ListsBy lists = ListsBy::kSectors;           // scan-out
   bool lazy = false;                           // scan-out: lists of visible polygons alone
+  bool interleaved = false;                    // merged: receivers go down trees that still grow
+  bool caps = false;                           // merged: volumes end behind their last receiver
   friend bool operator==(const MethodOptionValues&, const MethodOptionValues&) = default;
 };
 
