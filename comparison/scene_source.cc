@@ -2,7 +2,6 @@
 #include "comparison/scene_source.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <utility>
 
@@ -14,22 +13,23 @@ namespace gnomon::comparison {
 namespace {
 
 /// "n=100,light=1". Errors: kUsage.
-Expected<std::map<std::string, std::int64_t>> parse_parameters(std::string_view text,
+Expected<std::map<std::string, std::int64_t>> parse_parameters(const GeneratorInfo& info,
+                                                               std::string_view text,
                                                                const std::string& whole) {
   std::map<std::string, std::int64_t> parameters;
   while (!text.empty()) {
     const std::string_view item = text.substr(0, text.find(','));
     text.remove_prefix(std::min(text.size(), item.size() + 1));
     const std::size_t equals = item.find('=');
-    const std::string_view digits = equals == std::string_view::npos ? "" : item.substr(equals + 1);
-    std::int64_t value = 0;
-    const char* const end = digits.data() + digits.size();
-    const auto [stop, failure] = std::from_chars(digits.data(), end, value);
-    if (equals == 0 || digits.empty() || failure != std::errc() || stop != end) {
+    const std::string_view name = item.substr(0, equals);
+    const auto value = equals == std::string_view::npos
+                           ? std::nullopt
+                           : parameter_value(info, name, item.substr(equals + 1));
+    if (name.empty() || !value) {
       return fail(ErrorCode::kUsage, "'" + whole + "': '" + std::string(item) + "'",
                   "NAME:parameter=whole number,...");
     }
-    if (!parameters.emplace(std::string(item.substr(0, equals)), value).second) {
+    if (!parameters.emplace(std::string(name), *value).second) {
       return fail(ErrorCode::kUsage, "'" + whole + "': " + std::string(item) + " is given twice",
                   "each parameter once");
     }
@@ -52,7 +52,7 @@ Expected<SceneSource> SceneSource::parse(std::string_view text) {
   source.family_ = generator_by_name(text.substr(0, colon));
   if (source.family_ != nullptr) {
     const std::string_view rest = colon == std::string_view::npos ? "" : text.substr(colon + 1);
-    auto parameters = parse_parameters(rest, source.name_);
+    auto parameters = parse_parameters(*source.family_, rest, source.name_);
     if (!parameters) return tl::unexpected(std::move(parameters.error()));
     source.parameters_ = std::move(*parameters);
     source.find_size_parameter();

@@ -2,7 +2,6 @@
 // gnomon generate: scenes made by rule, and single scenes of campaigns.
 #include "gnomon/scene/generate.h"
 
-#include <charconv>
 #include <memory>
 
 #include "cli/common/commands.h"
@@ -24,6 +23,11 @@ struct GenerateOptions {
   std::string output;
 };
 
+std::string default_of(const GeneratorParameter& parameter) {
+  if (parameter.words.empty()) return std::to_string(parameter.default_value);
+  return parameter.words[static_cast<std::size_t>(parameter.default_value - parameter.minimum)];
+}
+
 std::string listing() {
   std::string text;
   for (const GeneratorInfo& info : generators()) {
@@ -33,9 +37,8 @@ std::string listing() {
     text += wrapped(info.summary, kWidth, 4, 4);
     if (!info.source.empty()) text += wrapped("(" + info.source + ")", kWidth, 4, 5);
     for (const GeneratorParameter& parameter : info.parameters) {
-      text += wrapped(parameter.name + "=" + std::to_string(parameter.default_value) + "  " +
-                          parameter.meaning + " (" + std::to_string(parameter.minimum) + ".." +
-                          std::to_string(parameter.maximum) + ")",
+      text += wrapped(parameter.name + "=" + default_of(parameter) + "  " + parameter.meaning +
+                          " (" + values_of(parameter) + ")",
                       kWidth, 6, 8);
     }
   }
@@ -47,18 +50,19 @@ std::string listing() {
 }
 
 Expected<std::map<std::string, std::int64_t>> parse_parameters(
-    const std::vector<std::string>& texts) {
+    const GeneratorInfo& info, const std::vector<std::string>& texts) {
   std::map<std::string, std::int64_t> parameters;
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
-    std::int64_t value = 0;
-    const char* const end = text.data() + text.size();
-    const char* const begin = equals == std::string::npos ? end : text.data() + equals + 1;
-    const auto [stop, failure] = std::from_chars(begin, end, value);
-    if (equals == 0 || begin == end || failure != std::errc() || stop != end) {
-      return fail(ErrorCode::kUsage, "--param '" + text + "'", "NAME=WHOLE NUMBER");
+    const std::string name = text.substr(0, equals);
+    const auto value = equals == std::string::npos
+                           ? std::nullopt
+                           : parameter_value(info, name, text.substr(equals + 1));
+    if (name.empty() || !value) {
+      return fail(ErrorCode::kUsage, "--param '" + text + "'",
+                  "NAME=WHOLE NUMBER, or a word that --list gives");
     }
-    if (!parameters.emplace(text.substr(0, equals), value).second) {
+    if (!parameters.emplace(name, *value).second) {
       return fail(ErrorCode::kUsage, "--param " + text + ": given twice", "each parameter once");
     }
   }
@@ -67,8 +71,8 @@ Expected<std::map<std::string, std::int64_t>> parse_parameters(
 
 /// One of the scenes that --list describes, or one that a campaign's generator makes of the seed.
 Expected<Scene> scene_by_name(const GenerateOptions& options) {
-  if (generator_by_name(options.name) != nullptr) {
-    const auto parameters = parse_parameters(options.parameters);
+  if (const GeneratorInfo* const info = generator_by_name(options.name)) {
+    const auto parameters = parse_parameters(*info, options.parameters);
     if (!parameters) return tl::unexpected(parameters.error());
     return generate(options.name, *parameters, options.seed);
   }

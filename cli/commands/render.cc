@@ -8,6 +8,7 @@
 
 #include "cli/commands/certify_report.h"
 #include "cli/commands/illuminate.h"
+#include "cli/commands/render_lights.h"
 #include "cli/common/algorithm_choice.h"
 #include "cli/common/commands.h"
 #include "cli/common/interrupt.h"
@@ -18,6 +19,7 @@
 #include "gnomon/algorithms/painters_order.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/result/read_claims.h"
+#include "report/pictures/combined_picture.h"
 #include "report/pictures/picture.h"
 #include "report/pictures/shaded_picture.h"
 #include "report/text/number_text.h"
@@ -35,6 +37,7 @@ struct RenderOptions {
   double field_of_view = 0;
   unsigned width = 960, height = 720;
   bool fragments = false, backs = false, no_legend = false, visible = false;
+  bool combined = false, walls = false;
   IlluminateOptions illuminate;
   std::string output;
 };
@@ -110,7 +113,9 @@ Expected<std::vector<AlgorithmChoice>> chosen_algorithms(const RenderOptions& op
     }
     return several;
   }
-  const auto algorithm = parse_algorithm_choice(options.algorithm, {kRender}, "both, all");
+  const NeedyOption combined{"--combined", options.combined, &Method::combines_lights};
+  const auto algorithm =
+      parse_algorithm_choice(options.algorithm, {kRender, combined}, "both, all");
   if (!algorithm) return tl::unexpected(algorithm.error());
   return std::vector{*algorithm};
 }
@@ -140,6 +145,45 @@ Expected<void> render_illuminated(const RenderOptions& options, const LoadedScen
   if (!output) return tl::unexpected(output.error());
   report::paint_shaded_scene(loaded.scene, loaded.prepared,
                              back_to_front(loaded.prepared, camera.eye), *mesh, picture)
+      .write(*output);
+  return output->finish();
+}
+
+/// What --combined and --walls do not go with.
+Expected<void> check_lights(const RenderOptions& options) {
+  const auto refuse = [&](const char* chosen,
+                          std::initializer_list<std::pair<const char*, bool>> others) {
+    for (const auto& [option, given] : others) {
+      if (given) return std::string(option) + " is not of " + chosen;
+    }
+    return std::string();
+  };
+  const bool several = !several_algorithms(options.algorithm).empty();
+  std::string problem;
+  if (options.combined) {
+    problem = refuse("--combined", {{"--candidate", !options.candidate.empty()},
+                                    {"--illuminate", options.illuminate.illuminate},
+                                    {"--walls", options.walls},
+                                    {"--algorithm of several methods", several}});
+  } else if (options.walls) {
+    problem = refuse("--walls", {{"--illuminate", options.illuminate.illuminate}});
+  }
+  if (problem.empty()) return {};
+  return fail(ErrorCode::kUsage, problem);
+}
+
+/// The scene by how many of the lights reach it.
+Expected<void> render_combined(const RenderOptions& options, const LoadedScene& loaded,
+                               const AlgorithmChoice& algorithm,
+                               const std::vector<OrderedPiece>& pieces,
+                               report::PictureOptions picture) {
+  const auto claims = lights_together(loaded, options.result, algorithm);
+  if (!claims) return tl::unexpected(claims.error());
+  picture.title = loaded.scene.name + ", lights together";
+  auto output = Output::open(options.output);
+  if (!output) return tl::unexpected(output.error());
+  report::paint_combined_scene(loaded.scene, loaded.prepared, pieces, *claims, loaded.lights,
+                               picture)
       .write(*output);
   return output->finish();
 }
@@ -186,6 +230,7 @@ Expected<void> render(const RenderOptions& options) {
   auto algorithms = chosen_algorithms(options);
   if (!algorithms) return tl::unexpected(algorithms.error());
   if (auto checked = check_visible(options); !checked) return checked;
+  if (auto checked = check_lights(options); !checked) return checked;
   const ThreadLimit threads(options.scene.jobs);
   SceneOptions scene = options.scene;
   if (options.visible) scene.eye = options.eye;
@@ -206,7 +251,7 @@ Expected<void> render(const RenderOptions& options) {
   if (!camera) return tl::unexpected(camera.error());
   if (options.illuminate.illuminate) return render_illuminated(options, *loaded, *camera);
   // One light, or those that were asked for side by side.
-  if (options.scene.lights.empty()) loaded->lights.resize(1);
+  if (options.scene.lights.empty() && !options.combined) loaded->lights.resize(1);
 
   report::PictureOptions picture;
   picture.camera = *camera;
@@ -218,6 +263,12 @@ Expected<void> render(const RenderOptions& options) {
   picture.title = loaded->scene.name + (loaded->lights.size() == 1 ? ", light" : ", lights");
   for (const std::uint32_t light : loaded->lights) {
     picture.title += " " + loaded->scene.lights[light].id;
+  }
+
+  const std::vector<OrderedPiece> pieces =
+      options.visible ? std::move(visible) : back_to_front(loaded->prepared, camera->eye);
+  if (options.combined) {
+    return render_combined(options, *loaded, algorithms->front(), pieces, picture);
   }
 
   // What is shown: a result if one is named, else the exact answer; marked is what a candidate has
@@ -247,6 +298,9 @@ Expected<void> render(const RenderOptions& options) {
       report::Panel& panel = panels.emplace_back();
       panel.light = light;
       panel.shown = find_light(*shown[i], id);
+      if (options.walls && !loaded->prepared.lights[light].has_area()) {
+        panel.walls = shadow_polygons(loaded->prepared, light);
+      }
       if (panel.shown == nullptr) return missing_light(options.result, id);
       const std::string fragments = report::grouped(fragment_count(*panel.shown)) + " fragments";
       if (shown.size() > 1) panel.caption = (*algorithms)[i].name(*loaded) + ": " + fragments;
@@ -259,8 +313,6 @@ Expected<void> render(const RenderOptions& options) {
       if (panel.shown == nullptr) return missing_light(options.candidate, id);
     }
   }
-  const std::vector<OrderedPiece> pieces =
-      options.visible ? std::move(visible) : back_to_front(loaded->prepared, camera->eye);
   auto output = Output::open(options.output);
   if (!output) return tl::unexpected(output.error());
   report::paint_scene(loaded->scene, loaded->prepared, pieces, panels, picture).write(*output);
@@ -279,7 +331,8 @@ void add_render_command(CLI::App& app, Action& action) {
       "--light.\n\n"
       "Examples:\n"
       "  gnomon render room.json --eye 9,-7,6 --look-at 2,2,1 --light bulb -o room.svg\n"
-      "  gnomon render room.json --algorithm both --fragments -o room.svg");
+      "  gnomon render room.json --algorithm both --fragments -o room.svg\n"
+      "  gnomon render room.json --combined --fragments -o together.svg");
   add_scene_options(command, options->scene);
   command.add_option("RESULT", options->result, "A result to show, with fragments")
       ->type_name("FILE");
@@ -309,6 +362,12 @@ void add_render_command(CLI::App& app, Action& action) {
   command.add_flag("--visible", options->visible,
                    "Paint what the eye sees, found exactly (gnomon visible), in no order, instead "
                    "of all\npolygons back to front");
+  command.add_flag("--combined", options->combined,
+                   "Paint by how many of the lights reach it: by all in colour, else in greys; "
+                   "shadows painted\non shadows where the algorithm has cover=overlay");
+  command.add_flag("--walls", options->walls,
+                   "Paint besides the shadow polygons of point and directional lights: what lies "
+                   "behind\neach edge of the contour, within the box of the scene");
   command.add_flag("--backs", options->backs, "Paint the backs of one-sided polygons too");
   add_illuminate_options(command, options->illuminate,
                          "Paint what the surfaces receive from all lights chosen");

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "report/pictures/scene_lines.h"
 #include "report/pictures/view.h"
 
 namespace gnomon::report {
@@ -25,14 +26,9 @@ constexpr Colour kUmbraBright{98, 101, 110};
 constexpr Colour kUmbraDim{56, 59, 68};
 constexpr Colour kMissing{208, 188, 240};
 constexpr Colour kSignal{226, 26, 124};
-constexpr Colour kBackground{243, 245, 248};
-constexpr Colour kInk{33, 37, 48};
-constexpr Colour kLamp{255, 196, 0};
+constexpr Colour kWall{0, 96, 180};
 constexpr Colour kLampFrame{176, 120, 0};
-constexpr double kOutlineWidth = 0.9;
-constexpr double kSeamWidth = 1.0;    // hides the seams that antialiasing leaves between neighbours
 constexpr double kFragmentInk = 0.6;  // of a fragment's border, the rest is the fragment's colour
-constexpr double kLegendHeight = 46;
 constexpr double kCaptionHeight = 34;
 constexpr double kGap = 12;
 
@@ -140,20 +136,21 @@ class Painter {
                 std::to_string(static_cast<int>(options_.width)) + "\" height=\"" +
                 std::to_string(static_cast<int>(options_.height)) + "\"/></clipPath>");
     svg_.begin_group("clip-path=\"url(#" + clip + ")\" stroke-linejoin=\"round\"");
-    svg_.rectangle({left, top}, options_.width, options_.height, {colour_text(kBackground)});
+    svg_.rectangle({left, top}, options_.width, options_.height, {colour_text(kPictureBackground)});
     const ShadedPolygons shown(*panel.shown);
     std::optional<ShadedPolygons> truth;
     if (panel.truth != nullptr) truth.emplace(*panel.truth);
     for (const OrderedPiece& piece : pieces) {
       paint(piece, view, shown, truth ? &*truth : nullptr);
     }
+    for (const std::vector<Point>& wall : panel.walls) paint_wall(wall, view);
     paint_lamp(view);
     for (const Mark& mark : panel.marks) paint_mark(mark, view);
     svg_.end_group();
     svg_.rectangle({left, top}, options_.width, options_.height,
-                   {"none", colour_text(mix(kInk, kBackground, 0.6)), 1});
+                   {"none", colour_text(mix(kPictureInk, kPictureBackground, 0.6)), 1});
     if (!panel.caption.empty()) {
-      svg_.text({left + 2, top - 11}, panel.caption, 16, kInk, "start", true);
+      svg_.text({left + 2, top - 11}, panel.caption, 16, kPictureInk, "start", true);
     }
   }
 
@@ -199,14 +196,14 @@ class Painter {
             bool bordered = false) {
     const std::vector<PixelPoint> pixels = view.pixels(loop);
     if (pixels.size() < 3) return;
-    const Colour border = bordered ? mix(colour, kInk, kFragmentInk) : colour;
+    const Colour border = bordered ? mix(colour, kPictureInk, kFragmentInk) : colour;
     svg_.polygon(pixels, {colour_text(colour), colour_text(border), kSeamWidth});
   }
 
   void paint(const OrderedPiece& piece, const View& view, const ShadedPolygons& shown,
              const ShadedPolygons* truth) {
     const Part& part = prepared_.parts[piece.part];
-    const std::vector<Vector> whole = whole_loop(part);
+    const std::vector<Vector> whole = whole_loop(prepared_, part);
     const Vector normal = unit(area_vector(whole));
     const bool front = dot(normal, view.eye() - whole.front()) > 0;
     if (!front && !part.two_sided && !options_.backs) return;
@@ -236,7 +233,7 @@ class Painter {
                          shown.per_caster_umbra());
       }
     }
-    paint_outline(piece, part, view);
+    paint_outline(prepared_, piece, size_, view, svg_);
   }
 
   /// `colour_of` nothing is what no fragment covers; it is only painted where that can be seen,
@@ -289,55 +286,17 @@ class Painter {
     }
   }
 
-  /// The piece's edges that are the polygon's own; cuts of the tree are not shown.
-  void paint_outline(const OrderedPiece& piece, const Part& part, const View& view) {
-    const std::vector<Vector> whole = whole_loop(part);
-    const auto on_outline = [&](const Vector& a, const Vector& b) {
-      for (std::size_t i = 0; i < whole.size(); ++i) {
-        const Vector& from = whole[i];
-        const Vector along = unit(whole[(i + 1) % whole.size()] - from);
-        const double off = std::max(length(cross(along, a - from)), length(cross(along, b - from)));
-        if (off < 1e-7 * size_) return !is_inner_edge(part, i);
-      }
-      return false;
-    };
-    for (std::size_t i = 0; i < piece.loop.size(); ++i) {
-      const Vector& a = piece.loop[i];
-      const Vector& b = piece.loop[(i + 1) % piece.loop.size()];
-      if (!on_outline(a, b)) continue;
-      // A thin triangle is clipped like any loop; its long sides are the line.
-      const std::vector<Vector> seen = view.visible({a, b, 0.5 * (a + b)});
-      std::vector<PixelPoint> pixels;
-      pixels.reserve(seen.size());
-      for (const Vector& point : seen) pixels.push_back(view.pixel(point));
-      if (pixels.size() < 2) continue;
-      const auto [low, high] = std::ranges::minmax_element(pixels);
-      PixelPoint first = *low, last = *high;
-      svg_.line(first, last, {"none", colour_text(kInk), kOutlineWidth, 0.55});
+  void paint_wall(std::vector<Vector> wall, const View& view) {
+    const auto [low, high] = bounding_box(prepared_);
+    for (std::size_t k = 0; k < 3 && !wall.empty(); ++k) {
+      Vector inward{};
+      inward[k] = 1;
+      wall = clipped(clipped(wall, inward, low[k]), -1.0 * inward, -high[k]);
     }
-  }
-
-  /// An edge that a coplanar part of the same polygon shares was made by cutting the polygon up.
-  bool is_inner_edge(const Part& part, std::size_t edge) const {
-    const std::uint32_t first = prepared_.first_part[part.polygon];
-    const std::uint32_t last = prepared_.first_part[part.polygon + 1];
-    if (last - first == 1) return false;
-    const std::uint32_t index = prepared_.edges(part)[edge].index();
-    int uses = 0;
-    for (std::uint32_t other = first; other < last; ++other) {
-      const Part& sibling = prepared_.parts[other];
-      if (sibling.plane != part.plane) continue;
-      for (PlaneRef ref : prepared_.edges(sibling)) uses += ref.index() == index ? 1 : 0;
-    }
-    return uses > 1;
-  }
-
-  std::vector<Vector> whole_loop(const Part& part) const {
-    std::vector<Vector> loop;
-    for (VertexId vertex : prepared_.loop(part)) {
-      loop.push_back(prepared_.geometry.positions[vertex]);
-    }
-    return loop;
+    const std::vector<PixelPoint> pixels = view.pixels(wall);
+    if (pixels.size() < 3) return;
+    svg_.polygon(pixels, {colour_text(kWall), "none", 0, 0.16});
+    svg_.polygon(pixels, {"none", colour_text(kWall), 0.8, 0.7});
   }
 
   void paint_lamp(const View& view) {
@@ -346,15 +305,11 @@ class Painter {
       const std::vector<PixelPoint> pixels = view.pixels(panel_);
       if (pixels.size() < 3) return;
       const bool emits = dot(area_vector(panel_), view.eye() - panel_centre_) > 0;
-      svg_.polygon(pixels, {colour_text(kLamp), "none", 0, emits ? 0.95 : 0.5});
+      svg_.polygon(pixels, {colour_text(kPictureLamp), "none", 0, emits ? 0.95 : 0.5});
       svg_.polygon(pixels, {"none", colour_text(kLampFrame), 1.8});
       return;
     }
-    if (light_.directional) return;
-    const auto at = view.pixel_of({light_.nearest[0], light_.nearest[1], light_.nearest[2]});
-    if (!at) return;
-    svg_.circle(*at, 10, {colour_text(kLamp), "none", 0, 0.3});
-    svg_.circle(*at, 4.5, {colour_text(kLamp), colour_text(kInk), 0.9});
+    paint_point_lamp(light_, view, svg_);
   }
 
   void paint_mark(const Mark& mark, const View& view) {
@@ -385,11 +340,11 @@ struct LegendLights {
 };
 
 void paint_legend(SvgPicture& svg, double left, double top, const LegendLights& lights,
-                  bool differences, bool marks) {
+                  bool differences, bool marks, bool walls) {
   double x = left + 2;
   const auto entry = [&](Colour colour, const std::string& text) {
-    svg.rectangle({x, top + 14}, 22, 16, {colour_text(colour), colour_text(kInk), 0.6});
-    svg.text({x + 30, top + 27}, text, 14, kInk);
+    svg.rectangle({x, top + 14}, 22, 16, {colour_text(colour), colour_text(kPictureInk), 0.6});
+    svg.text({x + 30, top + 27}, text, 14, kPictureInk);
     x += 54 + 7.2 * static_cast<double>(text.size());
   };
   entry(kLitBright, "lit");
@@ -402,14 +357,15 @@ void paint_legend(SvgPicture& svg, double left, double top, const LegendLights& 
     entry(kSignal, "differs from the exact answer");
     entry(kMissing, "not covered");
   }
+  if (walls) entry(mix(kPictureBackground, kWall, 0.4), "shadow polygons");
   if (marks) {
     svg.circle({x + 9, top + 22}, 8, {"none", colour_text(kSignal), 2.2});
-    svg.text({x + 26, top + 27}, "worst places", 14, kInk);
+    svg.text({x + 26, top + 27}, "worst places", 14, kPictureInk);
     x += 130;
   }
   std::string words = lights.ids.size() == 1 ? "light: " : "lights: ";
   for (const std::string& id : lights.ids) words += (&id == lights.ids.data() ? "" : ", ") + id;
-  svg.text({x + 6, top + 27}, words, 14, mix(kInk, kBackground, 0.3));
+  svg.text({x + 6, top + 27}, words, 14, mix(kPictureInk, kPictureBackground, 0.3));
 }
 
 }  // namespace
@@ -428,7 +384,7 @@ SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared,
                        const std::vector<OrderedPiece>& pieces, const std::vector<Panel>& panels,
                        const PictureOptions& options) {
   const auto count = static_cast<double>(panels.size());
-  bool captions = false, differences = false, marks = false;
+  bool captions = false, differences = false, marks = false, walls = false;
   LegendLights lights;
   for (const Panel& panel : panels) {
     const PreparedLight& light = prepared.lights[panel.light];
@@ -438,6 +394,7 @@ SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared,
     captions = captions || !panel.caption.empty();
     differences = differences || panel.truth != nullptr;
     marks = marks || !panel.marks.empty();
+    walls = walls || !panel.walls.empty();
   }
   const double top = captions ? kCaptionHeight : 0;
   const double width = count * options.width + (count - 1) * kGap;
@@ -451,7 +408,7 @@ SvgPicture paint_scene(const Scene& scene, const PreparedScene& prepared,
     left += options.width + kGap;
   }
   if (options.legend) {
-    paint_legend(svg, 0, top + options.height, lights, differences, marks);
+    paint_legend(svg, 0, top + options.height, lights, differences, marks, walls);
   }
   return svg;
 }

@@ -56,6 +56,9 @@ struct Panel {
   const ClaimedLight* shown = nullptr;
   const ClaimedLight* truth = nullptr;  // what differs from it is marked; may be null
   std::vector<Mark> marks;
+  /// Shadow polygons (Crow 1977, Figure 4), convex: what is in the scene's box, seen through, over
+  /// all else that is painted.
+  std::vector<std::vector<Point>> walls{};
 };
 
 /// Panels side by side, one legend below them. `pieces` back to front as seen from the camera's

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "report/pictures/flat_geometry.h"
+#include "report/pictures/scene_lines.h"
 #include "report/pictures/view.h"
 #include "report/text/number_text.h"
 
@@ -17,11 +18,7 @@ namespace gnomon::report {
 
 namespace {
 
-constexpr Colour kBackground{243, 245, 248};
-constexpr Colour kInk{33, 37, 48};
-constexpr double kSeamWidth = 1;    // hides the seams that antialiasing leaves between neighbours
-constexpr double kBorderInk = 0.5;  // of a face's border, the rest is the face's colour
-constexpr double kLegendHeight = 46;
+constexpr double kBorderInk = 0.5;    // of a face's border, the rest is the face's colour
 constexpr double kShortest = 1.5;     // pixels; a gradient that is shorter is not seen
 constexpr double kLevel = 1.0 / 255;  // one step of what the screen can show
 
@@ -203,7 +200,7 @@ class ShadedPainter {
       fill = gradient(on_screen, low, high, face);
     }
     const std::string border =
-        options_.picture.fragments ? colour_text(mix(mean, kInk, kBorderInk)) : fill;
+        options_.picture.fragments ? colour_text(mix(mean, kPictureInk, kBorderInk)) : fill;
     svg_.polygon(pixels, {fill, border, kSeamWidth});
   }
 
@@ -243,19 +240,11 @@ SvgPicture paint_shaded_scene(const Scene& scene, const PreparedScene& prepared,
   const double height = picture.height + (picture.legend ? kLegendHeight : 0);
   SvgPicture svg(picture.width, height, picture.title.empty() ? scene.name : picture.title);
   svg.rectangle({0, 0}, picture.width, height, {"#ffffff"});
-  const auto [low, high] = bounding_box(prepared);
-  const auto positions = prepared.geometry.polygon_positions();
-  const View view(picture.camera, 0, 0, picture.width, picture.height, length(high - low),
-                  std::vector<Vector>(positions.begin(), positions.end()));
-  svg.define("<clipPath id=\"frame\"><rect width=\"" + rounded(picture.width) + "\" height=\"" +
-             rounded(picture.height) + "\"/></clipPath>");
-  svg.begin_group("clip-path=\"url(#frame)\" stroke-linejoin=\"round\"");
-  svg.rectangle({0, 0}, picture.width, picture.height, {colour_text(kBackground)});
+  const View view = view_of(prepared, picture);
+  begin_frame(svg, picture);
   ShadedPainter painter(prepared, mesh, options, view, svg);
   for (const OrderedPiece& piece : pieces) painter.paint(piece);
-  svg.end_group();
-  svg.rectangle({0, 0}, picture.width, picture.height,
-                {"none", colour_text(mix(kInk, kBackground, 0.6)), 1});
+  end_frame(svg, picture);
   if (picture.legend) {
     std::string lights;
     for (const std::uint32_t light : mesh.lights) {
@@ -265,7 +254,7 @@ SvgPicture paint_shaded_scene(const Scene& scene, const PreparedScene& prepared,
              (mesh.lights.size() == 1 ? "light: " : "lights: ") + lights + "; " +
                  grouped(mesh.faces.size()) + " faces; white is " +
                  rounded(1 / painter.exposure(), 3),
-             14, kInk);
+             14, kPictureInk);
   }
   return svg;
 }

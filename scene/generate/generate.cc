@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "scene/generate/scene_maker.h"
 
@@ -26,9 +27,11 @@ void add_area_parameters(std::vector<GeneratorParameter>& parameters) {
 const std::vector<Generator>& registry() {
   static const std::vector<Generator> all = [] {
     std::vector<Generator> result;
-    for (auto family : {scene_detail::paper_generators, scene_detail::large_generators,
-                        scene_detail::hard_generators, scene_detail::repair_generators,
-                        scene_detail::area_paper_generators, scene_detail::area_generators}) {
+    for (auto family : {scene_detail::paper_generators, scene_detail::room_generators,
+                        scene_detail::figure_generators, scene_detail::solid_generators,
+                        scene_detail::large_generators, scene_detail::hard_generators,
+                        scene_detail::repair_generators, scene_detail::area_paper_generators,
+                        scene_detail::area_generators}) {
       for (Generator& generator : family()) result.push_back(std::move(generator));
     }
     for (Generator& generator : result) add_area_parameters(generator.info.parameters);
@@ -62,6 +65,29 @@ const GeneratorInfo* generator_by_name(std::string_view name) {
   return generator == nullptr ? nullptr : &generator->info;
 }
 
+std::optional<std::int64_t> parameter_value(const GeneratorInfo& info, std::string_view parameter,
+                                            std::string_view text) {
+  const auto p = std::ranges::find(info.parameters, parameter, &GeneratorParameter::name);
+  if (p != info.parameters.end()) {
+    const auto word = std::ranges::find(p->words, text);
+    if (word != p->words.end()) return p->minimum + (word - p->words.begin());
+  }
+  std::int64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, failure] = std::from_chars(text.data(), end, value);
+  if (failure != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+std::string values_of(const GeneratorParameter& parameter) {
+  if (parameter.words.empty()) {
+    return fmt::format("{}..{}", parameter.minimum, parameter.maximum);
+  }
+  std::string text;
+  for (const std::string& word : parameter.words) text += (text.empty() ? "" : "|") + word;
+  return text;
+}
+
 Expected<Scene> generate(std::string_view name,
                          const std::map<std::string, std::int64_t>& parameters,
                          std::uint64_t seed) {
@@ -86,9 +112,10 @@ Expected<Scene> generate(std::string_view name,
                   names.empty() ? "no parameters" : "one of " + names);
     }
     if (value < p->minimum || value > p->maximum) {
-      return fail(ErrorCode::kUsage,
-                  fmt::format("generator '{}': {} = {} is out of range", name, key, value),
-                  fmt::format("{} to {}", p->minimum, p->maximum));
+      return fail(
+          ErrorCode::kUsage,
+          fmt::format("generator '{}': {} = {} is out of range", name, key, value),
+          p->words.empty() ? fmt::format("{} to {}", p->minimum, p->maximum) : values_of(*p));
     }
     values[key] = value;
   }

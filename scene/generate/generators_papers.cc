@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Scenes of the same kind and polygon counts as those of Chin & Feiner 1989 and Slater 1992, which
-// were never published as files. Light positions are ours.
+// Scenes of the same kind and polygon counts as those of Chin & Feiner 1989, which were never
+// published as files. Light positions are ours.
 #include <algorithm>
 #include <array>
 
@@ -116,50 +116,6 @@ void room(SceneMaker& maker, const Values& values, Random&) {
   }
 }
 
-// A closed room filled with tables, chairs and blocks until it has exactly n polygons.
-void slater_room(SceneMaker& maker, const Values& values, Random& random) {
-  const std::int64_t n = at(values, "n");
-  constexpr std::int64_t kCell = 64, kColumns = 4;
-  std::int64_t left = n - 6;
-  std::vector<int> kinds;  // polygons of each piece of furniture
-  while (left >= 6) {
-    const int kind = left >= 28 && random.chance(2, 5)   ? 28
-                     : left >= 22 && random.chance(1, 2) ? 22
-                                                         : 6;
-    kinds.push_back(kind);
-    left -= kind;
-  }
-  const auto rows = (static_cast<std::int64_t>(kinds.size()) + kColumns - 1) / kColumns;
-  const Int3 high{kColumns * kCell, std::max<std::int64_t>(rows, 1) * kCell, 80};
-  room_shell(maker, high);
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    const auto cell = static_cast<std::int64_t>(i);
-    const Int3 o{(cell % kColumns) * kCell + random.between(2, 14),
-                 (cell / kColumns) * kCell + random.between(2, 20), 0};
-    const std::string number = std::to_string(i);
-    if (kinds[i] == 28) chair(maker, "chair" + number, o);
-    if (kinds[i] == 22)
-      table(maker, "table" + number, o, random.between(20, 44), random.between(16, 36),
-            random.between(16, 28));
-    if (kinds[i] == 6)
-      maker.box("block" + number, o,
-                o + Int3{random.between(4, 40), random.between(4, 36), random.between(4, 40)});
-  }
-  for (std::int64_t i = 0; i < left; ++i) {  // pictures hang in the plane of the left wall
-    const std::int64_t y = 8 + 10 * i;
-    maker.face("picture" + std::to_string(i),
-               {{0, y, 40}, {0, y + 6, 40}, {0, y + 6, 52}, {0, y, 52}});
-  }
-  const std::array<Int3, 2> places{
-      {{high.x / 2 + 1, high.y / 2 - 3, 76}, {high.x / 4 + 1, high.y / 4 + 2, 70}}};
-  const auto count = static_cast<std::size_t>(at(values, "lights"));
-  const std::int64_t area = at(values, "area");
-  for (std::size_t i = 0; i < count && area != 1; ++i) maker.lamp(places[i]);
-  for (std::size_t i = 0; i < count && area != 0; ++i) {
-    maker.panel_above(values, places[i], high.x);
-  }
-}
-
 }  // namespace
 
 std::vector<Generator> paper_generators() {
@@ -188,14 +144,6 @@ std::vector<Generator> paper_generators() {
          {"ground", 2, 1, 2, "polygons of the ground: 2 as in Chin & Feiner, 1 as in Slater"}},
         chin + " (258 and 1026 polygons); Slater 1992 (65, 257, 1025)"},
        tetra});
-  result.push_back({{"slater-room",
-                     "a closed room with tables, chairs and blocks: exactly n polygons",
-                     {{"n", 138, 12, 100000, "polygons; the paper has 138 to 318"},
-                      {"lights", 1, 1, 2, "lamps"},
-                      kAreaParameter,
-                      kAreaSizeParameter},
-                     "Slater 1992"},
-                    slater_room});
   return result;
 }
 

@@ -105,6 +105,9 @@ struct Generator {
 };
 
 std::vector<Generator> paper_generators();
+std::vector<Generator> room_generators();
+std::vector<Generator> figure_generators();
+std::vector<Generator> solid_generators();
 std::vector<Generator> large_generators();
 std::vector<Generator> hard_generators();
 std::vector<Generator> repair_generators();

@@ -9,6 +9,7 @@
 
 #include "exact_check.h"
 #include "fuzz/generate/families.h"
+#include "gnomon/scene/generate.h"
 
 namespace gnomon::test {
 namespace {
@@ -57,8 +58,7 @@ std::vector<Fragment> shadows_on(const LightResult& light, std::uint32_t part) {
 
 TEST(ConvexMerge, FigureSixOfSlater) {
   // p1 before p2 before p3: p1 cuts p2 in two, and the shadow of the three on p3 is p2's.
-  const auto scene = Case::make(
-      under_the_sun({{"p1", 1, 0, 2, 3, 2}, {"p2", 0, 0, 3, 3, 1}, {"p3", -1, -1, 4, 4, 0}}));
+  const auto scene = Case::make(generate("slater-figure-6").value());
   EXPECT_EQ(shadows_on(by_svbsp(*scene, MergeOf::kSiblings), 2).size(), 3u);
   const LightResult merged = by_svbsp(*scene, MergeOf::kConvex);
   const std::vector<Fragment> one = shadows_on(merged, 2);
@@ -66,6 +66,20 @@ TEST(ConvexMerge, FigureSixOfSlater) {
   EXPECT_EQ(one[0].caster, 1u);
   EXPECT_EQ(one[0].count, 4u);
   EXPECT_GE(merged.work[Counter::kMerged], 2u);
+}
+
+TEST(ConvexMerge, FigureTwoOfChinAndFeiner) {
+  // ab and cd are inserted unsplit; ef is split at g, and eg is behind ab.
+  const auto scene = Case::make(generate("svbsp-figure-2").value());
+  const LightResult light = by_svbsp(*scene, MergeOf::kNone);
+  EXPECT_EQ(light.parts[0].fragment_count, 1u);
+  EXPECT_EQ(light.parts[1].fragment_count, 1u);
+  EXPECT_EQ(light.parts[2].fragment_count, 2u);
+  const std::vector<Fragment> hidden = shadows_on(light, 2);
+  ASSERT_EQ(hidden.size(), 1u);
+  EXPECT_EQ(hidden[0].caster, 0u);
+  EXPECT_TRUE(shadows_on(light, 0).empty());
+  EXPECT_TRUE(shadows_on(light, 1).empty());
 }
 
 TEST(ConvexMerge, SeveralCastersTogether) {

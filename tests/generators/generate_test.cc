@@ -58,6 +58,19 @@ TEST(Counts, AreThoseOfThePapers) {
   for (const std::int64_t n : {12, 17, 138, 200, 318}) {
     EXPECT_EQ(polygons("slater-room", {{"n", n}}), static_cast<std::size_t>(n));
   }
+  std::int64_t room = 0;  // in the order of Slater's Table 1
+  for (const std::size_t count : {138u, 174u, 192u, 210u, 228u, 264u, 246u, 264u, 282u, 318u}) {
+    const std::map<std::string, std::int64_t> row = {{"room", ++room}};
+    EXPECT_EQ(polygons("slater-room", row), count);
+    EXPECT_EQ(make("slater-room", row).lights.size(), 1u);
+  }
+  std::int64_t kind = 0;
+  for (const std::size_t count : {26u, 38u, 26u, 194u, 330u, 330u, 128u}) {
+    EXPECT_EQ(polygons("closed", {{"kind", kind++}}), count);
+  }
+  EXPECT_EQ(polygons("cubes", {{"n", 50}}), 300u);
+  EXPECT_EQ(polygons("slater-figure-6"), 3u);
+  EXPECT_EQ(polygons("svbsp-figure-2"), 3u);
   EXPECT_EQ(polygons("plates1"), 14u);
   EXPECT_EQ(polygons("room1992"), 149u);
   EXPECT_EQ(polygons("room1992", {{"lights", 2}}), 151u);
@@ -95,6 +108,72 @@ TEST(Counts, BadRequestsAreUsageErrors) {
   EXPECT_EQ(generate("no-such-scene").error().code, ErrorCode::kUsage);
   EXPECT_EQ(generate("city", {{"m", 3}}).error().code, ErrorCode::kUsage);
   EXPECT_EQ(generate("city", {{"n", 0}}).error().code, ErrorCode::kUsage);
+}
+
+TEST(Counts, SlatersLampsAreInsideOutsideOrBoth) {
+  const auto places = [](std::int64_t room, std::int64_t lights) {
+    std::vector<double> x;
+    for (const Light& lamp : make("slater-room", {{"room", room}, {"lights", lights}}).lights) {
+      x.push_back(lamp.position[0].nearest());
+    }
+    return x;
+  };
+  for (const std::int64_t room : {1, 10}) {
+    const std::vector<double> both = places(room, 2);
+    ASSERT_EQ(both.size(), 2u);
+    EXPECT_GT(both[0], 0);
+    EXPECT_LT(both[1], -6);  // beyond the wall
+    EXPECT_EQ(places(room, 1), std::vector<double>{both[0]});
+    EXPECT_EQ(places(room, 3), std::vector<double>{both[1]});
+  }
+}
+
+TEST(Counts, CubesAreFarToNear) {
+  for (const std::int64_t near_first : {0, 1}) {
+    const Scene scene = make("cubes", {{"n", 60}, {"near_first", near_first}});
+    const Position& lamp = scene.lights.front().position;
+    double before = near_first == 0 ? 1e300 : 0;
+    for (std::size_t cube = 0; cube < scene.polygons.size(); cube += 6) {
+      std::array<double, 3> middle{};  // of the bottom's and the top's corners, times 8
+      for (const std::size_t face : {cube, cube + 1}) {
+        for (const VertexId v : scene.polygons[face].loop) {
+          EXPECT_LT(scene.vertices[v][2].nearest(), lamp[2].nearest());
+          for (std::size_t k = 0; k < 3; ++k) middle[k] += scene.vertices[v][k].nearest();
+        }
+      }
+      double distance = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double way = middle[k] / 8 - lamp[k].nearest();
+        distance += way * way;
+      }
+      if (near_first == 0) {
+        EXPECT_LE(distance, before);
+      } else {
+        EXPECT_GE(distance, before);
+      }
+      before = distance;
+    }
+  }
+}
+
+TEST(Counts, ParametersMayHaveWords) {
+  const GeneratorInfo& info = *generator_by_name("closed");
+  EXPECT_EQ(parameter_value(info, "kind", "torus"), 6);
+  EXPECT_EQ(parameter_value(info, "kind", "6"), 6);
+  EXPECT_EQ(parameter_value(info, "kind", "sphere"), std::nullopt);
+  EXPECT_EQ(parameter_value(info, "n", "torus"), std::nullopt);
+  EXPECT_EQ(parameter_value(info, "n", "-3"), -3);
+  EXPECT_EQ(parameter_value(info, "n", "3x"), std::nullopt);
+  EXPECT_EQ(parameter_value(info, "n", ""), std::nullopt);
+  for (const GeneratorInfo& any : generators()) {
+    for (const GeneratorParameter& p : any.parameters) {
+      if (p.words.empty()) continue;
+      EXPECT_EQ(static_cast<std::int64_t>(p.words.size()), p.maximum - p.minimum + 1) << any.name;
+    }
+  }
+  const auto beyond = generate("closed", {{"kind", 8}});
+  ASSERT_FALSE(beyond);
+  EXPECT_NE(to_string(beyond.error()).find("block-on-block|holed"), std::string::npos);
 }
 
 /// Ids are unique, lights exist, the scene is prepared without a flaw, and nothing that should be
@@ -148,6 +227,10 @@ TEST(Sound, Variants) {
   check("needles", {{"thinness", 40}});
   check("near-coplanar", {{"closeness", 44}});
   check("tetra", {{"level", 1}});
+  for (std::int64_t kind = 0; kind < 8; ++kind) check("closed", {{"kind", kind}});
+  check("closed", {{"kind", 7}, {"n", 100}});
+  for (std::int64_t room = 1; room <= 10; ++room)
+    check("slater-room", {{"room", room}, {"lights", 2}});
   check("lattice", {{"n", 200}, {"size", 2}, {"light", 2}});
 }
 

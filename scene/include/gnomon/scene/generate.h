@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +27,7 @@ struct GeneratorParameter {
   std::int64_t default_value = 0;
   std::int64_t minimum = 0, maximum = 0;
   std::string meaning;
+  std::vector<std::string> words{};  // for the values from the minimum to the maximum, or none
 };
 
 struct GeneratorInfo {
@@ -39,6 +41,13 @@ struct GeneratorInfo {
 /// Sorted by name.
 const std::vector<GeneratorInfo>& generators();
 const GeneratorInfo* generator_by_name(std::string_view name);
+
+/// What `text` means as a value of the parameter: a whole number or one of the parameter's words.
+/// That it is in range, and that there is such a parameter, generate() checks.
+std::optional<std::int64_t> parameter_value(const GeneratorInfo& info, std::string_view parameter,
+                                            std::string_view text);
+/// The words, as "a|b|c", or the range, as "1..9".
+std::string values_of(const GeneratorParameter& parameter);
 
 /// Parameters that are not given have their defaults. Errors: kUsage (unknown name or parameter, a
 /// value out of its range).
