@@ -65,6 +65,7 @@ function(gnomon_add_component name)
   if(arg_CGAL_SOURCES)
     add_library(${target}_cgal OBJECT ${arg_CGAL_SOURCES})
     gnomon_set_flags(${target}_cgal)
+    target_compile_options(${target}_cgal PRIVATE ${gnomon_flags_of_call_once})
     target_include_directories(${target}_cgal PRIVATE include)
     target_link_libraries(${target}_cgal PRIVATE ${arg_LINK} ${arg_LINK_PRIVATE}
                           gnomon_internals CGAL::CGAL)
@@ -82,12 +83,12 @@ function(gnomon_add_component name)
     set_property(GLOBAL APPEND PROPERTY GNOMON_INSTALLED_COMPONENTS ${name})
     set(headers "")
     if(arg_HEADERS)
-      set(headers FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+      set(headers FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
     endif()
     install(TARGETS ${target} EXPORT gnomonTargets
-            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-            ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-            RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+            LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+            ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+            RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT development
             ${headers})
   endif()
 endfunction()

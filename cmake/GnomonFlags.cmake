@@ -5,6 +5,11 @@
 # rounds once where the proof counts twice. -ffast-math must never be added anywhere. -frounding-math
 # belongs to the sources that use CGAL alone (CGAL_SOURCES of gnomon_add_component).
 
+# What -ftls-model=initial-exec says of own thread-local variables it says of the standard library's too,
+# which only std::call_once has. A program that has loaded that library before, as Python has once it has
+# drawn a picture, could not load our module then: what uses std::call_once is compiled with this as well.
+set(gnomon_flags_of_call_once -ftls-model=global-dynamic)
+
 function(gnomon_set_flags target)
   get_target_property(type ${target} TYPE)
   if(type STREQUAL "INTERFACE_LIBRARY")

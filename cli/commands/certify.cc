@@ -30,12 +30,9 @@
 #include "gnomon/algorithms/explain.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/kernel/kernel_choice.h"
-#include "gnomon/oracle/prepared_check.h"
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/result/read_claims.h"
-#include "gnomon/scene/digest.h"
 #include "report/certificate/certificate.h"
-#include "report/facts/facing.h"
 #include "report/sides/claims_of.h"
 #include "report/text/number_text.h"
 
@@ -112,35 +109,14 @@ class CertifyRun {
         loaded_(loaded),
         answer_(loaded.scene, loaded.prepared),
         progress_("certify") {
-    certificate_.scene = &loaded.scene;
-    certificate_.prepared = &loaded.prepared;
-    certificate_.geometry_digest = geometry_digest(loaded.scene);
-    certificate_.facing_area = report::facing_area(loaded.prepared, loaded.lights);
-    for (const oracle::PreparedFinding& finding :
-         oracle::check_prepared(loaded.scene, loaded.prepared)) {
-      certificate_.scene_findings.push_back(
-          (finding.polygon.empty() ? "" : "polygon " + finding.polygon + ": ") + finding.text);
-    }
-    for (std::uint32_t light : loaded.lights) {
-      certificate_.lights.push_back(loaded.scene.lights[light].id);
-    }
+    certificate_ = report::certificate_of(loaded.scene, loaded.prepared, loaded.lights);
   }
 
   /// False on an interrupt. Errors: those of a candidate's file, and of options out of range.
   Expected<void> run_candidate(const std::string& file) {
     auto read = read_claims(file, loaded_.scene, SharesAlone::kTaken);
     if (!read) return tl::unexpected(read.error());
-    report::JudgedRun run;
-    run.name = file;
-    run.foreign = true;
-    for (const ClaimedLight& light : read->lights) {
-      if (!light.per_caster_umbra) run.per_caster_umbra = false;
-      for (const ClaimedPolygon& polygon : light.polygons) {
-        // Those that a tree made: what is in shadow as a whole for a reason is none.
-        run.fragments += static_cast<std::uint64_t>(std::ranges::count_if(
-            polygon.fragments, [](const auto& fragment) { return fragment.reason.empty(); }));
-      }
-    }
+    report::JudgedRun run = report::foreign_run(file, *read);
     return judge(std::move(run), std::move(*read));
   }
 

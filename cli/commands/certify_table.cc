@@ -6,7 +6,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "cli/commands/year_rows.h"
 #include "cli/common/exit_status.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/jobs.h"
@@ -22,6 +21,7 @@
 #include "gnomon/scene/digest.h"
 #include "report/shares/gross_shares.h"
 #include "report/shares/share_columns.h"
+#include "report/year/year_rows.h"
 
 namespace gnomon::cli {
 
@@ -72,7 +72,7 @@ class TableRun {
   std::optional<suns::YearOptions> asked_;  // none: the table has its suns
   suns::Minutes zone_{0};
   std::vector<suns::SunTime> times_;  // of each row
-  std::unique_ptr<SunsOfRows> suns_;
+  std::unique_ptr<report::SunsOfRows> suns_;
   std::string geometry_digest_;
 };
 
@@ -100,7 +100,7 @@ Expected<void> TableRun::read(Scene& scene) {
       }
     } else {
       // What is wrong with it is told before a long table is read.
-      auto asked = suns_asked(options_.suns, scene);
+      auto asked = suns::suns_asked(options_.suns, scene);
       if (!asked) return tl::unexpected(std::move(asked.error()));
       asked_ = *std::move(asked);
     }
@@ -117,7 +117,7 @@ Expected<void> TableRun::read(Scene& scene) {
   if (auto found = find_suns(); !found) return found;
   std::vector<std::size_t> rows(table_.rows.size());
   for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = row;
-  suns_ = std::make_unique<SunsOfRows>(times_, std::move(rows), zone_);
+  suns_ = std::make_unique<report::SunsOfRows>(times_, std::move(rows), zone_);
   scene.lights = suns_->lights;
   return {};
 }
@@ -194,7 +194,7 @@ void TableRun::find_shares(const TrueColumns& truth, const Scene& scene) {
 Expected<void> TableRun::judge(const PreparedScene& prepared, const TrueColumns& truth,
                                comparison::TableJudge& judge) {
   std::vector<double> shares(truth.sides.size() + truth.gross.size());
-  YearRows rows(*suns_, truth.sides, [&](std::size_t row, std::span<const double> lit) {
+  report::YearRows rows(*suns_, truth.sides, [&](std::size_t row, std::span<const double> lit) {
     std::ranges::copy(lit, shares.begin());
     truth.gross.read(lit, std::span(shares).subspan(lit.size()));
     judge.add(row, shares, times_[row].is_day);
@@ -358,7 +358,7 @@ Expected<void> report_tables(const ReportOptions& options,
 }  // namespace
 
 int run_certify_tables(const TableCommandOptions& options, const TableOptionRules& rules) {
-  if (auto checked = check_sun_options(options.suns); !checked) {
+  if (auto checked = suns::check_asked_suns(options.suns); !checked) {
     return report_error(checked.error());
   }
   const ThreadLimit threads(options.scene.jobs);

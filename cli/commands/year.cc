@@ -11,7 +11,6 @@
 
 #include "cli/commands/year_database.h"
 #include "cli/commands/year_options.h"
-#include "cli/commands/year_rows.h"
 #include "cli/common/algorithm_choice.h"
 #include "cli/common/commands.h"
 #include "cli/common/exit_status.h"
@@ -28,6 +27,7 @@
 #include "report/year/row_sum.h"
 #include "report/year/sun_hours.h"
 #include "report/year/year_page.h"
+#include "report/year/year_rows.h"
 #include "report/year/year_writer.h"
 #include "scene/base/output_file.h"
 
@@ -135,7 +135,7 @@ std::string identity_of(const report::YearHead& head, const Scene& scene,
 class YearRun {
  public:
   YearRun(const YearOptions& options, ShadowOptions shadows, LoadedScene loaded,
-          std::vector<suns::SunTime> times, SunsOfRows suns, report::YearHead head,
+          std::vector<suns::SunTime> times, report::SunsOfRows suns, report::YearHead head,
           std::optional<YearDatabase> database)
       : options_(options),
         shadows_(std::move(shadows)),
@@ -154,7 +154,7 @@ class YearRun {
   Expected<void> run();
 
  private:
-  Expected<void> compute(const YearRows::Take& take, std::size_t& done);
+  Expected<void> compute(const report::YearRows::Take& take, std::size_t& done);
   Expected<void> compute_into_tables();
   Expected<void> compute_into_database();
   Expected<void> write_from_database();
@@ -168,7 +168,7 @@ class YearRun {
   ShadowOptions shadows_;
   LoadedScene loaded_;
   std::vector<suns::SunTime> times_;
-  SunsOfRows suns_;
+  report::SunsOfRows suns_;
   report::ShareColumns columns_;
   report::GrossShares gross_;
   report::YearHead head_;
@@ -178,8 +178,8 @@ class YearRun {
 };
 
 /// Computes the rows that are asked for. Errors: those of taking a row; kInterrupted.
-Expected<void> YearRun::compute(const YearRows::Take& take, std::size_t& done) {
-  YearRows rows(suns_, columns_, take);
+Expected<void> YearRun::compute(const report::YearRows::Take& take, std::size_t& done) {
+  report::YearRows rows(suns_, columns_, take);
   ProgressBar progress("year");
   const auto show = [&] {
     done = rows.done();
@@ -352,10 +352,10 @@ Expected<void> compute_year(const YearOptions& options) {
   // The scene tells the place, the place the suns, and the database which of them are missing.
   report::YearHead head;
   std::vector<suns::SunTime> times;
-  std::optional<SunsOfRows> suns;
+  std::optional<report::SunsOfRows> suns;
   std::optional<YearDatabase> database;
   auto loaded = load_scene_under(options.scene, [&](Scene& scene) -> Expected<void> {
-    auto asked = suns_asked(options, scene);
+    auto asked = suns::suns_asked(options, scene);
     if (!asked) return tl::unexpected(std::move(asked.error()));
     head.suns = *std::move(asked);
     auto found = suns::year_of_suns(head.suns);

@@ -7,8 +7,6 @@
 #include "cli/common/algorithm_choice.h"
 #include "cli/common/commands.h"
 #include "gnomon/kernel/kernel_choice.h"
-#include "suns/place/epw.h"
-#include "suns/place/scene_place.h"
 
 namespace gnomon::cli {
 
@@ -57,32 +55,6 @@ void add_table_options(CLI::App& command, YearOptions& options) {
                                 "(repeatable)"))
       ->type_name("FILE");
   command.add_flag("--stats", options.stats, "Print times and memory to standard error");
-}
-
-Expected<suns::Place> place_asked(const YearOptions& options, const suns::ScenePlace& of_scene) {
-  suns::Place place;
-  if (!options.at.empty()) {
-    auto typed = suns::parse_place(options.at, "--at");
-    if (!typed) return typed;
-    auto zone = suns::parse_zone(options.zone, "--tz");
-    if (!zone) return tl::unexpected(std::move(zone.error()));
-    place = *std::move(typed);
-    place.zone = *zone;
-  } else if (!options.weather.empty()) {
-    auto read = suns::read_epw_place(options.weather);
-    if (!read) return read;
-    place = *std::move(read);
-  } else if (of_scene.place) {
-    place = *of_scene.place;
-  } else {
-    return fail(ErrorCode::kUsage, "no place is known",
-                "--at LAT,LON and --tz H, --epw FILE, or a scene that tells its own");
-  }
-  if (options.elevation) place.elevation = *options.elevation;
-  if (auto checked = suns::check_place(place, "the place"); !checked) {
-    return tl::unexpected(std::move(checked.error()));
-  }
-  return place;
 }
 
 }  // namespace
@@ -154,25 +126,8 @@ Expected<void> wrong(std::string what, std::string expected) {
 
 }  // namespace
 
-Expected<void> check_sun_options(const YearOptions& options) {
-  if (!options.at.empty() && !options.weather.empty()) {
-    return wrong("--at and --epw are two places", "one of them");
-  }
-  if (options.at.empty() != options.zone.empty()) {
-    return wrong(options.at.empty() ? "--tz without a place" : "--at without a time zone",
-                 "--at LAT,LON and --tz H together");
-  }
-  if (options.average_days > 1 && options.sun_model != "energyplus") {
-    return wrong("--average-days is of EnergyPlus' sun", "--sun-model energyplus too");
-  }
-  if (!options.refraction && (options.pressure || options.temperature)) {
-    return wrong("--pressure and --temperature are those of --refraction", "--refraction too");
-  }
-  return {};
-}
-
 Expected<void> check_year_options(const YearOptions& options) {
-  if (auto checked = check_sun_options(options); !checked) return checked;
+  if (auto checked = suns::check_asked_suns(options); !checked) return checked;
   if (options.database.empty() && (!options.shard.empty() || !options.merge.empty())) {
     return wrong(options.shard.empty() ? "--merge without a database"
                                        : "--shard without a database to keep its rows in",
@@ -182,36 +137,6 @@ Expected<void> check_year_options(const YearOptions& options) {
     return wrong("--merge computes no rows, and --shard some", "one of them");
   }
   return {};
-}
-
-Expected<suns::YearOptions> suns_asked(const YearOptions& options, const Scene& scene) {
-  const suns::ScenePlace of_scene = suns::place_of_scene(scene);
-  auto place = place_asked(options, of_scene);
-  if (!place) return tl::unexpected(std::move(place.error()));
-  suns::YearOptions result;
-  result.place = *std::move(place);
-  const std::chrono::year year(options.year);
-  const auto day = [&](const std::string& text, const char* option, auto otherwise) {
-    if (text.empty()) return Expected<std::chrono::local_days>(std::chrono::local_days(otherwise));
-    return suns::parse_day(text, year, option);
-  };
-  auto first = day(options.from, "--from", year / std::chrono::January / 1);
-  if (!first) return tl::unexpected(std::move(first.error()));
-  auto last = day(options.to, "--to", year / std::chrono::December / 31);
-  if (!last) return tl::unexpected(std::move(last.error()));
-  result.first = *first;
-  result.last = *last;
-  result.step = suns::Minutes(options.step);
-  result.sun_at = options.sun_at == "start"    ? suns::SunAt::kStart
-                  : options.sun_at == "middle" ? suns::SunAt::kMiddle
-                                               : suns::SunAt::kEnd;
-  result.model = suns::sun_model_by_name(options.sun_model).value();
-  result.average_days = options.average_days;
-  result.refraction = options.refraction;
-  result.air.pressure = options.pressure.value_or(suns::standard_pressure(result.place.elevation));
-  result.air.temperature = options.temperature.value_or(result.air.temperature);
-  result.north = options.north.value_or(of_scene.north);
-  return result;
 }
 
 Expected<YearShard> parse_year_shard(const std::string& text) {

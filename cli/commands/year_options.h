@@ -11,24 +11,13 @@
 #include "cli/common/report_output.h"
 #include "cli/common/scene_options.h"
 #include "gnomon/kernel/error.h"
-#include "suns/year/year_of_suns.h"
+#include "suns/year/asked_suns.h"
 
 namespace gnomon::cli {
 
-struct YearOptions {
+struct YearOptions : suns::AskedSuns {
   SceneOptions scene;
   std::string kernel{"plane"}, algorithm{"auto"};
-  // Where and when.
-  std::string at, zone, weather;
-  std::optional<double> elevation, north;
-  int year = 2025;
-  std::string from, to;
-  int step = 60;
-  std::string sun_at{"middle"};
-  std::string sun_model{"erfa"};
-  int average_days = 1;
-  bool refraction = false;
-  std::optional<double> pressure, temperature;
   // What is written.
   std::string output, shading, hours;
   std::string database, shard;
@@ -46,10 +35,6 @@ void add_year_options(CLI::App& command, YearOptions& options);
 /// Those alone that say which suns: place, model, year, and where in its step the sun is looked at.
 void add_sun_options(CLI::App& command, YearOptions& options);
 
-/// The suns that are asked for: of the place of --at, --epw, or the scene itself, in this order.
-/// Errors: kUsage, and those of reading a weather file.
-Expected<suns::YearOptions> suns_asked(const YearOptions& options, const Scene& scene);
-
 /// Every n-th row from the k-th on.
 struct YearShard {
   std::size_t index = 0, count = 1;
@@ -59,7 +44,6 @@ struct YearShard {
 Expected<YearShard> parse_year_shard(const std::string& text);
 
 /// What does not go together, whatever the scene is. Errors: kUsage.
-Expected<void> check_sun_options(const YearOptions& options);
 Expected<void> check_year_options(const YearOptions& options);
 
 }  // namespace gnomon::cli

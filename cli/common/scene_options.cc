@@ -2,7 +2,6 @@
 #include "cli/common/scene_options.h"
 
 #include <algorithm>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -17,55 +16,14 @@
 #include "gnomon/scene/prepare_control.h"
 #include "gnomon/scene/read.h"
 #include "report/facts/intent_text.h"
-#include "report/facts/scene_facts.h"
-#include "report/text/number_text.h"
+#include "report/facts/scene_warnings.h"
 
 namespace gnomon::cli {
 
 namespace {
 
-constexpr std::size_t kExamples = 3;
-
 void print_warnings(const std::string& file, const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) warn(file + ": " + warning);
-}
-
-/// "FILE: 2 of 9 polygons left out: 4 in line 17 (why); ...", with three examples.
-std::string left_out_text(const ReadResult& read) {
-  constexpr std::size_t kMost = 3;
-  const std::size_t count = read.left_out.size();
-  std::string text = read.scene.file + ": " + std::to_string(count) + " of " +
-                     std::to_string(count + read.scene.polygons.size()) +
-                     (count + read.scene.polygons.size() == 1 ? " polygon" : " polygons") +
-                     " left out: ";
-  for (std::size_t i = 0; i < std::min(count, kMost); ++i) {
-    if (i > 0) text += "; ";
-    text += report::left_out_polygon(read.left_out[i]);
-  }
-  if (count > kMost) {
-    text += "; and " + std::to_string(count - kMost) + " more ('gnomon info --all' lists them)";
-  }
-  return text;
-}
-
-/// One line for each reason.
-void warn_of_dropped(const LoadedScene& loaded) {
-  std::map<std::string, std::vector<std::uint32_t>> dropped;
-  for (const PreparationNote& note : loaded.prepared.notes) {
-    if (note.repair == Repair::kZeroArea) dropped[note.detail].push_back(note.polygon);
-  }
-  for (const auto& [reason, polygons] : dropped) {
-    std::string ids;
-    for (std::size_t i = 0; i < polygons.size() && i < kExamples; ++i) {
-      ids += (i == 0 ? "" : ", ") + loaded.scene.polygons[polygons[i]].id;
-    }
-    if (polygons.size() > kExamples) ids += ", ...";
-    const std::string what =
-        polygons.size() == 1
-            ? "polygon " + ids + " is dropped: " + reason
-            : report::grouped(polygons.size()) + " polygons are dropped (" + ids + "): " + reason;
-    warn(loaded.scene.file + ": " + what);
-  }
 }
 
 }  // namespace
@@ -151,7 +109,7 @@ Expected<SceneAsRead> read_scene_with_lights(const SceneOptions& options) {
   auto read = read_scene(options.scene, read_options(options));
   if (!read) return tl::unexpected(read.error());
   print_warnings(read->scene.file, read->warnings);
-  if (!read->left_out.empty()) warn(left_out_text(*read));
+  if (!read->left_out.empty()) warn(report::left_out_warning(*read));
   SceneAsRead result{std::move(read->scene), std::move(read->left_out)};
   Scene& scene = result.scene;
   if (options.two_sided) {
@@ -198,7 +156,9 @@ Expected<LoadedScene> load_scene_under(const SceneOptions& options,
   loaded.prepared = std::move(*prepared);
   loaded.preparation = stopwatch.lap();
   if (interrupted()) return fail(ErrorCode::kInterrupted, "interrupted");
-  warn_of_dropped(loaded);
+  for (const std::string& warning : report::dropped_warnings(loaded.scene, loaded.prepared)) {
+    warn(warning);
+  }
   return loaded;
 }
 

@@ -13,6 +13,7 @@
 
 #include "gnomon/algorithms/explain.h"
 #include "gnomon/oracle/verdict.h"
+#include "gnomon/result/claims.h"
 #include "gnomon/scene/prepare.h"
 #include "gnomon/scene/scene.h"
 #include "report/text/text_sink.h"
@@ -52,6 +53,13 @@ struct Certificate {
   std::vector<JudgedRun> runs;
   bool interrupted = false;  // runs that were not reached are missing
 };
+
+/// Of a scene on which nothing was judged yet. `lights`: indices into both scenes' lights. Keeps
+/// references to the scenes.
+Certificate certificate_of(const Scene& scene, const PreparedScene& prepared,
+                           std::span<const std::uint32_t> lights);
+/// What others claim, before it is judged. `name`: of its file.
+JudgedRun foreign_run(std::string name, const Claims& claims);
 
 /// For people: a head that names scene and tolerances, a table of at most 110 columns, the worst
 /// place of every run that failed below its row.

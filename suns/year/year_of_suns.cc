@@ -40,11 +40,22 @@ Direction direction_of(const SunAngles& angles, double north) {
   return result;
 }
 
+/// Where the sun is at a time, and whether it is up.
+Expected<void> set_sun(const YearOptions& options, CivilTime time, SunTime& sun) {
+  auto vector = sun_at(options, time);
+  if (!vector) return tl::unexpected(std::move(vector.error()));
+  sun.angles = angles_of(*vector);
+  if (options.refraction) sun.angles.altitude += refraction(sun.angles.altitude, options.air);
+  sun.direction = direction_of(sun.angles, options.north);
+  const std::int32_t least = options.model == SunModelId::kEnergyPlus ? 10 : 1;
+  sun.is_day = sun.direction[2] >= least;
+  return {};
+}
+
 }  // namespace
 
 Expected<std::vector<SunTime>> year_of_suns(const YearOptions& options) {
   if (auto checked = check(options); !checked) return tl::unexpected(std::move(checked.error()));
-  const std::int32_t least = options.model == SunModelId::kEnergyPlus ? 10 : 1;
   const chrono::seconds before_end = options.sun_at == SunAt::kStart ? options.step
                                      : options.sun_at == SunAt::kMiddle
                                          ? chrono::seconds(options.step) / 2
@@ -57,13 +68,20 @@ Expected<std::vector<SunTime>> year_of_suns(const YearOptions& options) {
     sun.at = end - before_end;
     // The last step of a day ends at midnight, which is still that day's.
     const bool is_midnight = sun.at == last;
-    auto vector = sun_at(options, is_midnight ? sun.at - chrono::seconds(1) : sun.at);
-    if (!vector) return tl::unexpected(std::move(vector.error()));
-    sun.angles = angles_of(*vector);
-    if (options.refraction) sun.angles.altitude += refraction(sun.angles.altitude, options.air);
-    sun.direction = direction_of(sun.angles, options.north);
-    sun.is_day = sun.direction[2] >= least;
+    auto set = set_sun(options, is_midnight ? sun.at - chrono::seconds(1) : sun.at, sun);
+    if (!set) return tl::unexpected(std::move(set.error()));
     suns.push_back(sun);
+  }
+  return suns;
+}
+
+Expected<std::vector<SunTime>> suns_at(const YearOptions& options,
+                                       std::span<const CivilTime> times) {
+  std::vector<SunTime> suns(times.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    suns[i].end = suns[i].at = times[i];
+    auto set = set_sun(options, times[i], suns[i]);
+    if (!set) return tl::unexpected(std::move(set.error()));
   }
   return suns;
 }

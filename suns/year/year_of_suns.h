@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,10 @@ struct SunTime {
 /// its direction in millionths, is night; of EnergyPlus one that is less than 1e-5 up, as there.
 /// Errors: kUsage (a step that does not divide a day, `last` before `first`, no sun for the year).
 Expected<std::vector<SunTime>> year_of_suns(const YearOptions& options);
+
+/// The same at single times, whatever the span is. Errors: kUsage (no sun for the year).
+Expected<std::vector<SunTime>> suns_at(const YearOptions& options,
+                                       std::span<const CivilTime> times);
 
 /// The sun as a light of a scene, exactly, with its time as its name. Requires: is_day.
 Light light_of(const SunTime& sun, Minutes zone);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The layers: kernel <- scene <- result <- algorithms <- (report, fuzz, comparison, cli, bench),
+// The layers: kernel <- scene <- result <- algorithms <- (report, fuzz, comparison, cli, python,
+// bench),
 // scene <- suns <- report, and oracle <- result; and in each component the order of its rooms.
 // Reads the includes of every source of every component. The oracle shares no predicate, no
 // splitting and no tree with what it judges: of the kernel it may use the four headers that hold no
@@ -43,6 +44,7 @@ const std::map<std::string, std::set<std::string>>& allowed_includes() {
       {"cli",
        {"kernel", "scene", "result", "algorithms", "suns", "oracle", "report", "fuzz", "comparison",
         "cli"}},
+      {"python", {"kernel", "scene", "result", "algorithms", "suns", "oracle", "report", "python"}},
       {"bench",
        {"kernel", "scene", "result", "algorithms", "oracle", "report", "fuzz", "comparison",
         "bench"}},
@@ -147,6 +149,7 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"findings", {"check", "corpus", "process", "scene", "shrink"}},
         {"zoo", {"check", "findings", "generate", "mistakes"}}}},
       {"cli", {{"common", {}}, {"commands", {"common"}}}},
+      {"python", {{"binding", {}}}},
   };
   return kRooms;
 }

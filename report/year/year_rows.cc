@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/commands/year_rows.h"
+#include "report/year/year_rows.h"
 
 #include <map>
 #include <utility>
 
-namespace gnomon::cli {
+namespace gnomon::report {
 
 SunsOfRows::SunsOfRows(std::span<const suns::SunTime> times, std::vector<std::size_t> wanted,
                        suns::Minutes zone)
@@ -47,4 +47,4 @@ bool YearRows::add(const LightResult& light) {
   return advance();
 }
 
-}  // namespace gnomon::cli
+}  // namespace gnomon::report

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rows of a year: which suns are to be computed, each direction once, and the rows in order as
 // soon as their suns are done.
-#ifndef GNOMON_CLI_COMMANDS_YEAR_ROWS_H
-#define GNOMON_CLI_COMMANDS_YEAR_ROWS_H
+#ifndef GNOMON_REPORT_YEAR_YEAR_ROWS_H
+#define GNOMON_REPORT_YEAR_YEAR_ROWS_H
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@
 #include "report/shares/share_columns.h"
 #include "suns/year/year_of_suns.h"
 
-namespace gnomon::cli {
+namespace gnomon::report {
 
 /// Which light of the scene each row has.
 struct SunsOfRows {
@@ -38,7 +38,7 @@ class YearRows {
   using Take = std::function<bool(std::size_t row, std::span<const double> lit)>;
 
   /// Keeps references.
-  YearRows(const SunsOfRows& suns, const report::ShareColumns& columns, Take take)
+  YearRows(const SunsOfRows& suns, const ShareColumns& columns, Take take)
       : suns_(&suns), columns_(&columns), take_(std::move(take)), night_(columns.size()) {}
 
   /// Hands on the rows that need no further light. False once a row was not taken.
@@ -50,7 +50,7 @@ class YearRows {
 
  private:
   const SunsOfRows* suns_;
-  const report::ShareColumns* columns_;
+  const ShareColumns* columns_;
   Take take_;
   std::vector<double> night_;
   /// By light, as long as a later row has it: most often one, of averaged suns those of a day.
@@ -59,6 +59,6 @@ class YearRows {
   bool stopped_ = false;
 };
 
-}  // namespace gnomon::cli
+}  // namespace gnomon::report
 
-#endif  // GNOMON_CLI_COMMANDS_YEAR_ROWS_H
+#endif  // GNOMON_REPORT_YEAR_YEAR_ROWS_H
