@@ -60,6 +60,16 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kSolids, "solids", "closed convex ones that cast as wholes", kSum},
     {Counter::kVolumePlanes, "volume planes", "of all shadow volumes", kSum},
     {Counter::kMerged, "merged", "fragments that went into neighbours", kSum},
+    {Counter::kSubObjects, "sub-objects", "convex solids and polygons by themselves, by cells",
+     kSum},
+    {Counter::kHidingPairs, "hiding pairs", "sub-objects, one of which may hide some of the other",
+     kSum},
+    {Counter::kCycles, "cycles", "sets of sub-objects that hide each other", kSum},
+    {Counter::kBlots, "blots", "outlines made, whole or partial", kSum},
+    {Counter::kAbsorbed, "absorbed", "blots dropped, since a later one holds them", kSum},
+    {Counter::kBlotCuts, "blot cuts", "sub-objects, or polygons of them, cut by a blot", kSum},
+    {Counter::kBoxShortcuts, "shortcuts", "sub-objects before all blots, or wholly inside one",
+     kSum},
 }};
 
 }  // namespace

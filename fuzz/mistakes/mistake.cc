@@ -77,6 +77,9 @@ constexpr std::array kMistakes = {
                 "walls are kept in the order of depth in which a row first meets them", kCrow1977},
     MistakeInfo{Mistake::kOnePerspective, "one-perspective",
                 "what a lamp sees is mapped by one division, also beside and behind it", kCrow1977},
+    MistakeInfo{Mistake::kBlotAbsorbedEarly, "blot-absorbed-early",
+                "an outline absorbs a blot before all in its object's planes have received that",
+                kCrow1977},
 };
 
 }  // namespace
@@ -162,6 +165,8 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
       return method == MethodId::kTiling;
     case Mistake::kBspEdgesLeftOut:
       return svbsp;
+    case Mistake::kBlotAbsorbedEarly:
+      return method == MethodId::kBlots;
     case Mistake::kSupportBeforeEdges:
       return method == MethodId::kSvbspFull;
     case Mistake::kCollinearLeftOut:
@@ -210,6 +215,7 @@ bool applies_to_area(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kTileClosedEarly:
     case Mistake::kClosedTileKeepsDead:
     case Mistake::kBspEdgesLeftOut:
+    case Mistake::kBlotAbsorbedEarly:
     case Mistake::kSupportBeforeEdges:
     case Mistake::kCollinearLeftOut:
     case Mistake::kCasterSetsDiffer:

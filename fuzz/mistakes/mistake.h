@@ -45,6 +45,7 @@ enum class Mistake : std::uint8_t {
   kEyeCountedOnce,     // an eye on the plane of a volume is outside it for all samples
   kWallsKeepOrder,     // walls kept in the order of depth in which they were met
   kOnePerspective,     // what a light sees mapped by one perspective division
+  kBlotAbsorbedEarly,  // a blot dropped before all in the planes of its heir have received it
 };
 
 struct MistakeInfo {

@@ -107,6 +107,9 @@ Rules rules_of(Mistake mistake) {
     case Mistake::kOnePerspective:
       rules.light_looks_all_around = false;
       break;
+    case Mistake::kBlotAbsorbedEarly:
+      rules.blots_absorbed_after_their_planes_received = false;
+      break;
     case Mistake::kOnSwapped:
       rules.on_goes_to_its_own_side = false;
       break;

@@ -70,6 +70,8 @@ constexpr std::array kZoo = {
              kWrongLight},
     ZooEntry{"one-perspective", Mistake::kOnePerspective, "plane/shadow-polygons", kPointScenes,
              kWrongLight},
+    ZooEntry{"blot-absorbed-early", Mistake::kBlotAbsorbedEarly, "plane/blots",
+             "family-small-lattice", "misclassified"},
     ZooEntry{"area-on-swapped", Mistake::kOnSwapped, "plane", kAreaScenes, "misclassified"},
 };
 

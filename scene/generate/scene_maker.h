@@ -106,6 +106,7 @@ struct Generator {
 
 std::vector<Generator> paper_generators();
 std::vector<Generator> large_generators();
+std::vector<Generator> object_generators();
 std::vector<Generator> hard_generators();
 std::vector<Generator> repair_generators();
 std::vector<Generator> area_paper_generators();

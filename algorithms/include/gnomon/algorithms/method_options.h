@@ -52,6 +52,10 @@ enum class MergeOf : std::uint8_t { kSiblings, kConvex, kNone };
 /// them, as in a program that does not know which plane made which edge.
 enum class EdgesInTree : std::uint8_t { kOwn, kAll };
 
+/// What a sub-object that is partly in shadow adds to the blots: the outlines of what of it is lit,
+/// as Crow (1977) has it, or its whole outline, which then overlaps the blots before it.
+enum class Outlines : std::uint8_t { kPartial, kWhole };
+
 /// Each method reads its own of them (Method::options).
 struct MethodOptionValues {
   Cover cover = Cover::kPartition;
@@ -71,6 +75,9 @@ struct MethodOptionValues {
   CastersAre casters = CastersAre::kPolygons;  // receiver
   MergeOf merge = MergeOf::kSiblings;          // svbsp
   EdgesInTree edges = EdgesInTree::kOwn;       // svbsp
+  // blots:
+  bool sectors = true;  // the blots and what is to come in cells of light space
+  Outlines outlines = Outlines::kPartial;
   friend bool operator==(const MethodOptionValues&, const MethodOptionValues&) = default;
 };
 
