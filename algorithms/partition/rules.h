@@ -39,6 +39,10 @@ struct Rules {
   /// A volume dies, and a tile closes, only when all polygons of the new one's plane have received
   /// the old one's shadow ("Lit and in shadow": coplanar polygons).
   bool volumes_die_after_their_plane_received = true, tiles_close_after_their_plane_received = true;
+  /// A blot is absorbed by a later outline only when no polygon that lies in a plane of that
+  /// outline's object has still to receive the old one's shadow ("Lit and in shadow": coplanar
+  /// polygons).
+  bool blots_absorbed_after_their_planes_received = true;
   /// The edges of a complete shadow volume stand above its support plane in the tree: what is in
   /// front of the plane then has no volume that goes on behind it ("Lit and in shadow").
   bool edges_above_supports = true;

@@ -228,12 +228,32 @@ constexpr std::array kOptions = {
             [](const MethodOptionValues& v) {
               return std::string(v.grow == GrowFrom::kPolygons ? "polygons" : "fragments");
             }},
+    MethodOption{.name = "outlines",
+                 .values = "partial|whole",
+                 .summary = "what a solid that is partly in shadow adds to the blots: the outlines "
+                            "of what of it is lit, or its own",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<Outlines>(
+                           v.outlines, t,
+                           {{"partial", Outlines::kPartial}, {"whole", Outlines::kWhole}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.outlines == Outlines::kPartial ? "partial" : "whole");
+                     }},
     MethodOption{
         .name = "prune",
         .values = "on|off",
         .summary = "covered polygons cast nothing, volumes inside a later one are dropped",
         .read = [](MethodOptionValues& v, std::string_view t) { return read_switch(v.prune, t); },
         .text = [](const MethodOptionValues& v) { return on_or_off(v.prune); }},
+    MethodOption{
+        .name = "sectors",
+        .values = "on|off",
+        .summary = "keep the blots in the cells of a k-d tree of light space",
+        .read = [](MethodOptionValues& v, std::string_view t) { return read_switch(v.sectors, t); },
+        .text = [](const MethodOptionValues& v) { return on_or_off(v.sectors); }},
     MethodOption{.name = "split",
                  .values = "axis|contour",
                  .summary = "what splits cells: values of an axis, or planes through edges of the "

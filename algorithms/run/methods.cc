@@ -31,6 +31,7 @@ constexpr std::array<std::string_view, 3> kTilingOptions = {"tiles", "cover", "p
 constexpr std::array<std::string_view, 1> kSvbspFullOptions = {"order"};
 constexpr std::array<std::string_view, 1> kSectorsOptions = {"split"};
 constexpr std::array<std::string_view, 2> kTwoPassOptions = {"cells", "cover"};
+constexpr std::array<std::string_view, 3> kBlotsOptions = {"sectors", "outlines", "cover"};
 constexpr std::array<std::string_view, 4> kSvbspOptions = {"light-order", "grow", "edges", "merge"};
 constexpr std::array<std::string_view, 1> kReceiverOptions = {"casters"};
 constexpr std::array<std::string_view, 3> kMergedOptions = {"casters", "interleaved", "caps"};
@@ -62,6 +63,10 @@ constexpr std::array kScanOutCounters = {kSamples,      kSpans,       kEvents,  
 constexpr std::array kSectorsCounters = {kShadowPolygons, kCellCuts};
 constexpr std::array kTwoPassCounters = {kClips, kShadowPolygons, kLists, kLongestList,
                                          kDeepestStack};
+
+constexpr std::array kBlotsCounters = {
+    kSubObjects,   kSolids, kHidingPairs,    kCycles, kBlots,       kAbsorbed,    kBlotCuts,
+    kBoxShortcuts, kClips,  kShadowPolygons, kLists,  kLongestList, kDeepestStack};
 
 /// The first of the rows that can do what is asked is what the command line's `auto` takes.
 constexpr std::array kObjectMethods = {
@@ -159,6 +164,16 @@ constexpr std::array kObjectMethods = {
            .threads = true,
            .options = kTwoPassOptions,
            .counters = kTwoPassCounters},
+    Method{.id = MethodId::kBlots,
+           .name = "blots",
+           .summary = "convex solids front to back, each cut by the outlines before it",
+           .source = "Crow 1977, class two; Clark's hierarchy",
+           .lights = {.point = true},
+           .explains = true,
+           .overlays = true,
+           .threads = true,
+           .options = kBlotsOptions,
+           .counters = kBlotsCounters},
 };
 
 constexpr std::array kImageMethods = {
@@ -273,7 +288,8 @@ template <class Pick>
 MethodFunction run_of(MethodId method, const Pick& pick) {
   switch (method) {
     case MethodId::kSectors:
-    case MethodId::kTwoPass:  // both run in cells of light space
+    case MethodId::kTwoPass:
+    case MethodId::kBlots:  // all three run in cells of light space
       return pick.template operator()<BySectors>();
     case MethodId::kContour:
       return pick.template operator()<ByContour>();

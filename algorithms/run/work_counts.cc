@@ -65,6 +65,16 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
      kSum},
     {Counter::kListEntries, "list entries", "polygons on lists of possible casters", kSum},
     {Counter::kListBytes, "list bytes", "memory of lists of possible casters", kMost},
+    {Counter::kSubObjects, "sub-objects", "convex solids and polygons by themselves, by cells",
+     kSum},
+    {Counter::kHidingPairs, "hiding pairs", "sub-objects, one of which may hide some of the other",
+     kSum},
+    {Counter::kCycles, "cycles", "sets of sub-objects that hide each other", kSum},
+    {Counter::kBlots, "blots", "outlines made, whole or partial", kSum},
+    {Counter::kAbsorbed, "absorbed", "blots dropped, since a later one holds them", kSum},
+    {Counter::kBlotCuts, "blot cuts", "sub-objects, or polygons of them, cut by a blot", kSum},
+    {Counter::kBoxShortcuts, "shortcuts", "sub-objects before all blots, or wholly inside one",
+     kSum},
 }};
 
 }  // namespace

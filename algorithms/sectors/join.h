@@ -61,7 +61,7 @@ void SectorTree<Space>::emit_inside(const LoopRange& loop, SectorState state, Sh
   if (!options.keeps_any_points()) return;
   SectorOutput::Piece piece{loop.part, {}};
   piece.fragment.state = lit ? LightState::kLit : LightState::kShadow;
-  piece.fragment.caster = state;
+  name_caster(loop, state, piece.fragment);
   piece.fragment.reason = reason;
   export_loop(space_, context_->scene.geometry, options, view(loop), piece.fragment, output_.points,
               output_.exact_points);

@@ -9,11 +9,13 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -68,6 +70,11 @@ class SectorRun {
   /// Cells are split by planes through edges of the contour of what casts, not at values of axes.
   /// Call it before run().
   void split_by_contour();
+  /// LeafMethod::kBlots: the convex solids of the scene. Call it before run().
+  void take_solids(std::span<const std::vector<std::uint32_t>> solids, Outlines outlines) {
+    all_solids_ = solids;
+    outlines_ = outlines;
+  }
   /// Only in this region of the light's, by which the facing parts were chosen.
   void shine_in(LightRegion region) { region_ = std::move(region); }
   /// `progress` gets the share of the work that is done, from one thread at a time.
@@ -139,6 +146,9 @@ class SectorRun {
   FractionSums sums_;
   /// If cells are split there: by plane of an edge, whether it is of the contour.
   std::vector<std::uint8_t> contour_;
+  std::span<const std::vector<std::uint32_t>> all_solids_;
+  SolidsOfLight solids_;
+  Outlines outlines_ = Outlines::kPartial;
   std::span<const std::uint8_t> receives_;  // of facing_.parts; empty: all do
   std::vector<SectorState> states_;         // of facing_.parts
   std::vector<SectorOutput> outputs_;
@@ -262,6 +272,9 @@ RunOutcome SectorRun<Space>::run(const std::function<void(double)>& progress) {
   std::atomic<bool> stopped = false, no_ieee = false;
   LoopStore<Vertex> loops;
   std::vector<SectorItem> items = import(loops);
+  if (!all_solids_.empty()) {
+    solids_ = solids_of_light(scene_, all_solids_, facing_, std::span(std::as_const(items)), loops);
+  }
   const SectorContext context{scene_,
                               options_,
                               rules_,
@@ -276,7 +289,9 @@ RunOutcome SectorRun<Space>::run(const std::function<void(double)>& progress) {
                               leaf_method_,
                               contour_,
                               region_.is_everywhere() ? nullptr : &region_,
-                              scene_.lights[result_.light].is_eye};
+                              scene_.lights[result_.light].is_eye,
+                              &solids_,
+                              outlines_};
   Tree planner(context, std::move(space_));
   planner.add_sector_planes();
   planner.loops() = std::move(loops);
@@ -393,6 +408,7 @@ LightResult SectorRun<Space>::finish() {
       std::erase_if(output.pieces, [](const SectorOutput::Piece& piece) {
         return piece.fragment.state == LightState::kShadow;
       });
+      output.caster_sets.clear();
     }
   }
 
@@ -407,11 +423,15 @@ LightResult SectorRun<Space>::finish() {
   for (SectorOutput& output : outputs_) {
     const auto base = static_cast<std::uint32_t>(
         options_.output.points ? result_.points.size() : result_.exact_points.size());
+    const auto first_set = static_cast<std::uint32_t>(result_.caster_sets.size());
     for (const SectorOutput::Piece& piece : output.pieces) {
       Fragment& fragment = result_.fragments[next[piece.part]++];
       fragment = piece.fragment;
       fragment.first += base;
+      if (fragment.casters != Fragment::kNoCaster) fragment.casters += first_set;
     }
+    std::move(output.caster_sets.begin(), output.caster_sets.end(),
+              std::back_inserter(result_.caster_sets));
     result_.points.insert(result_.points.end(), output.points.begin(), output.points.end());
     std::move(output.exact_points.begin(), output.exact_points.end(),
               std::back_inserter(result_.exact_points));
@@ -478,7 +498,27 @@ CasterCounts SectorRun<Space>::count_shares() {
 /// A size of leaves and tasks by which everything is one leaf.
 inline constexpr std::uint32_t kOneCell = std::numeric_limits<std::int32_t>::max();
 
-/// Every light, by sectors or by two passes in the same cells, one after another.
+/// What is done in the leaves, and how large these are.
+inline LeafMethod leaf_method_of(const MethodChoice& method, ShadowTuning& tuning) {
+  // Blots are of use where several sub-objects share a cell.
+  constexpr std::uint32_t kBlotsInLeaf = 8;
+  const auto one_cell = [&] { tuning.leaf_size = tuning.task_size = kOneCell; };
+  if (method.point == MethodId::kTwoPass) {
+    if (!method.options.cells) one_cell();
+    return LeafMethod::kTwoPass;
+  }
+  if (method.point == MethodId::kBlots) {
+    if (method.options.sectors) {
+      tuning.leaf_size *= kBlotsInLeaf;
+    } else {
+      one_cell();
+    }
+    return LeafMethod::kBlots;
+  }
+  return LeafMethod::kSubtract;
+}
+
+/// Every light, by sectors, or by two passes or blots in the same cells, one after another.
 template <SectorSpaceModel Space>
 Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
   const PreparedScene& scene = task.scene;
@@ -488,13 +528,12 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
   const double start = cpu_seconds();
   const KernelOptions kernel_options = options.kernel.options();
   RunOptions run_options = run_options_of(options);
-  const bool two_pass = options.method.point == MethodId::kTwoPass;
-  const LeafMethod leaf_method = two_pass ? LeafMethod::kTwoPass : LeafMethod::kSubtract;
-  const Cover cover = two_pass ? options.method.options.cover : Cover::kPartition;
-  if (two_pass && !options.method.options.cells) {
-    run_options.tuning.leaf_size = run_options.tuning.task_size = kOneCell;
-  }
+  const LeafMethod leaf_method = leaf_method_of(options.method, run_options.tuning);
+  const Cover cover =
+      leaf_method == LeafMethod::kSubtract ? Cover::kPartition : options.method.options.cover;
   typename Space::SceneSpace scene_space(scene.geometry, kernel_options);
+  // Of blots, for a light, and for an eye, before which all polygons hide.
+  std::array<std::optional<std::vector<std::vector<std::uint32_t>>>, 2> solids;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     Space space(scene_space, scene.lights[lights[i]].point, kernel_options);
     FacingParts facing(scene, space, task.rules);
@@ -502,6 +541,12 @@ Expected<ShadowResult> compute_by_sectors_here(const RunTask& task) {
     SectorRun<Space> run(scene, run_options, task.rules, scene_space, lights[i], std::move(space),
                          std::move(facing), leaf_method, cover);
     if (options.method.options.split == CellSplit::kContour) run.split_by_contour();
+    if (leaf_method == LeafMethod::kBlots) {
+      const bool is_eye = scene.lights[lights[i]].is_eye;
+      auto& own = solids[is_eye ? 1 : 0];
+      if (!own) own = convex_solids(scene, is_eye);
+      run.take_solids(*own, options.method.options.outlines);
+    }
     run.shine_in(std::move(region));
     std::function<void(double)> progress;
     if (options.control.progress) {

@@ -30,6 +30,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/blots/blot_clipping.h"
 #include "algorithms/partition/cone_clip.h"
 #include "algorithms/partition/fraction_sums.h"
 #include "algorithms/partition/import_export.h"
@@ -46,7 +47,8 @@
 
 namespace gnomon {
 
-/// SectorState says what became of a polygon in a cell: the part that hides it, or one of these.
+/// SectorState says what became of a polygon in a cell: the part that hides it, the number of parts
+/// and the solid that does (LeafMethod::kBlots), or one of these.
 using SectorState = std::uint32_t;
 inline constexpr SectorState kAllLit = Fragment::kNoCaster;
 inline constexpr SectorState kMixed = kAllLit - 1;  // pieces of several kinds, already put out
@@ -61,6 +63,7 @@ struct SectorOutput {
   std::vector<Piece> pieces;  // only if points are kept
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<mpq_class, 3>> exact_points;
+  std::vector<std::vector<std::uint32_t>> caster_sets;         // of Fragment::casters
   std::vector<std::pair<std::uint32_t, mpq_class>> exact_lit;  // on request: part, lit fraction
   /// Of a piece behind `count` casters, its share of the part (LeafMethod::kCount).
   struct Counted {
@@ -73,9 +76,10 @@ struct SectorOutput {
 };
 
 /// What is done in a leaf of the tree: the nearer casters subtracted from each receiver (sectors),
-/// polygons clipped by each other in lists (two-pass), or the nearer casters counted over each
-/// receiver. Then a SectorState is such a number.
-enum class LeafMethod : std::uint8_t { kSubtract, kTwoPass, kCount };
+/// polygons clipped by each other in lists (two-pass), sub-objects by the outlines of those before
+/// them (blots), or the nearer casters counted over each receiver. Then a SectorState is such a
+/// number.
+enum class LeafMethod : std::uint8_t { kSubtract, kTwoPass, kBlots, kCount };
 
 /// SectorContext is what all threads share. Only its atomics change.
 struct SectorContext {
@@ -93,8 +97,10 @@ struct SectorContext {
   LeafMethod leaf_method = LeafMethod::kSubtract;
   /// Not empty: which planes of edges, by their numbers, are of the contour. They split cells then.
   std::span<const std::uint8_t> contour;
-  const LightRegion* region = nullptr;  // null: everywhere
-  bool all_cast = false;                // parts that cast no shadow, too: the light is an eye
+  const LightRegion* region = nullptr;    // null: everywhere
+  bool all_cast = false;                  // parts that cast no shadow, too: the light is an eye
+  const SolidsOfLight* solids = nullptr;  // LeafMethod::kBlots: its sub-objects
+  Outlines outlines = Outlines::kPartial;
 
   bool casts(std::uint32_t part) const { return all_cast || scene.parts[part].casts; }
 };
@@ -194,6 +200,7 @@ class SectorTree {
   struct Range {
     std::uint32_t begin, end;
   };
+  struct BlotCell;
   /// LitPiece is a piece of a receiver that is lit so far; its box is made when it is needed.
   struct LitPiece {
     LoopRange loop;
@@ -209,6 +216,11 @@ class SectorTree {
   };
   enum class Relation : std::uint8_t { kNone, kBehind, kCrossing };
 
+  bool is_small(std::uint32_t items) const { return items <= context_->options.tuning.leaf_size; }
+  /// Blots have boxes, and boxes need a chart.
+  bool wants_chart(const SectorCell& cell) const {
+    return context_->leaf_method == LeafMethod::kBlots && cell.level < SectorCell::kChart;
+  }
   void enter(SectorCell cell, Range items, bool located);
   void descend(std::uint32_t task_size, std::vector<Task>* tasks);
   bool stopped() const {
@@ -275,6 +287,15 @@ class SectorTree {
   void subtract_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters,
                         bool nearest_first, const LightChart* chart);
   void clip_lists(std::uint32_t begin, std::uint32_t end);
+  void list_pieces(std::uint32_t begin, std::uint32_t end);
+  void put_out_clipped();
+  typename ListClipping<Space>::Setting list_setting() {
+    return {space_,          context_->scene, context_->facing,  loops_,
+            context_->rules, output_.work,    context_->all_cast};
+  }
+  void clip_by_blots(std::uint32_t begin, std::uint32_t end, const LightChart* chart);
+  std::vector<std::uint32_t> faces_hiding(const LoopRange& loop, std::uint32_t solid);
+  void name_caster(const LoopRange& loop, SectorState state, Fragment& fragment);
   void planes_between(const SectorItem& receiver, const SectorItem& caster, Relation how);
   void count_casters(std::uint32_t receiver, std::span<const std::uint32_t> casters,
                      const LightChart* chart);
@@ -306,6 +327,7 @@ class SectorTree {
   ConeClip<Space> clip_;
   RegionClip<Space> region_clip_;
   ListClipping<Space> lists_;
+  BlotClipping<Space> blots_;
   std::vector<Vertex> crossings_;
   std::vector<SectorItem> front_items_;
   std::vector<std::uint32_t> order_;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "algorithms/partition/kd_tree.h"
+#include "algorithms/sectors/blots_leaf.h"
 #include "algorithms/sectors/counting_leaf.h"
 #include "algorithms/sectors/float_filters.h"
 #include "algorithms/sectors/join.h"
@@ -173,8 +174,8 @@ void SectorTree<Space>::descend(std::uint32_t task_size, std::vector<Task>* task
         stack_.pop_back();
         continue;
       }
-      if (open == 0 || (open <= context_->options.tuning.leaf_size && tasks == nullptr) ||
-          !split(frame, open_end)) {
+      const bool is_leaf = is_small(open) && tasks == nullptr && !wants_chart(frame.cell);
+      if (open == 0 || is_leaf || !split(frame, open_end)) {
         leaf(frame.begin, open_end, frame.located ? &frame.cell.chart : nullptr);
         stack_.pop_back();
         continue;
@@ -213,6 +214,7 @@ bool SectorTree<Space>::split(Frame& frame, std::uint32_t open_end) {
     for (std::uint32_t i = frame.begin; i < open_end; ++i) locate(frame.cell.chart, items_[i]);
     frame.located = true;
   }
+  if (context_->leaf_method == LeafMethod::kBlots && is_small(open_end - frame.begin)) return false;
   const bool by_contour = !context_->contour.empty();
   if (by_contour ? split_by_edge(frame, open_end, true) : split_by_axis(frame, open_end)) {
     return true;

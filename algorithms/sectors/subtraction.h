@@ -115,6 +115,10 @@ void SectorTree<Space>::leaf(std::uint32_t begin, std::uint32_t end, const Light
     clip_lists(begin, end);
     return;
   }
+  if (context_->leaf_method == LeafMethod::kBlots) {
+    clip_by_blots(begin, end, chart);
+    return;
+  }
   order_.clear();
   for (std::uint32_t i = begin; i < end; ++i) {
     if (context_->casts(items_[i].part)) order_.push_back(i);

@@ -15,6 +15,19 @@ namespace gnomon {
 template <SectorSpaceModel Space>
 void SectorTree<Space>::clip_lists(std::uint32_t begin, std::uint32_t end) {
   const std::uint32_t loops_mark = loops_.size(), planes_mark = space_.plane_mark();
+  list_pieces(begin, end);
+  lists_.run(
+      list_setting(), pieces_, [&](PlaneRef edge) { return is_cell_plane(edge); },
+      [&] { return stopped(); }, clipped_);
+  output_.vanished += lists_.take_vanished();
+  put_out_clipped();
+  loops_.truncate(loops_mark);
+  space_.release_planes(planes_mark);
+}
+
+/// The items as pieces of a list: pieces_.
+template <SectorSpaceModel Space>
+void SectorTree<Space>::list_pieces(std::uint32_t begin, std::uint32_t end) {
   pieces_.clear();
   clipped_.clear();
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -24,12 +37,11 @@ void SectorTree<Space>::clip_lists(std::uint32_t begin, std::uint32_t end) {
     const float nearest = item.z_high < kInfinity ? item.z_high : -kInfinity;
     pieces_.push_back({{item.first, item.count, item.part}, i, item, nearest});
   }
-  lists_.run(
-      {space_, context_->scene, context_->facing, loops_, context_->rules, output_.work,
-       context_->all_cast},
-      pieces_, [&](PlaneRef edge) { return is_cell_plane(edge); }, [&] { return stopped(); },
-      clipped_);
-  output_.vanished += lists_.take_vanished();
+}
+
+/// What has become of them, from clipped_ into the states of items.
+template <SectorSpaceModel Space>
+void SectorTree<Space>::put_out_clipped() {
   static_assert(ClippedPiece::kLit == kAllLit);
   // What has one class and caster all over is decided as a whole; the cells above may join it.
   for (const ClippedPiece& piece : clipped_) {
@@ -39,8 +51,6 @@ void SectorTree<Space>::clip_lists(std::uint32_t begin, std::uint32_t end) {
   for (const ClippedPiece& piece : clipped_) {
     if (states_[piece.item] == kMixed) emit(piece.loop, piece.caster);
   }
-  loops_.truncate(loops_mark);
-  space_.release_planes(planes_mark);
 }
 
 }  // namespace gnomon

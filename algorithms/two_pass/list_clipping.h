@@ -114,6 +114,9 @@ class ListClipping {
     }
   }
   std::uint64_t take_vanished() { return clip_.take_vanished() + std::exchange(vanished_, 0); }
+  /// Edges of the last run's pieces whose planes have this number or a larger one may be cuts of
+  /// support planes, which end a piece and are no planes through the light.
+  std::uint32_t first_cut() const { return first_cut_; }
 
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

@@ -80,6 +80,9 @@ constexpr std::array kMistakes = {
     MistakeInfo{Mistake::kCombinedBitLost, "combined-bit-lost",
                 "fragments that one of several lights together tells apart become one, dark for it",
                 kChin1989},
+    MistakeInfo{Mistake::kBlotAbsorbedEarly, "blot-absorbed-early",
+                "an outline absorbs a blot before all in its object's planes have received that",
+                kCrow1977},
 };
 
 }  // namespace
@@ -168,6 +171,8 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kBspEdgesLeftOut:
     case Mistake::kCombinedBitLost:  // of lights together, where it merges across splits
       return svbsp;
+    case Mistake::kBlotAbsorbedEarly:
+      return method == MethodId::kBlots;
     case Mistake::kSupportBeforeEdges:
       return method == MethodId::kSvbspFull;
     case Mistake::kCollinearLeftOut:
@@ -216,6 +221,7 @@ bool applies_to_area(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kTileClosedEarly:
     case Mistake::kClosedTileKeepsDead:
     case Mistake::kBspEdgesLeftOut:
+    case Mistake::kBlotAbsorbedEarly:
     case Mistake::kSupportBeforeEdges:
     case Mistake::kCollinearLeftOut:
     case Mistake::kCasterSetsDiffer:

@@ -46,6 +46,7 @@ enum class Mistake : std::uint8_t {
   kWallsKeepOrder,     // walls kept in the order of depth in which they were met
   kOnePerspective,     // what a light sees mapped by one perspective division
   kCombinedBitLost,    // lights together: fragments that one light tells apart become one
+  kBlotAbsorbedEarly,  // a blot dropped before all in the planes of its heir have received it
 };
 
 struct MistakeInfo {

@@ -11,6 +11,7 @@ MethodFunction vertices_per_side_function(MethodId method, KernelId) {
   switch (method) {
     case MethodId::kSectors:
     case MethodId::kTwoPass:
+    case MethodId::kBlots:
       return BySectors<SplitVerticesKernel>::run;
     case MethodId::kSvbsp:
       return BySvbsp<SplitVerticesKernel>::run;

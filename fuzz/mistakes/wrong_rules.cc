@@ -110,6 +110,9 @@ Rules rules_of(Mistake mistake) {
     case Mistake::kCombinedBitLost:
       rules.merged_fragments_agree_on_every_light = false;
       break;
+    case Mistake::kBlotAbsorbedEarly:
+      rules.blots_absorbed_after_their_planes_received = false;
+      break;
     case Mistake::kOnSwapped:
       rules.on_goes_to_its_own_side = false;
       break;

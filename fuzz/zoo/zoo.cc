@@ -72,6 +72,8 @@ constexpr std::array kZoo = {
              kWrongLight},
     ZooEntry{"combined-bit-lost", Mistake::kCombinedBitLost, "plane/svbsp:merge=convex",
              kPointScenes, "misclassified"},
+    ZooEntry{"blot-absorbed-early", Mistake::kBlotAbsorbedEarly, "plane/blots",
+             "family-small-lattice", "misclassified"},
     ZooEntry{"area-on-swapped", Mistake::kOnSwapped, "plane", kAreaScenes, "misclassified"},
 };
 

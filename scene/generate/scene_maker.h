@@ -109,6 +109,7 @@ std::vector<Generator> room_generators();
 std::vector<Generator> figure_generators();
 std::vector<Generator> solid_generators();
 std::vector<Generator> large_generators();
+std::vector<Generator> object_generators();
 std::vector<Generator> hard_generators();
 std::vector<Generator> repair_generators();
 std::vector<Generator> area_paper_generators();

@@ -23,12 +23,28 @@ using fuzz::Family;
 TEST(MethodVariants, AreThoseOfTheTable) {
   std::vector<std::string> names;
   for (const MethodSelection& variant : method_variants()) names.push_back(text_of(variant));
-  EXPECT_THAT(names,
-              testing::IsSupersetOf(
-                  {"sectors", "contour", "svbsp", "receiver", "basic", "basic:cover=overlay",
-                   "basic:prune=off", "tiling", "svbsp:light-order=facing", "svbsp:grow=fragments",
-                   "merged", "tiling:tiles=1", "tiling:tiles=4", "tiling:prune=off", "svbsp-full",
-                   "svbsp-full:order=file", "two-pass", "two-pass:cells=off"}));
+  EXPECT_THAT(names, testing::IsSupersetOf({"sectors",
+                                            "contour",
+                                            "svbsp",
+                                            "receiver",
+                                            "basic",
+                                            "basic:cover=overlay",
+                                            "basic:prune=off",
+                                            "tiling",
+                                            "svbsp:light-order=facing",
+                                            "svbsp:grow=fragments",
+                                            "merged",
+                                            "tiling:tiles=1",
+                                            "tiling:tiles=4",
+                                            "tiling:prune=off",
+                                            "svbsp-full",
+                                            "svbsp-full:order=file",
+                                            "two-pass",
+                                            "two-pass:cells=off",
+                                            "blots",
+                                            "blots:sectors=off",
+                                            "blots:outlines=whole",
+                                            "blots:cover=overlay"}));
 }
 
 class MethodSuite : public testing::TestWithParam<Family> {

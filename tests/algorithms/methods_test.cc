@@ -54,10 +54,12 @@ TEST(Methods, HaveOneNameEach) {
 
 TEST(Methods, AreNamedByTheLightsThatTheyTake) {
   EXPECT_EQ(method_names({.point = true}),
-            "sectors, contour, svbsp, receiver, merged, basic, tiling, svbsp-full, two-pass");
+            "sectors, contour, svbsp, receiver, merged, basic, tiling, svbsp-full, two-pass, "
+            "blots");
   EXPECT_EQ(method_names({.area = true}), "receiver, merged");
   EXPECT_EQ(method_names({.point = true, .area = true}),
-            "sectors, contour, svbsp, receiver, merged, basic, tiling, svbsp-full, two-pass");
+            "sectors, contour, svbsp, receiver, merged, basic, tiling, svbsp-full, two-pass, "
+            "blots");
   EXPECT_EQ(method_names({}), "");
 }
 

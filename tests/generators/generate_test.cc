@@ -86,6 +86,8 @@ TEST(Counts, AreThoseOfThePapers) {
   EXPECT_EQ(polygons("stairs", {{"n", 5}}), 22u);
   EXPECT_EQ(polygons("nested-boxes", {{"n", 5}}), 26u);
   EXPECT_EQ(polygons("coplanar-tiles", {{"n", 5}}), 6u);
+  EXPECT_GE(polygons("sub-objects", {{"n", 50}}), 201u);
+  EXPECT_LE(polygons("sub-objects", {{"n", 50}}), 401u);
   EXPECT_EQ(polygons("radial-fan", {{"n", 5}}), 6u);
 }
 

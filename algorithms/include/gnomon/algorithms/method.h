@@ -30,6 +30,7 @@ enum class MethodId : std::uint8_t {
   kTiling,
   kSvbspFull,
   kTwoPass,
+  kBlots,
   kContour,
   // Of image space:
   kZbuffer,

@@ -56,6 +56,10 @@ enum class EdgesInTree : std::uint8_t { kOwn, kAll };
 /// tree of outlines as the light sees them, or those in the same tiles.
 enum class ListsBy : std::uint8_t { kAll, kSectors, kTiles };
 
+/// What a sub-object that is partly in shadow adds to the blots: the outlines of what of it is lit,
+/// as Crow (1977) has it, or its whole outline, which then overlaps the blots before it.
+enum class Outlines : std::uint8_t { kPartial, kWhole };
+
 /// Each method reads its own of them (Method::options).
 struct MethodOptionValues {
   Cover cover = Cover::kPartition;
@@ -79,6 +83,9 @@ struct MethodOptionValues {
   bool lazy = false;                           // scan-out: lists of visible polygons alone
   bool interleaved = false;                    // merged: receivers go down trees that still grow
   bool caps = false;                           // merged: volumes end behind their last receiver
+  // blots:
+  bool sectors = true;  // the blots and what is to come in cells of light space
+  Outlines outlines = Outlines::kPartial;
   friend bool operator==(const MethodOptionValues&, const MethodOptionValues&) = default;
 };
 

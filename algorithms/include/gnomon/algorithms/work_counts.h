@@ -61,8 +61,15 @@ enum class Counter : std::uint8_t {
   kOverlapTests,     // pairs of polygons whose outlines are compared
   kListEntries,      // polygons on lists of possible casters
   kListBytes,        // memory of these lists
+  kSubObjects,       // convex solids and polygons by themselves, in each cell of light space
+  kHidingPairs,      // of sub-objects, the first of which may hide something of the second
+  kCycles,           // sets of sub-objects that hide each other, taken apart into polygons
+  kBlots,            // convex outlines made, whole or partial
+  kAbsorbed,         // of these, dropped since a later one holds them
+  kBlotCuts,         // sub-objects, or polygons of them, cut by a blot
+  kBoxShortcuts,     // sub-objects decided as a whole: before all blots, or inside one
 };
-inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kListBytes) + 1;
+inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kBoxShortcuts) + 1;
 
 /// How the counts of two lights, or of two parts of one run, make one.
 enum class CountKind : std::uint8_t { kSum, kMost };
