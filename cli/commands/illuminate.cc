@@ -96,11 +96,16 @@ CLI::Option* add_illuminate_options(CLI::App& command, IlluminateOptions& option
 }
 
 void add_mesh_option(CLI::App& command, IlluminateOptions& options, CLI::Option* illuminate) {
+  CLI::Option* mesh =
+      command.add_option("--mesh", options.mesh,
+                         "The illuminated fragments as a mesh with a colour a vertex: .ply, .gltf "
+                         "or .glb");
+  mesh->needs(illuminate)->type_name("FILE");
   command
-      .add_option("--mesh", options.mesh,
-                  "The illuminated fragments as a mesh with a colour a vertex: .ply, .gltf or .glb")
-      ->needs(illuminate)
-      ->type_name("FILE");
+      .add_flag("--plain-ply", options.plain_ply,
+                "PLY of single precision, without the numbers of triangles, which meshio, PCL and "
+                "the like do not read")
+      ->needs(mesh);
 }
 
 Expected<void> ask_for_illumination(const IlluminateOptions& options, const LoadedScene& loaded,
@@ -192,6 +197,7 @@ Expected<void> write_mesh(const IlluminateOptions& options, const LoadedScene& l
   report::ShadedMeshOptions file_options;
   file_options.exposure = options.exposure;
   file_options.tint = options.tint;
+  file_options.plain_ply = options.plain_ply;
   const auto text =
       report::shaded_mesh_text(loaded.scene, loaded.prepared, mesh, *format, file_options);
   if (!text) return tl::unexpected(text.error());

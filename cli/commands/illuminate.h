@@ -22,6 +22,7 @@ struct IlluminateOptions {
   double exposure = 0;
   bool tint = false;
   std::string mesh;
+  bool plain_ply = false;
   bool stats = false;  // --stats, which is another's option
 };
 

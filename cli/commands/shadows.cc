@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/commands/exports.h"
 #include "cli/commands/extras.h"
 #include "cli/commands/illuminate.h"
 #include "cli/commands/moving_lights.h"
@@ -46,10 +47,13 @@ struct ShadowsOptions : ResultShape {
   bool stats = false;
   IlluminateOptions illuminate;
   ExtrasOptions extras;
+  ExportOptions exports;
   std::string output, shares;
 
   /// Whether anyone asks for the lights after the table of shares.
-  bool keeps_lights() const { return !output.empty() || illuminate.illuminate; }
+  bool keeps_lights() const { return !output.empty() || illuminate.illuminate || exports.given(); }
+  /// Without a name the result goes to standard output, unless something else was asked for.
+  bool writes_result() const { return !output.empty() || (shares.empty() && !exports.given()); }
 };
 
 /// Options that say what the result file holds.
@@ -78,6 +82,7 @@ Expected<void> check_pieces(const ShadowsOptions& options) {
 Expected<void> check_move(const ShadowsOptions& options) {
   if (!options.move.given()) return {};
   std::vector<std::pair<const char*, bool>> others{{"--shares", !options.shares.empty()},
+                                                   {"--export", options.exports.given()},
                                                    {"--deep-umbra", options.deep_umbra},
                                                    {"--pieces", options.pieces},
                                                    {"--illuminate", options.illuminate.illuminate}};
@@ -98,11 +103,13 @@ Expected<void> check_options(const ShadowsOptions& options, const KernelChoice& 
   }
   if (auto checked = check_pieces(options); !checked) return checked;
   if (auto checked = check_move(options); !checked) return checked;
-  if (options.shares.empty() || !options.output.empty()) return {};
+  if (auto checked = check_exports(options.exports); !checked) return checked;
+  if (options.writes_result()) return {};
+  const std::string alone = options.shares.empty() ? "--export" : "--shares";
   for (const auto& [option, given] : result_options(options)) {
     if (!given) continue;
     return fail(ErrorCode::kUsage,
-                std::string(option) + " is of the result, which --shares alone does not write",
+                std::string(option) + " is of the result, which " + alone + " alone does not write",
                 "-o FILE too");
   }
   return {};
@@ -120,6 +127,7 @@ ShadowOptions shadow_options_of(const ShadowsOptions& options, const LoadedScene
   shadows.lights = loaded.lights;
   keep_for(options, shadows.output);
   if (options.deep_umbra) shadows.output.exact_points = true;
+  if (options.exports.given()) shadows.output.points = true;
   shadows.output.stage_counts = options.stats;
   shadows.output.merge = !options.no_merge;
   shadows.control.interrupted = &interrupted();
@@ -229,7 +237,7 @@ bool asks_for_shares_alone(const ShadowsOptions& options, const KernelChoice& ke
   return options.algorithm == kAutomaticName && kernel_info(kernel.kernel).exact &&
          !options.fragments && !options.exact_loops && !options.exact_fractions &&
          !options.combined && !options.deep_umbra && !options.extras.centroids &&
-         !options.illuminate.illuminate;
+         !options.illuminate.illuminate && !options.exports.given();
 }
 
 int run_moving(const ShadowsOptions& options, const KernelChoice& kernel,
@@ -257,6 +265,7 @@ int run_shadows(const ShadowsOptions& options) {
                           {"--exact-loops", options.exact_loops, &Method::makes_fragments},
                           {"--illuminate", options.illuminate.illuminate, &Method::makes_fragments},
                           {"--centroids", options.extras.centroids, &Method::makes_fragments},
+                          {"--export", options.exports.given(), &Method::makes_fragments},
                           {"--no-merge", options.no_merge, &Method::leaves_out_steps},
                           {"--no-prefix", options.no_prefix, &Method::leaves_out_steps}});
   if (!algorithm) return report_error(algorithm.error());
@@ -295,11 +304,14 @@ int run_shadows(const ShadowsOptions& options) {
   const auto result = classify(options, *loaded, shadow_options, times);
   progress.clear();
   if (!result) return report_error(result.error());
-  if (options.shares.empty() || !options.output.empty()) {
+  if (options.writes_result()) {
     if (auto done = write_result(options, *loaded, *algorithm, shadow_options, *result, times);
         !done) {
       return report_error(done.error());
     }
+  }
+  if (auto done = write_exports(options.exports, *loaded, *result); !done) {
+    return report_error(done.error());
   }
   if (options.stats) {
     const std::string text = statistics_text(*loaded, *result, times);
@@ -377,6 +389,7 @@ void add_shadows_command(CLI::App& app, Action& action) {
                   "Write the lit share of every polygon under every light as a table, light by "
                   "light: .csv,\nor .npy for NumPy. Without -o no result is written then")
       ->type_name("FILE");
+  add_export_option(command, options->exports);
   command.callback([options, &action] {
     options->illuminate.stats = options->stats;
     action = [options] { return run_shadows(*options); };

@@ -51,7 +51,7 @@ CLI::Option* add_scene_file_options(CLI::App& command, SceneOptions& options) {
                   "Of CityJSON: this level of detail alone, instead of each object's highest")
       ->type_name("L");
   command
-      .add_option("--up", options.up,
+      .add_option("--up-axis", options.up,
                   "Which axis of the file points upwards [of glTF y, of others z]; (x, y, z) of a\n"
                   "file with y up becomes (x, -z, y), exactly. Lights of options are in the axes "
                   "of the result")

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "report/json/json_writer.h"
+#include "report/meshes/glb.h"
+#include "report/text/little_endian.h"
 #include "report/text/text_sink.h"
 
 namespace gnomon::report {
@@ -21,12 +23,6 @@ namespace {
 
 using Colour = std::array<double, 3>;
 
-template <class Integer>
-void append_little_endian(std::string& text, Integer value) {
-  for (std::size_t i = 0; i < sizeof value; ++i) {
-    text += static_cast<char>(static_cast<unsigned char>(value >> (8 * i)));
-  }
-}
 void append(std::string& text, double value) {
   append_little_endian(text, std::bit_cast<std::uint64_t>(value));
 }
@@ -85,15 +81,26 @@ std::string ply_text(const PreparedScene& prepared, const ShadingMesh& mesh,
   const Triangles triangles = triangles_of(mesh, options);
   std::string text =
       "ply\nformat binary_little_endian 1.0\ncomment shaded by gnomon\nelement vertex " +
-      std::to_string(triangles.vertices.size()) +
-      "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar red\n"
-      "property uchar green\nproperty uchar blue\nproperty float quality\nelement face " +
+      std::to_string(triangles.vertices.size()) + "\n";
+  for (const char* axis : {"x", "y", "z"}) {
+    text += (options.plain_ply ? "property float " : "property double ") + std::string(axis) + "\n";
+  }
+  text +=
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float quality\n"
+      "element face " +
       std::to_string(triangles.triangles.size()) +
-      "\nproperty list uchar uint vertex_indices\nproperty uint polygon\nproperty uchar back\n"
-      "property uchar class\nend_header\n";
+      (options.plain_ply ? "\nproperty list uchar int vertex_indices\nend_header\n"
+                         : "\nproperty list uchar uint vertex_indices\nproperty uint polygon\n"
+                           "property uchar back\nproperty uchar class\nend_header\n");
   text.reserve(text.size() + 31 * triangles.vertices.size() + 19 * triangles.triangles.size());
   for (const Vertex& vertex : triangles.vertices) {
-    for (const double x : mesh.points[vertex.point]) append(text, x);
+    for (const double x : mesh.points[vertex.point]) {
+      if (options.plain_ply) {
+        append(text, static_cast<float>(x));
+      } else {
+        append(text, x);
+      }
+    }
     for (const double c : vertex.colour) text += static_cast<char>(srgb_byte(c));
     append(text, static_cast<float>(vertex.shade));
   }
@@ -101,6 +108,7 @@ std::string ply_text(const PreparedScene& prepared, const ShadingMesh& mesh,
     const MeshFace& face = mesh.faces[triangle.face];
     text += char{3};
     for (const std::uint32_t vertex : triangle.vertices) append_little_endian(text, vertex);
+    if (options.plain_ply) continue;
     append_little_endian(text, prepared.parts[face.part].polygon);
     text += face.side == Side::kBack ? char{1} : char{0};
     text += static_cast<char>(class_number(face));
@@ -325,25 +333,6 @@ std::string gltf_json(const Scene& scene, const GltfBuffer& buffer, const std::s
   return sink.text();
 }
 
-/// Header, JSON chunk padded with spaces, binary chunk (already a multiple of four long).
-std::string glb(std::string json, const std::string& bytes) {
-  while (json.size() % 4 != 0) json += ' ';
-  const bool has_buffer = !bytes.empty();
-  std::string text = "glTF";
-  append_little_endian(text, std::uint32_t{2});
-  append_little_endian(
-      text, static_cast<std::uint32_t>(12 + 8 + json.size() + (has_buffer ? 8 + bytes.size() : 0)));
-  append_little_endian(text, static_cast<std::uint32_t>(json.size()));
-  text += "JSON";
-  text += json;
-  if (has_buffer) {
-    append_little_endian(text, static_cast<std::uint32_t>(bytes.size()));
-    text.append("BIN\0", 4);
-    text += bytes;
-  }
-  return text;
-}
-
 }  // namespace
 
 Expected<MeshFileFormat> mesh_file_format(const std::filesystem::path& path) {
@@ -392,7 +381,7 @@ Expected<std::string> shaded_mesh_text(const Scene& scene, const PreparedScene& 
     return fail(ErrorCode::kLimit, "the mesh is too large for glTF: more than 4 GB",
                 "a larger grid step, or PLY");
   }
-  if (format == MeshFileFormat::kGlb) return glb(gltf_json(scene, buffer, {}), buffer.bytes);
+  if (format == MeshFileFormat::kGlb) return glb_file(gltf_json(scene, buffer, {}), buffer.bytes);
   return gltf_json(scene, buffer, "data:application/octet-stream;base64," + base64(buffer.bytes));
 }
 

@@ -32,6 +32,8 @@ struct ShadedMeshOptions {
   double exposure = 0;  // colour 1 (white) is this times the illumination; 0: white is the largest
   bool tint = false;    // lit yellow, penumbra grey, umbra blue, as the paper's colour plates of
                         // classified scenes
+  bool plain_ply = false;  // PLY of single precision whose triangles have no numbers of their own,
+                           // for programs that read no other (meshio, PCL)
 };
 
 /// 1 / the largest illumination of the mesh; 1 if that is 0.

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "scene/base/text_file.h"
 #include "scene/building/length_units.h"
 #include "scene/files/usable_id.h"
 #include "scene/model/decimal_arithmetic.h"

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -248,13 +249,44 @@ void write_semantics(CityWriter& writer, const CityObject& object,
   writer.EndObject();
 }
 
+/// "attributes": the lit share of the object's area under each light, and of each of its surfaces.
+void write_sunlit(CityWriter& writer, const CityObject& object, const CitySunlit& sunlit) {
+  write_words(writer, "attributes");
+  writer.StartObject();
+  write_words(writer, "sunlit");
+  writer.StartObject();
+  for (const CitySunlit::UnderLight& light : sunlit.lights) {
+    double lit = 0, whole = 0;
+    for (const std::uint32_t polygon : object.polygons) {
+      lit += light.shares[polygon] * sunlit.areas[polygon];
+      whole += sunlit.areas[polygon];
+    }
+    write_words(writer, light.name);
+    const double share = whole > 0 ? lit / whole : 0;
+    writer.Double(std::isfinite(share) ? share : 0);
+  }
+  writer.EndObject();
+  write_words(writer, "sunlit_surfaces");
+  writer.StartObject();
+  for (const CitySunlit::UnderLight& light : sunlit.lights) {
+    write_words(writer, light.name);
+    writer.StartArray();
+    for (const std::uint32_t polygon : object.polygons) writer.Double(light.shares[polygon]);
+    writer.EndArray();
+  }
+  writer.EndObject();
+  writer.EndObject();
+}
+
 void write_object(CityWriter& writer, const Scene& scene, const CityObject& object,
                   const std::vector<std::string>& kinds,
-                  const std::unordered_map<std::uint32_t, std::size_t>& kind_of) {
+                  const std::unordered_map<std::uint32_t, std::size_t>& kind_of,
+                  const CitySunlit& sunlit) {
   write_words(writer, object.name);
   writer.StartObject();
   write_words(writer, "type");
   write_words(writer, "OtherConstruction");
+  if (!sunlit.lights.empty()) write_sunlit(writer, object, sunlit);
   write_words(writer, "geometry");
   writer.StartArray();
   writer.StartObject();
@@ -275,6 +307,10 @@ void write_object(CityWriter& writer, const Scene& scene, const CityObject& obje
 }  // namespace
 
 Expected<std::string> write_cityjson(const Scene& scene) {
+  return write_sunlit_cityjson(scene, {});
+}
+
+Expected<std::string> write_sunlit_cityjson(const Scene& scene, const CitySunlit& sunlit) {
   const Kept kept = kept_in(scene);
   auto vertices = IntegerVertices::of(scene);
   if (!vertices) return tl::unexpected(std::move(vertices.error()));
@@ -307,7 +343,7 @@ Expected<std::string> write_cityjson(const Scene& scene) {
   write_words(writer, "CityObjects");
   writer.StartObject();
   for (const CityObject& object : objects_of(scene, kept)) {
-    write_object(writer, scene, object, kept.kinds, kind_of);
+    write_object(writer, scene, object, kept.kinds, kind_of, sunlit);
   }
   writer.EndObject();
   vertices->write(writer);

@@ -20,6 +20,18 @@ Expected<std::string> write_off(const Scene& scene);
 Expected<std::string> write_ply_ascii(const Scene& scene);
 Expected<std::string> write_ply_binary(const Scene& scene);
 Expected<std::string> write_cityjson(const Scene& scene);
+/// Lit shares of all polygons of a scene under several lights, and areas to weigh them by.
+struct CitySunlit {
+  struct UnderLight {
+    std::string name;
+    std::vector<double> shares;  // finite, one for each polygon
+  };
+  std::vector<UnderLight> lights;
+  std::vector<double> areas;  // one for each polygon
+};
+/// The same with attributes of each object: `sunlit`, the lit share of its area by the name of the
+/// light, and `sunlit_surfaces`, those of its surfaces in their order.
+Expected<std::string> write_sunlit_cityjson(const Scene& scene, const CitySunlit& sunlit);
 /// What a city model cannot hold of a scene: one line for each.
 std::vector<std::string> left_out_of_cityjson(const Scene& scene);
 

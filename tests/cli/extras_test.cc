@@ -188,7 +188,8 @@ TEST(Groups, OfAnObjFile) {
   EXPECT_EQ(groups[1]["lit"]["area"].GetDouble(), 12);
   // They come along when the file is converted.
   const RunResult converted = run_gnomon({"convert", file, "-", "--format", "json"});
-  EXPECT_THAT(converted.out, HasSubstr("\"house\":[\"0\",\"1\"]"));
+  EXPECT_THAT(converted.out,
+              HasSubstr(R"("house":["house/ground/0","house/roof/\"north/part\"/0"])"));
 }
 
 TEST(Groups, ErrorsNameThePlace) {

@@ -94,13 +94,14 @@ TEST_F(Intent, ASkylightUnderABentRoof) {
 
 TEST_F(Intent, AShadeInsideOut) {
   const RunResult said = shadows(case_file("inside-out.obj"), {"--sun=0,0,1"});
-  EXPECT_EQ(lit(said, "0"), "1");
-  EXPECT_THAT(said.err, HasSubstr("1 polygon looks away from every light and casts nothing (1)"));
+  EXPECT_EQ(lit(said, "ground/0"), "1");
+  EXPECT_THAT(said.err,
+              HasSubstr("1 polygon looks away from every light and casts nothing (shade/0)"));
   const RunResult meant = shadows(case_file("inside-out.obj"), {"--sun=0,0,1", "--two-sided"});
-  EXPECT_EQ(lit(meant, "0"), "3/4");
+  EXPECT_EQ(lit(meant, "ground/0"), "3/4");
   EXPECT_EQ(meant.err, "");
   const std::string file = repaired("inside-out.obj", {"--two-sided", "--sun=0,0,1"});
-  EXPECT_EQ(lit(shadows(file), "0"), "3/4");
+  EXPECT_EQ(lit(shadows(file), "ground/0"), "3/4");
 }
 
 TEST_F(Intent, ALampInsideASolid) {
@@ -117,12 +118,13 @@ TEST_F(Intent, AFaceThatCrossesItself) {
   const RunResult refused = shadows(case_file("bad-face.obj"), {"--sun=0,0,1"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err,
-              AllOf(HasSubstr("bad-face.obj:19:1: polygon '2': the loop crosses itself"),
+              AllOf(HasSubstr("bad-face.obj:19:1: polygon 'bad/0': the loop crosses itself"),
                     Not(HasSubstr("/polygons"))));
   const RunResult skipped = shadows(case_file("bad-face.obj"), {"--sun=0,0,1", "--skip-bad"});
   EXPECT_EQ(skipped.status, 0);
-  EXPECT_EQ(lit(skipped, "0"), "3/4");
-  EXPECT_THAT(skipped.err, HasSubstr("1 of 3 polygons left out: 2 in line 19 (the loop crosses"));
+  EXPECT_EQ(lit(skipped, "ground/0"), "3/4");
+  EXPECT_THAT(skipped.err,
+              HasSubstr("1 of 3 polygons left out: bad/0 in line 19 (the loop crosses"));
 }
 
 TEST_F(Intent, AFaceOverSeveralLines) {

@@ -107,6 +107,22 @@ TEST(ShadedMeshFiles, PlyReadsBack) {
   EXPECT_TRUE(prepare(read->scene));
 }
 
+TEST(ShadedMeshFiles, PlainPlyHasFloatsAndNoNumbersOfFaces) {
+  const Shaded one = shaded();
+  ShadedMeshOptions options;
+  options.plain_ply = true;
+  const std::string text = text_of(one, MeshFileFormat::kPly, options);
+  const std::string header = text.substr(0, text.find("end_header\n") + 11);
+  EXPECT_THAT(header, testing::HasSubstr("property float x\nproperty float y\nproperty float z\n"));
+  EXPECT_THAT(header, testing::EndsWith("property list uchar int vertex_indices\nend_header\n"));
+  EXPECT_EQ(text.size(),
+            header.size() + 19 * one.mesh.samples.size() + 13 * triangle_count(one.mesh));
+  const auto read = parse_scene(text, "mesh.ply");
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ(read->scene.vertices.size(), one.mesh.samples.size());
+  EXPECT_EQ(read->scene.polygons.size(), triangle_count(one.mesh));
+}
+
 TEST(ShadedMeshFiles, ColoursOfPlyAreTheIllumination) {
   const Shaded one = shaded();
   ShadedMeshOptions options;
