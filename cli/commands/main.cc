@@ -71,6 +71,7 @@ int run(int argc, char** argv) {
   add_render_command(app, action);
   add_pixels_command(app, action);
   add_visible_command(app, action);
+  add_lines_command(app, action);
   add_info_command(app, action);
   add_compare_command(app, action);
   add_tradeoff_command(app, action);
