@@ -25,12 +25,13 @@ class ViewSigns {
   ///  1. Negative: seen from the viewer, r is on the left of the line from p to q, or p, q, r run
   ///     counter-clockwise. Zero: the plane of the three holds the viewer.
   ///  2. It changes its sign with every exchange of two.
-  /// Exactness: exact. Degree: 3 in positions; 2 and 1 in the direction. Bits: 3b + 3.
+  /// Exactness: exact. Degree: 3 in positions; 2 and 1 in the direction. Bits: 3b + 2, the viewer
+  /// on the grid.
   int bracket(VertexId p, VertexId q, VertexId r) const;
   mpz_class exact_bracket(VertexId p, VertexId q, VertexId r) const;
 
   /// The sign of det(b - a, c - a, d - a): positive if d is in front of a, b, c.
-  /// Exactness: exact. Degree: 3. Bits: 3b + 3.
+  /// Exactness: exact. Degree: 3. Bits: 3b + 2.
   int volume(VertexId a, VertexId b, VertexId c, VertexId d) const;
   mpz_class exact_volume(VertexId a, VertexId b, VertexId c, VertexId d) const;
 

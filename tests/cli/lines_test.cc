@@ -34,10 +34,10 @@ class LinesCommand : public testing::Test {
   void SetUp() override {
     // A square above the middle of a floor; the lamp is above the square, a little to its side.
     write_text(scene_, R"({"format": "gnomon-scene", "version": 1, "name": "square over floor",
-      "polygons": [
-        {"id": "floor", "loop": [[-8,-8,0],[8,-8,0],[8,8,0],[-8,8,0]]},
-        {"id": "high", "loop": [[-2,-2,4],[2,-2,4],[2,2,4],[-2,2,4]]},
-        {"id": "low", "loop": [[-1,-6,1],[1,-6,1],[1,6,1],[-1,6,1]]}],
+      "vertices": [[-8,-8,0],[8,-8,0],[8,8,0],[-8,8,0], [-2,-2,4],[2,-2,4],[2,2,4],[-2,2,4],
+                   [-1,-6,1],[1,-6,1],[1,6,1],[-1,6,1]],
+      "polygons": [{"id": "floor", "loop": [0,1,2,3]}, {"id": "high", "loop": [4,5,6,7]},
+                   {"id": "low", "loop": [8,9,10,11]}],
       "lights": [{"id": "lamp", "type": "point", "position": [0,0,10]},
                  {"id": "panel", "type": "area", "loop": [[0,0,20],[0,1,20],[1,0,20]]}]})");
   }

@@ -77,7 +77,7 @@ struct HiddenLineOptions {
 ///
 /// Degree: brackets of three vertices and the light are of degree 3 in positions (2, and 1 in the
 /// direction, for a directional light); a breakpoint is a quotient of two, and two are ordered by
-/// degree 6. Bits: 6b + 9 for b-bit grids.
+/// degree 6. Bits: 3b + 2 and 6b + 3 for b-bit grids, signs included.
 ///
 /// Requires: a point or directional light; its region is not looked at. Errors: kInterrupted.
 /// Cost: a search in a tree of boxes for each edge; edges are worked on by all threads of the
