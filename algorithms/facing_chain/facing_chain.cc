@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "algorithms/facing_chain/contour.h"
+
 namespace gnomon {
 
 namespace {
@@ -18,8 +20,8 @@ VertexId start_of(const Geometry& geometry, PlaneRef edge) {
 }
 VertexId end_of(const Geometry& geometry, PlaneRef edge) { return start_of(geometry, -edge); }
 
-/// The edges of all facing parts that cast, part after part, each counter-clockwise as seen from
-/// the light.
+/// The edges of all parts of the chain, part after part, each counter-clockwise as seen from the
+/// light.
 struct FacingEdges {
   std::vector<PlaneRef> edges;
   std::vector<std::uint32_t> next;  // the edge after this one around its part
@@ -27,7 +29,7 @@ struct FacingEdges {
   FacingEdges(const PreparedScene& scene, std::span<const Side> facing) {
     for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
       const Part& part = scene.parts[i];
-      if (facing[i] == Side::kOn || !part.casts) continue;
+      if (facing[i] == Side::kOn) continue;
       const auto first = static_cast<std::uint32_t>(edges.size());
       const auto loop = scene.edges(part);
       for (std::uint32_t k = 0; k < part.count; ++k) {
@@ -138,8 +140,16 @@ class LoopStringer {
 
 }  // namespace
 
+std::vector<ContourEdge> contour_of(const PreparedScene& scene, std::span<const Side> sides) {
+  return contour_of(scene, FacingEdges(scene, sides));
+}
+
 FacingChain facing_chain(const PreparedScene& scene, std::span<const Side> facing) {
-  const FacingEdges edges(scene, facing);
+  std::vector<Side> casting(facing.begin(), facing.end());
+  for (std::uint32_t i = 0; i < casting.size(); ++i) {
+    if (!scene.parts[i].casts) casting[i] = Side::kOn;
+  }
+  const FacingEdges edges(scene, casting);
   FacingChain chain;
   chain.facing_edges = edges.edges.size();
   chain.contour = contour_of(scene, edges);

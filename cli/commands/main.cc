@@ -73,6 +73,7 @@ int run(int argc, char** argv) {
   add_visible_command(app, action);
   add_illumination_command(app, action);
   add_loops_command(app, action);
+  add_lines_command(app, action);
   add_info_command(app, action);
   add_compare_command(app, action);
   add_tradeoff_command(app, action);

@@ -24,6 +24,7 @@ void add_tradeoff_command(CLI::App& app, Action& action);
 void add_measure_command(CLI::App& app, Action& action);
 void add_convert_command(CLI::App& app, Action& action);
 void add_render_command(CLI::App& app, Action& action);
+void add_lines_command(CLI::App& app, Action& action);
 void add_pixels_command(CLI::App& app, Action& action);
 void add_shrink_command(CLI::App& app, Action& action);
 void add_replay_command(CLI::App& app, Action& action);
