@@ -31,6 +31,7 @@ void add_fuzz_command(CLI::App& app, Action& action);
 void add_visible_command(CLI::App& app, Action& action);
 void add_worker_command(CLI::App& app, Action& action);
 void add_year_command(CLI::App& app, Action& action);
+void add_completion_command(CLI::App& app, Action& action);
 
 /// A finite number, 0 or more.
 CLI::Validator not_negative();
