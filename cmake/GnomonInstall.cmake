@@ -49,27 +49,28 @@ install(FILES
   "${PROJECT_BINARY_DIR}/cmake/gnomonConfigVersion.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindGMP.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindMPFR.cmake"
-  DESTINATION "${gnomon_package_dir}")
+  COMPONENT development DESTINATION "${gnomon_package_dir}")
 if(gnomon_installed)
-  install(EXPORT gnomonTargets NAMESPACE gnomon:: DESTINATION "${gnomon_package_dir}")
+  install(EXPORT gnomonTargets NAMESPACE gnomon:: COMPONENT development
+          DESTINATION "${gnomon_package_dir}")
 endif()
 
-# The manual page is the command's own help, put into form by help2man where that is installed.
-if(TARGET gnomon)
-  find_program(GNOMON_HELP2MAN help2man)
-  mark_as_advanced(GNOMON_HELP2MAN)
-  if(GNOMON_HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
-    set(gnomon_manual "${PROJECT_BINARY_DIR}/man/gnomon.1")
-    add_custom_command(OUTPUT "${gnomon_manual}"
-      COMMAND "${CMAKE_COMMAND}" -E make_directory "${PROJECT_BINARY_DIR}/man"
-      COMMAND "${GNOMON_HELP2MAN}" --no-info --no-discard-stderr
-              "--name=exact shadows of polygons, and the verdict on every other number type"
-              --version-string=${PROJECT_VERSION} "--help-option=--help-all"
-              "--output=${gnomon_manual}" "$<TARGET_FILE:gnomon>"
-      DEPENDS gnomon
-      COMMENT "Writing the manual page gnomon.1"
-      VERBATIM)
-    add_custom_target(gnomon_manual_page ALL DEPENDS "${gnomon_manual}")
-    install(FILES "${gnomon_manual}" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+# For those who build without CMake: the library alone, found from where its file lies.
+file(RELATIVE_PATH gnomon_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+string(REGEX REPLACE "/$" "" gnomon_pc_up "${gnomon_pc_up}")
+set(gnomon_pc_libs "")
+foreach(component IN ITEMS algorithms result scene kernel)
+  if(component IN_LIST gnomon_installed)
+    string(APPEND gnomon_pc_libs " -lgnomon_${component}")
   endif()
+endforeach()
+configure_file("${PROJECT_SOURCE_DIR}/cmake/gnomon.pc.in" "${PROJECT_BINARY_DIR}/cmake/gnomon.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/cmake/gnomon.pc" COMPONENT development
+        DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+
+if(TARGET gnomon)
+  include(GnomonManual)
+endif()
+if(PROJECT_IS_TOP_LEVEL)
+  include(GnomonPackage)
 endif()

@@ -6,13 +6,17 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/common/command_line.h"
+#include "cli/common/command_words.h"
 #include "cli/common/commands.h"
 #include "cli/common/exit_status.h"
 #include "cli/common/interrupt.h"
 #include "cli/common/messages.h"
+#include "cli/common/misspelt.h"
 #include "cli/common/output.h"
 
 namespace gnomon::cli {
@@ -40,8 +44,32 @@ std::string typed_command(const CLI::App& app) {
   return name;
 }
 
+/// The deepest command that was typed.
+const CLI::App& deepest(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().back();
+  return *command;
+}
+
+/// What CLI11 says of words that no option takes, in the order in which they were typed, and the
+/// option that the first of them perhaps means.
+std::string not_expected(const CLI::App& app) {
+  const std::vector<std::string> words = app.remaining(true);
+  std::string what = words.size() == 1 ? "The following argument was not expected:"
+                                       : "The following arguments were not expected:";
+  for (const std::string& word : words) what += " " + word;
+  std::vector<std::string> options;
+  for (const CLI::Option* option : deepest(app).get_options()) {
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  }
+  const std::string first = words.empty() ? "" : words.front().substr(0, words.front().find('='));
+  const std::string meant = first.starts_with("--") ? nearest_word(first, options) : "";
+  return meant.empty() ? what : what + "; did you mean " + meant + "?";
+}
+
 int usage_error(const CLI::App& app, const CLI::ParseError& error) {
-  std::string what = error.what();
+  const bool is_extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  std::string what = is_extra ? not_expected(app) : error.what();
   while (!what.empty() && (what.back() == '\n' || what.back() == '.')) what.pop_back();
   return report_usage(what + "; see '" + typed_command(app) + " --help'");
 }
@@ -49,6 +77,27 @@ int usage_error(const CLI::App& app, const CLI::ParseError& error) {
 int print(const std::string& text) {
   const auto written = write_output({}, text);
   return written ? kDone : report_error(written.error());
+}
+
+/// Of `gnomon`, `gnomon help` and `gnomon help COMMAND`, and of a command that there is not; none
+/// for all that is to be parsed.
+std::optional<int> run_without_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2) {
+    std::fputs(app.help().c_str(), stderr);
+    return kBadInput;
+  }
+  std::string typed = argv[1];
+  const bool asks_for_help = typed == "help";
+  if (asks_for_help && argc == 2) return print(app.help());
+  if (asks_for_help) typed = argv[2];
+  const CLI::App* command = command_by_name(app, typed);
+  if (asks_for_help && command != nullptr) return print(command->help("gnomon"));
+  if (typed.starts_with('-') || command != nullptr) return std::nullopt;
+  const std::string meant = nearest_word(typed, command_names(app));
+  if (meant.empty()) {
+    return report_usage("no command '" + typed + "'", "one that 'gnomon --help' lists");
+  }
+  return report_usage("no command '" + typed + "'; did you mean " + meant + "?");
 }
 
 int run(int argc, char** argv) {
@@ -87,6 +136,8 @@ int run(int argc, char** argv) {
   add_replay_command(app, action);
   add_measure_command(app, action);
   add_worker_command(app, action);
+  add_completion_command(app, action);
+  if (const auto status = run_without_command(app, argc, argv)) return *status;
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForAllHelp&) {

@@ -34,6 +34,7 @@ void add_loops_command(CLI::App& app, Action& action);
 void add_visible_command(CLI::App& app, Action& action);
 void add_worker_command(CLI::App& app, Action& action);
 void add_year_command(CLI::App& app, Action& action);
+void add_completion_command(CLI::App& app, Action& action);
 
 /// A finite number, 0 or more.
 CLI::Validator not_negative();

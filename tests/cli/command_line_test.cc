@@ -68,7 +68,6 @@ TEST_F(CommandLine, VersionAndHelp) {
 }
 
 TEST_F(CommandLine, WrongUsageIsStatusTwoAndOneLine) {
-  expect_one_line_error(run_gnomon({}), 2, "subcommand");
   expect_one_line_error(run_gnomon({"nonsense"}), 2, "gnomon --help");
   expect_one_line_error(run_gnomon({"nosuch"}), 2, "gnomon --help");
   expect_one_line_error(run_gnomon({"shadows"}), 2, "SCENE");
