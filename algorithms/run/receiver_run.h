@@ -435,6 +435,7 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
     std::vector<CombinedFragment> fragments;
     std::vector<std::array<double, 3>> points;
     std::vector<std::array<mpq_class, 3>> exact_points;
+    bool is_behind = false;  // of an area light, and seen by none
   };
   struct Piece {
     LoopRange loop;
@@ -467,7 +468,9 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
     std::vector<Piece> pieces, fragments;
     bool seen = false;
     for (std::size_t i = 0; i < lights.size(); ++i) {
-      if (!lights[i].sight(workspace, part, side).sees()) continue;
+      const Sight sight = lights[i].sight(workspace, part, side);
+      out.is_behind = out.is_behind || sight.reason == ShadowReason::kBehindLight;
+      if (!sight.sees()) continue;
       if (!seen) {
         pieces.push_back(
             {now.append(part_loop(workspace.space, scene_, part, workspace.whole)), 0, 0});
@@ -493,6 +496,10 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
       std::swap(now, next);
       std::swap(pieces, fragments);
     }
+    out.is_behind = out.is_behind && !seen;
+    if (out.is_behind) {
+      pieces.push_back({now.append(part_loop(workspace.space, scene_, part, workspace.whole))});
+    }
     for (const Piece& piece : pieces) {
       CombinedFragment fragment{part, side, piece.lit_by, piece.penumbra_of};
       export_volume_loop(workspace.space, run_options_, now.view(piece.loop, plane),
@@ -510,8 +517,15 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
   // Grouped by polygon and side: parts of a polygon are neighbours.
   for (std::size_t polygon = 0; polygon + 1 < scene_.first_part.size(); ++polygon) {
     for (std::size_t side = 0; side < 2; ++side) {
-      for (std::uint32_t part = scene_.first_part[polygon]; part < scene_.first_part[polygon + 1];
-           ++part) {
+      const std::uint32_t begin = scene_.first_part[polygon], end = scene_.first_part[polygon + 1];
+      // What is behind a light is told where other parts of the side are seen, as fragments tile
+      // it.
+      bool is_seen = false;
+      for (std::uint32_t part = begin; part < end; ++part) {
+        const Combined& own = results[part][side];
+        is_seen = is_seen || (!own.fragments.empty() && !own.is_behind);
+      }
+      for (std::uint32_t part = begin; is_seen && part < end; ++part) {
         Combined& own = results[part][side];
         const auto base = static_cast<std::uint32_t>(options_.output.points
                                                          ? outcome.combined_points.size()

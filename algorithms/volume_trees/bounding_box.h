@@ -3,8 +3,8 @@
 // front of the light's plane. A point outside the box is in no receiver, and a point behind the
 // light is in the umbra whatever the casters do.
 //
-// A receiver that lies in a face of the box is seen from inside only, because the lights are in the
-// box, too.
+// A receiver that lies in a face of the box is seen by area lights from inside only, because they
+// are in the box, too. A lamp or a sun may see it from outside, where nothing is in its way.
 #ifndef GNOMON_ALGORITHMS_VOLUME_TREES_BOUNDING_BOX_H
 #define GNOMON_ALGORITHMS_VOLUME_TREES_BOUNDING_BOX_H
 

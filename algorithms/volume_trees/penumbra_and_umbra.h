@@ -107,8 +107,8 @@ class PenumbraAndUmbra {
 
  private:
   void plan_caps(std::span<const std::uint32_t> receivers);
-  /// Some point in front of a side: of the light, or of the scene's box for a directional light.
-  /// None if the scene has none.
+  /// Some point in front of a side: of an area light, or of the scene's box, which a far lamp is
+  /// outside of. None if the box has none.
   std::optional<Corner<Vertex>> before(Space& space, PlaneRef receiving) const;
   template <class Emit>
   bool filter(VolumeTreeWorkspace<Space>& workspace, const Loop& loop,
@@ -266,7 +266,7 @@ template <VolumeSpaceModel Space>
 std::optional<Corner<typename Space::Vertex>> PenumbraAndUmbra<Space>::before(
     Space& space, PlaneRef receiving) const {
   const LightShape<Vertex> light = light_->shape();
-  for (std::uint32_t i = 0; i < light.loop.size(); ++i) {
+  for (std::uint32_t i = 0; light.has_area() && i < light.loop.size(); ++i) {
     const Corner<Vertex> corner = light.loop.corner(i);
     // Rounding may find none of them in front.
     if (space.side_of_plane(receiving, corner) == Side::kFront || i + 1 == light.loop.size()) {

@@ -220,6 +220,19 @@ TEST(Merged, Figure4f) {
   EXPECT_TRUE(found);
 }
 
+/// A far lamp is outside of the box that volumes are cut out of.
+TEST(Merged, FarLampSeesTheBoxFromOutside) {
+  const auto scene = Case::make(regression_scene("y_far_lamp_below_a_floor"));
+  for (const KernelId kernel : {KernelId::kPlane, KernelId::kRational, KernelId::kEpeck}) {
+    ShadowOptions options = options_of(MethodId::kMerged, kernel);
+    options.method.point = MethodId::kMerged;
+    options.output.exact_points = true;
+    const auto result = compute_shadows(scene->prepared(), options).value();
+    EXPECT_EQ(judge(*scene, result).verdict, oracle::Verdict::kIdentical)
+        << kernel_info(kernel).name;
+  }
+}
+
 TEST(Merged, StopsAtLimits) {
   const auto scene = prepare(boxes(3)).value();
   ShadowOptions options = options_of(MethodId::kMerged, KernelId::kPlane);
@@ -438,6 +451,18 @@ TEST(MergedTogether, DoesNotDependOnThreadsAndStopsAtLimits) {
   options.limits.fragments = 1000000;
   options.control.interrupted = &interrupted;
   EXPECT_EQ(compute_shadows(scene, options).error().code, ErrorCode::kInterrupted);
+}
+
+/// A part of a polygon that is all behind the light is told beside parts that the light sees.
+TEST(MergedTogether, TellsPartsBehindALight) {
+  const auto scene = Case::make(regression_scene("y_part_behind_the_panel"));
+  for (const KernelId kernel : {KernelId::kPlane, KernelId::kRational, KernelId::kEpeck}) {
+    for (const MethodId method : {MethodId::kReceiver, MethodId::kMerged}) {
+      const auto result = compute_shadows(scene->prepared(), together(method, kernel)).value();
+      EXPECT_EQ(judge(*scene, result).verdict, oracle::Verdict::kIdentical)
+          << kernel_info(kernel).name;
+    }
+  }
 }
 
 /// Rounded kernels come to an end, with fragments for every side that the receivers' way has.

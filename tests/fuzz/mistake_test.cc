@@ -122,6 +122,26 @@ TEST(Mistakes, SliversDropped) {
   }
 }
 
+/// Of lights together: each light alone is right.
+TEST(Mistakes, CombinedBitLost) {
+  const Scene scene = test::regression_scene("y_combined_bit_lost");
+  for (const char* sound : {"plane/svbsp:merge=convex", "rational/svbsp:merge=convex"}) {
+    const std::string mutant = std::string(sound) + "~combined-bit-lost";
+    EXPECT_EQ(failure(scene, sound), "");
+    EXPECT_EQ(failure(scene, mutant), "") << "by lights one by one";
+    CheckOptions options;
+    options.properties = {Property::kTogether};
+    options.subjects = {*parse_subject(sound)};
+    EXPECT_TRUE(check_scene(scene, options).failures.empty());
+    options.subjects = {*parse_subject(mutant)};
+    const CaseReport report = check_scene(scene, options);
+    ASSERT_EQ(report.failures.size(), 1u);
+    EXPECT_EQ(report.failures[0].disagreement, "misclassified");
+    EXPECT_EQ(report.failures[0].light, "sun");
+    EXPECT_EQ(report.failures[0].polygon, "a");
+  }
+}
+
 TEST(Mistakes, NoneDoesNothingInSilence) {
   const auto message = [](const char* name) {
     const auto subject = parse_subject(name);
@@ -137,6 +157,8 @@ TEST(Mistakes, NoneDoesNothingInSilence) {
   EXPECT_THAT(message("plane~union-without-continued-planes"), HasSubstr("changes nothing"));
   EXPECT_THAT(message("double+thin~thickness-too-small"), HasSubstr("no thickness anyway"));
   EXPECT_THAT(message("plane~t-vertices-left-in"), HasSubstr("mistake of meshes"));
+  EXPECT_THAT(message("plane/svbsp~combined-bit-lost"), HasSubstr("mistake of merging"));
+  EXPECT_THAT(message("plane~combined-bit-lost"), HasSubstr("mistake of merging"));
   // The subject is one, but not of this scene's lights.
   ScenePen pen;
   pen.polygon({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
