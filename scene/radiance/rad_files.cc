@@ -158,6 +158,7 @@ Expected<void> RadReader::open_files(const XformCommand& xform, std::size_t offs
     stretch_ = std::max(stretch_, placement.stretch());
     open_.push_back({text, *path, byte_order_mark(*text), placement.then(outer.transform),
                      outer.prefix + usable_id(xform.prefix),
+                     outer.modifier.empty() ? xform.modifier : outer.modifier,
                      outer.depth == 0 ? offset : outer.main_offset, outer.depth + 1});
   }
   return {};

@@ -41,6 +41,7 @@ RadReader::RadReader(const std::string& text, const std::string& file, const Rea
                    byte_order_mark(text),
                    {},
                    {},
+                   {},
                    0,
                    0});
 }
@@ -51,7 +52,9 @@ RadReader::Matter RadReader::matter_of(const std::string& modifier) {
   return found == modifiers_.end() ? Matter::kOpaque : found->second;
 }
 
-Expected<void> RadReader::define(const Primitive& given) {
+Expected<void> RadReader::define(Primitive given) {
+  const bool is_surface = given.type == "polygon" || given.type == "source";
+  if (is_surface && !here().modifier.empty()) given.modifier = here().modifier;
   if (given.type == "polygon") return add_polygon(given);
   if (given.type == "source") return add_source(given);
   if (is_one_of(given.type, kSurfaces)) {

@@ -21,7 +21,8 @@ namespace gnomon {
 class RadReader {
  public:
   RadReader(const std::string& text, const std::string& file, const ReadOptions& options);
-  /// Errors: kSyntax, kFormat, kNumber, kGeometry (a source without a direction), kFile (a file that an xform names), kLimit.
+  /// Errors: kSyntax, kFormat, kNumber, kGeometry (a source without a direction), kFile (a file
+  /// that an xform names), kLimit.
   Expected<ReadResult> read();
 
  private:
@@ -43,6 +44,7 @@ class RadReader {
     std::size_t at = 0;
     RadTransform transform;
     std::string prefix;           // of names
+    std::string modifier;         // of all surfaces; empty: their own
     std::size_t main_offset = 0;  // of the command in the main file; none of that file itself
     std::size_t depth = 0;
   };
@@ -57,7 +59,7 @@ class RadReader {
   Expected<void> command();
   Expected<void> open_files(const XformCommand& xform, std::size_t offset);
 
-  Expected<void> define(const Primitive& primitive);
+  Expected<void> define(Primitive given);
   Expected<void> add_source(const Primitive& source);
   Expected<void> add_polygon(const Primitive& polygon);
   Expected<void> add_lamp(const Primitive& lamp, const std::vector<Position>& corners);

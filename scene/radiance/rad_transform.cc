@@ -113,7 +113,7 @@ class XformReader {
 
   const std::vector<std::string>& words_;
   std::size_t at_ = 1;
-  XformCommand command_{{RadTransform()}, {}, {}};
+  XformCommand command_{{RadTransform()}, {}, {}, {}};
   RadTransform part_;
   std::uint64_t times_ = 1;
   bool is_array_ = false;  // times_ instances, moved 0, 1, 2, ... times
@@ -181,9 +181,14 @@ Expected<void> XformReader::option(const std::string& name) {
     part_.scale(*factor);
     return {};
   }
-  if (name == "-n") {
-    if (at_ >= words_.size()) return fail(ErrorCode::kFormat, "-n without a name", "a name");
-    command_.prefix = words_[at_++] + ".";
+  if (name == "-e" || name == "-c") return {};  // whether commands are carried out: they are not
+  if (name == "-n" || name == "-m") {
+    if (at_ >= words_.size()) return fail(ErrorCode::kFormat, name + " without a name", "a name");
+    if (name == "-n") {
+      command_.prefix = words_[at_++] + ".";
+    } else {
+      command_.modifier = words_[at_++];
+    }
     return {};
   }
   if (name == "-i" || name == "-a") {
@@ -208,7 +213,7 @@ Expected<void> XformReader::option(const std::string& name) {
   }
   return fail(
       ErrorCode::kFormat, "the option " + quoted_text(name) + " of xform",
-      "-t, -s, -rx, -ry, -rz, -mx, -my, -mz, -i, -a and -n; 'xform -e FILE' carries all out");
+      "-t, -s, -rx, -ry, -rz, -mx, -my, -mz, -i, -a, -n and -m; 'xform -e FILE' carries all out");
 }
 
 Expected<XformCommand> XformReader::read() {

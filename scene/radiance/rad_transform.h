@@ -45,12 +45,13 @@ class RadTransform {
 struct XformCommand {
   std::vector<RadTransform> placements;  // one for each instance
   std::string prefix;                    // of names: "NAME." of -n
+  std::string modifier;                  // of all surfaces, in place of theirs (-m); empty: theirs
   std::vector<std::string> files;
 };
 /// Is it an xform of files, with nothing that only a shell could carry out?
 bool is_xform(const std::vector<std::string>& words);
-/// -t -s -rx -ry -rz -mx -my -mz -i -a -n. Requires: is_xform(). Errors, without a place: kFormat
-/// (an option that is not carried out here), kNumber, kLimit.
+/// -t -s -rx -ry -rz -mx -my -mz -i -a -n -m; -e and -c change nothing here. Requires: is_xform().
+/// Errors, without a place: kFormat (an option that is not carried out here), kNumber, kLimit.
 Expected<XformCommand> parse_xform(const std::vector<std::string>& words);
 
 }  // namespace gnomon

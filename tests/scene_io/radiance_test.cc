@@ -172,6 +172,18 @@ TEST_F(Xform, FilesWithinFilesAndArrays) {
   EXPECT_EQ(shown(scene.vertices[scene.polygons[4].loop[0]]), "(0, 1, 7)");
 }
 
+TEST_F(Xform, ModifiersAreReplacedFromOutside) {
+  const auto result = read(
+      "void light bright\n0\n0\n3 1 1 1\n!xform -e -m grey parts/leaf.rad\n"
+      "!xform -c -m bright -n lamp parts/leaf.rad\n");
+  ASSERT_TRUE(result) << to_string(result.error());
+  EXPECT_THAT(result->warnings, IsEmpty());
+  EXPECT_THAT(ids_of(result->scene), ElementsAre("leaf"));
+  EXPECT_THAT(result->scene.extra, HasSubstr(R"("grey":["leaf"])"));
+  ASSERT_EQ(result->scene.lights.size(), 1u);
+  EXPECT_EQ(result->scene.lights[0].id, "lamp.leaf");
+}
+
 TEST_F(Xform, FilesThatCannotBeRead) {
   const auto error = [&](const std::string& text) {
     const auto result = read(text);
