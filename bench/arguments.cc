@@ -25,12 +25,21 @@ ArgumentsRead read_arguments(std::span<const std::string_view> words,
         return read;
       }
       arguments.against = words[i];
+    } else if (word == "--plots") {
+      if (++i == words.size() || words[i].empty()) {
+        read.complaint = "--plots needs a folder";
+        return read;
+      }
+      arguments.plots = words[i];
     } else if (std::ranges::count(parts, word) == 0) {
       read.complaint = "unknown '" + std::string(word) + "'";
       return read;
     } else if (!arguments.names(word)) {
       arguments.parts.emplace_back(word);
     }
+  }
+  if (!arguments.plots.empty() && !arguments.parts.empty() && !arguments.names("papers")) {
+    read.complaint = "--plots is of the part papers";
   }
   // Other parts print tables only, and would make the output no JSON.
   if (arguments.json && arguments.parts != std::vector<std::string>{"targets"}) {

@@ -21,6 +21,7 @@ struct Arguments {
   Extent extent = Extent::kUsual;
   std::vector<std::string> parts;  // as named, each once; none: those that run usually
   std::string against;             // another build's gnomon command, or empty
+  std::string plots;               // a folder for the figures of the papers, or empty
   bool json = false;
   bool help = false;
 

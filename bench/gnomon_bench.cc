@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// gnomon_bench [--short | --long] [--against COMMAND] [--json] [PART...] [--benchmark_...]
+// gnomon_bench [--short | --long] [--against COMMAND] [--json] [--plots FOLDER] [PART...]
+//              [--benchmark_...]
 //
-// Parts: targets point kernels area papers scene-bsp lights pitfalls thickness systems pictures;
-// all but the last five by default. Exit status: 0; 1 if exact kernels, algorithms or peers gave
-// different answers, or fractions that do not add up to 1; 2 bad usage. (`child` and `measure` with
-// their arguments are for the program itself: child.h, comparison/run_measurement.h.)
+// Parts: targets point kernels area papers scene-bsp lights pitfalls thickness systems pictures
+// classes; all but the last six by default. Exit status: 0; 1 if exact kernels, algorithms or peers
+// gave different answers, or fractions that do not add up to 1; 2 bad usage. (`child` and `measure`
+// with their arguments are for the program itself: child.h, comparison/run_measurement.h.)
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -24,8 +25,8 @@ namespace {
 using gnomon::bench::Arguments;
 
 constexpr const char* kUsage =
-    "usage: gnomon_bench [--short | --long] [--against COMMAND] [--json] [PART...]\n"
-    "                    [--benchmark_...]\n"
+    "usage: gnomon_bench [--short | --long] [--against COMMAND] [--json] [--plots FOLDER]\n"
+    "                    [PART...] [--benchmark_...]\n"
     "\n"
     "  targets    how much faster point lights and suns are to be than another build's command "
     "and\n"
@@ -35,7 +36,8 @@ constexpr const char* kUsage =
     "             polygons, threads\n"
     "  kernels    every kernel on generic, degenerate and nearly degenerate scenes\n"
     "  area       area lights: both algorithms, growth, Figure 8 of Chin & Feiner 1992\n"
-    "  papers     the tables of Chin & Feiner 1989 and Slater 1992\n"
+    "  papers     the tables of Chin & Feiner 1989 and Slater 1992, and Slater's times and "
+    "figures\n"
     "  scene-bsp  splits, depth, memory and time of the scene BSP\n"
     "  lights     lights together: one of them moves, their order, memory\n"
     "  pitfalls   scenes that are known to hurt\n"
@@ -43,15 +45,13 @@ constexpr const char* kUsage =
     "  systems    every system on every kernel, on all scenes, by size: the table of `gnomon\n"
     "             compare`, and pictures\n"
     "  pictures   samples a second of pictures, plane against double, and the oracle's time\n"
+    "  classes    the three classes of Crow 1977: storage, time, growth, lines of code\n"
     "\n"
-    "Without PART: all but lights, pitfalls, thickness, systems and pictures. --short takes "
-    "seconds;\n"
-    "--long adds a\n"
-    "million polygons to the targets and the scene BSP, full sizes for the slow exact kernels, "
-    "and\n"
-    "repetitions. --against names the gnomon command that the targets are ratios to; --json "
-    "writes\n"
-    "the targets alone, as JSON. Options that begin with --benchmark_ go to Google Benchmark.\n";
+    "Without PART: all but lights, pitfalls, thickness, systems, pictures and classes. --short\n"
+    "takes seconds; --long adds a million polygons to the targets and the scene BSP, full sizes\n"
+    "for the slow exact kernels, and repetitions. --against names the gnomon command that the\n"
+    "targets are ratios to; --json writes the targets alone, as JSON; --plots writes the figures\n"
+    "of the papers to a folder. Options that begin with --benchmark_ go to Google Benchmark.\n";
 
 struct NamedPart {
   std::string_view name;
@@ -68,19 +68,24 @@ bool targets(const Arguments& arguments) {
   return gnomon::bench::run_targets(arguments.extent, arguments.against, arguments.json);
 }
 
+bool papers(const Arguments& arguments) {
+  return gnomon::bench::run_papers(arguments.extent, arguments.plots);
+}
+
 // The targets come first: the peak memory of a program is never below that of who started it.
-constexpr std::array<NamedPart, 11> kParts{
+constexpr std::array<NamedPart, 12> kParts{
     {{"targets", targets, true},
      {"point", by_extent<gnomon::bench::run_point>, true},
      {"kernels", by_extent<gnomon::bench::run_kernels>, true},
      {"area", by_extent<gnomon::bench::run_area>, true},
-     {"papers", by_extent<gnomon::bench::run_papers>, true},
+     {"papers", papers, true},
      {"scene-bsp", by_extent<gnomon::bench::run_scene_bsp>, true},
      {"lights", by_extent<gnomon::bench::run_lights>, false},
      {"pitfalls", by_extent<gnomon::bench::run_pitfalls>, false},
      {"thickness", by_extent<gnomon::bench::run_thickness>, false},
      {"systems", by_extent<gnomon::bench::run_systems>, false},
-     {"pictures", by_extent<gnomon::bench::run_pictures>, false}}};
+     {"pictures", by_extent<gnomon::bench::run_pictures>, false},
+     {"classes", by_extent<gnomon::bench::run_classes>, false}}};
 
 }  // namespace
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The counts that the papers print, beside ours on scenes of the same kind and polygon count
 // (theirs were never published as files, and light positions are unknown): growth and ranges, not
-// equality. Each number stands beside one of its own kind.
+// equality. Each number stands beside one of its own kind. Times of Slater: slater_times.cc.
 //
 // Paper-like setting: no balanced prefix, no merging of sibling fragments.
 #include <fmt/format.h>
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "answers.h"
+#include "papers.h"
 #include "parts.h"
 #include "scenes.h"
 #include "table.h"
@@ -78,15 +79,6 @@ const std::vector<PaperRow>& paper_rows() {
   return kRows;
 }
 
-ShadowOptions paper_options(std::vector<std::uint32_t> lights) {
-  ShadowOptions options;
-  options.method.point = MethodId::kSvbsp;
-  options.lights = std::move(lights);
-  options.method.prefix = false;
-  options.output.merge = false;
-  return options;
-}
-
 template <class Count>
 std::string listed(const ShadowResult& result, const Count& count) {
   std::string text;
@@ -94,18 +86,6 @@ std::string listed(const ShadowResult& result, const Count& count) {
     text += (text.empty() ? "" : ",") + std::to_string(count(light));
   }
   return text;
-}
-
-/// The same in doubles without identity: an edge that a split made gets a plane and a node of its
-/// own, as every edge does in the paper's program; with identity it is the plane that split it.
-ShadowOptions plane_of_every_edge(ShadowOptions options) {
-  options.kernel.id = KernelId::kDouble;
-  options.kernel.identity = false;
-  return options;
-}
-
-std::string beside(const std::string& ours, const std::string& printed) {
-  return ours + " / " + printed;
 }
 
 std::string fragments_of(const ShadowResult& result, const ShadowOptions& options) {
@@ -262,35 +242,31 @@ void slater(Extent extent) {
   table.print();
 }
 
-// Slater's rooms: 138 to 318 polygons, 228 to 798 after the scene BSP.
-void slater_rooms(Extent extent) {
-  fmt::print(
-      "\nSlater 1992, rooms of 138 to 318 polygons (228 to 798 after the scene BSP, printed "
-      "for the whole range),\none and two lamps.\n");
-  Table table(
-      {"polygons", "after scene BSP", "lamps", "facing", "SVBSP nodes", "fragments", "CPU ms"});
-  for (const std::int64_t n : {138, 178, 218, 258, 318}) {
-    if (extent == Extent::kShort && n > 138) break;
-    for (const std::int64_t lamps : {1, 2}) {
-      const PreparedScene scene = make_scene("slater-room", {{"n", n}, {"lights", lamps}});
-      const ShadowResult result = shadows_or_stop(scene, paper_options({}));
-      table.add({std::to_string(n), std::to_string(scene_bsp_pieces(scene)), std::to_string(lamps),
-                 listed(result, [](const LightResult& l) { return l.facing_parts; }),
-                 listed(result, [](const LightResult& l) { return l.tree_nodes; }),
-                 listed(result, [](const LightResult& l) { return l.fragment_total; }),
-                 short_number(1e3 * (result.scene_bsp_seconds + result.shadow_seconds))});
-    }
-  }
-  table.print();
-}
-
 }  // namespace
 
-bool run_papers(Extent extent) {
+ShadowOptions paper_options(std::vector<std::uint32_t> lights) {
+  ShadowOptions options;
+  options.method.point = MethodId::kSvbsp;
+  options.lights = std::move(lights);
+  options.method.prefix = false;
+  options.output.merge = false;
+  return options;
+}
+
+ShadowOptions plane_of_every_edge(ShadowOptions options) {
+  options.kernel.id = KernelId::kDouble;
+  options.kernel.identity = false;
+  return options;
+}
+
+std::string beside(const std::string& ours, const std::string& printed) {
+  return ours + " / " + printed;
+}
+
+bool run_papers(Extent extent, const std::string& plots) {
   chin_feiner(extent);
   slater(extent);
-  slater_rooms(extent);
-  return true;
+  return slater_times(extent, plots);
 }
 
 }  // namespace gnomon::bench

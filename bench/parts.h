@@ -7,6 +7,7 @@
 #include <string>
 
 #include "arguments.h"
+#include "gnomon/algorithms/method_options.h"
 #include "gnomon/scene/prepare.h"
 
 namespace gnomon::bench {
@@ -16,8 +17,11 @@ namespace gnomon::bench {
 bool run_kernels(Extent extent);
 /// Thickness of the rounded kernels' planes against wrong parts, over families of small scenes.
 bool run_thickness(Extent extent);
-/// Chin & Feiner 1989 and Slater 1992, ours beside the printed counts.
-bool run_papers(Extent extent);
+/// Chin & Feiner 1989 and Slater 1992, ours beside what they print. `plots`: a folder for Slater's
+/// figures; empty: none are written. False if one cannot be written.
+bool run_papers(Extent extent, const std::string& plots);
+/// Crow 1977, the comparison of the three classes: storage, time, growth, lines of code.
+bool run_classes(Extent extent);
 /// Several lights together: one of them moves, their orders, what trees grow from and what is kept.
 bool run_lights(Extent extent);
 /// Splits, depth, memory and time of the scene BSP.
@@ -40,8 +44,8 @@ bool run_systems(Extent extent);
 /// Samples a second of pictures, and the oracle's time; run_systems() ends with it. False if an
 /// exact sample is wrong.
 bool run_pictures(Extent extent);
-/// Pieces of the scene BSP of all polygons.
-std::uint64_t scene_bsp_pieces(const PreparedScene& scene);
+/// Pieces of the scene BSP of all polygons, kernel plane.
+std::uint64_t scene_bsp_pieces(const PreparedScene& scene, Roots roots = Roots::kChosen);
 
 }  // namespace gnomon::bench
 

@@ -3,9 +3,7 @@
 // the oracle, which must judge 512 x 512 samples of a thousand polygons in a minute.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <map>
@@ -15,12 +13,12 @@
 
 #include "gnomon/algorithms/pixels.h"
 #include "gnomon/oracle/image.h"
-#include "gnomon/scene/camera.h"
 #include "gnomon/scene/generate.h"
 #include "parts.h"
 #include "report/pixels/pixel_claims_of.h"
 #include "table.h"
 #include "timing.h"
+#include "views.h"
 
 namespace gnomon::bench {
 namespace {
@@ -37,38 +35,6 @@ const std::vector<PictureScene> kScenes = {
     {"city, 1,000", "city", {{"n", 200}}},
     {"cubes, 1,000", "touching-boxes", {{"n", 166}, {"size", 14}}},
 };
-
-/// From a corner above the scene, all of it in view; few digits, so that the grid stays small.
-Expected<PreparedView> view_of(const Scene& scene, std::uint32_t size, ExactCamera& camera) {
-  const auto prepared = prepare(scene);
-  if (!prepared) return tl::unexpected(prepared.error());
-  std::array<double, 3> low{}, high{};
-  bool first = true;
-  for (const VertexId v : prepared->loop_vertices) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double x = prepared->geometry.positions[v][k];
-      low[k] = first ? x : std::min(low[k], x);
-      high[k] = first ? x : std::max(high[k], x);
-    }
-    first = false;
-  }
-  constexpr std::array<double, 3> kAway{0.62, -0.86, 0.62};
-  CameraView view;
-  double diagonal = 0;
-  for (std::size_t k = 0; k < 3; ++k) diagonal = std::max(diagonal, high[k] - low[k]);
-  Position eye;
-  for (std::size_t k = 0; k < 3; ++k) {
-    view.look_at[k] = (low[k] + high[k]) / 2;
-    view.eye[k] = std::round(view.look_at[k] + 1.5 * diagonal * kAway[k]);
-    eye[k] = Number(view.eye[k]);
-  }
-  view.width = view.height = size;
-  view.field_of_view = fitting_field_of_view(*prepared, view);
-  auto made = make_camera(eye, view);
-  if (!made) return tl::unexpected(made.error());
-  camera = *made;
-  return prepare_view(scene, camera);
-}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -90,7 +56,7 @@ bool run_pictures(Extent extent) {
       return false;
     }
     ExactCamera camera;
-    const auto view = view_of(*scene, size, camera);
+    const auto view = view_from_a_corner(*scene, size, camera);
     if (!view) {
       fmt::print(stderr, "gnomon_bench: {}\n", to_string(view.error()));
       return false;

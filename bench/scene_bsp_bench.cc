@@ -19,10 +19,10 @@ namespace gnomon::bench {
 namespace {
 
 template <class Space>
-auto whole_tree(Space& space, const PreparedScene& scene) {
+auto whole_tree(Space& space, const PreparedScene& scene, Roots roots = Roots::kChosen) {
   std::vector<std::uint32_t> parts(scene.parts.size());
   std::iota(parts.begin(), parts.end(), 0u);
-  return build_scene_bsp(space, scene, parts, 1, true);
+  return build_scene_bsp(space, scene, parts, 1, true, nullptr, 100'000'000, {}, roots);
 }
 
 PreparedScene family(const std::string& name, std::int64_t n) {
@@ -33,9 +33,9 @@ PreparedScene family(const std::string& name, std::int64_t n) {
 
 }  // namespace
 
-std::uint64_t scene_bsp_pieces(const PreparedScene& scene) {
+std::uint64_t scene_bsp_pieces(const PreparedScene& scene, Roots roots) {
   ImplicitSceneSpace<NoStats> space(scene.geometry, {});
-  return whole_tree(space, scene).node_pieces.size();
+  return whole_tree(space, scene, roots).node_pieces.size();
 }
 
 bool run_scene_bsp(Extent extent) {

@@ -36,17 +36,25 @@ double median_ratio(const std::vector<double>& a, const std::vector<double>& b) 
   return median(std::move(ratios));
 }
 
-double growth_exponent(const std::vector<double>& x, const std::vector<double>& y) {
+Line line_through(const std::vector<double>& x, const std::vector<double>& y) {
   const auto n = static_cast<double>(x.size());
   double sum_x = 0, sum_y = 0, sum_xx = 0, sum_xy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double log_x = std::log(x[i]), log_y = std::log(y[i]);
-    sum_x += log_x;
-    sum_y += log_y;
-    sum_xx += log_x * log_x;
-    sum_xy += log_x * log_y;
+    sum_x += x[i];
+    sum_y += y[i];
+    sum_xx += x[i] * x[i];
+    sum_xy += x[i] * y[i];
   }
-  return (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
+  const double slope = (n * sum_xy - sum_x * sum_y) / (n * sum_xx - sum_x * sum_x);
+  return {(sum_y - slope * sum_x) / n, slope};
+}
+
+double growth_exponent(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto logarithms = [](std::vector<double> values) {
+    for (double& value : values) value = std::log(value);
+    return values;
+  };
+  return line_through(logarithms(x), logarithms(y)).slope;
 }
 
 }  // namespace gnomon::bench

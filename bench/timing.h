@@ -20,6 +20,11 @@ std::vector<Times> interleaved(const std::vector<std::function<void()>>& work, i
 double median(std::vector<double> values);
 /// Median over the rounds of a / b. Requires: of one interleaved run.
 double median_ratio(const std::vector<double>& a, const std::vector<double>& b);
+struct Line {
+  double at_zero = 0, slope = 0;
+};
+/// By least squares of y. Requires: two different x.
+Line line_through(const std::vector<double>& x, const std::vector<double>& y);
 /// The exponent k of y ~ x^k by least squares of the logarithms. Requires: two different x.
 double growth_exponent(const std::vector<double>& x, const std::vector<double>& y);
 

@@ -40,7 +40,8 @@ Expected<SceneBsp<typename SceneSpace::Vertex>> order_scene(const RunTask& task,
   const double start = cpu_seconds();
   const ShadowOptions& options = task.options;
   auto bsp = build_scene_bsp(scene_space, task.scene, parts, options.method.seed, result.identity,
-                             options.control.interrupted, options.limits.fragments, task.rules);
+                             options.control.interrupted, options.limits.fragments, task.rules,
+                             options.method.options.roots);
   if (bsp.interrupted) return stopped_by(RunOutcome::kInterrupted, options);
   if (bsp.too_many) return stopped_by(RunOutcome::kTooManyFragments, options);
   result.scene_bsp_seconds = cpu_seconds() - start;

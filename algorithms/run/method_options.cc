@@ -249,6 +249,23 @@ constexpr std::array kOptions = {
         .read = [](MethodOptionValues& v, std::string_view t) { return read_switch(v.prune, t); },
         .text = [](const MethodOptionValues& v) { return on_or_off(v.prune); }},
     MethodOption{
+        .name = "roots",
+        .values = "chosen|fed|outside",
+        .summary = "of the scene BSP: chosen for few splits, the first of each subtree in "
+                   "order of input, or that which reaches farthest out",
+        .read =
+            [](MethodOptionValues& v, std::string_view t) {
+              return read_word<Roots>(
+                  v.roots, t,
+                  {{"chosen", Roots::kChosen}, {"fed", Roots::kFed}, {"outside", Roots::kOutside}});
+            },
+        .text =
+            [](const MethodOptionValues& v) {
+              return std::string(v.roots == Roots::kChosen ? "chosen"
+                                 : v.roots == Roots::kFed  ? "fed"
+                                                           : "outside");
+            }},
+    MethodOption{
         .name = "sectors",
         .values = "on|off",
         .summary = "keep the blots in the cells of a k-d tree of light space",

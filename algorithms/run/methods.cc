@@ -26,13 +26,14 @@ struct WatchedKernel;
 namespace {
 
 using enum Counter;
-constexpr std::array<std::string_view, 2> kBasicOptions = {"cover", "prune"};
-constexpr std::array<std::string_view, 3> kTilingOptions = {"tiles", "cover", "prune"};
+constexpr std::array<std::string_view, 3> kBasicOptions = {"cover", "prune", "roots"};
+constexpr std::array<std::string_view, 4> kTilingOptions = {"tiles", "cover", "prune", "roots"};
 constexpr std::array<std::string_view, 1> kSvbspFullOptions = {"order"};
 constexpr std::array<std::string_view, 1> kSectorsOptions = {"split"};
 constexpr std::array<std::string_view, 2> kTwoPassOptions = {"cells", "cover"};
 constexpr std::array<std::string_view, 3> kBlotsOptions = {"sectors", "outlines", "cover"};
-constexpr std::array<std::string_view, 4> kSvbspOptions = {"light-order", "grow", "edges", "merge"};
+constexpr std::array<std::string_view, 5> kSvbspOptions = {"light-order", "grow", "edges", "merge",
+                                                           "roots"};
 constexpr std::array<std::string_view, 1> kReceiverOptions = {"casters"};
 constexpr std::array<std::string_view, 3> kMergedOptions = {"casters", "interleaved", "caps"};
 constexpr std::array kSvbspCounters = {kScenePieces,  kShadowPolygons,  kNodes,     kDepth,

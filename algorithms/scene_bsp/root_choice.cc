@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "algorithms/scene_bsp/scene_bsp.h"
 
@@ -82,6 +83,35 @@ std::size_t RootChooser::choose(std::span<const std::uint32_t> candidates,
     }
   }
   return best;
+}
+
+std::vector<std::uint32_t> outside_first(const PreparedScene& scene,
+                                         std::span<const std::uint32_t> parts) {
+  const auto& positions = scene.geometry.positions;
+  Box box;
+  for (const Part& part : scene.parts) {
+    for (const VertexId v : scene.loop(part)) box.add(positions[v]);
+  }
+  std::vector<std::pair<double, std::uint32_t>> sorted;
+  sorted.reserve(parts.size());
+  for (const std::uint32_t part : parts) {
+    double farthest = 0;
+    for (const VertexId v : scene.loop(scene.parts[part])) {
+      double sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        // Twice the way from the middle.
+        const double way = (positions[v][k] - box.low[k]) - (box.high[k] - positions[v][k]);
+        sum += way * way;
+      }
+      farthest = std::max(farthest, sum);
+    }
+    sorted.emplace_back(-farthest, part);
+  }
+  std::ranges::stable_sort(sorted, {}, &std::pair<double, std::uint32_t>::first);
+  std::vector<std::uint32_t> result;
+  result.reserve(parts.size());
+  for (const auto& [way, part] : sorted) result.push_back(part);
+  return result;
 }
 
 std::vector<std::uint32_t> front_to_back(std::span<const BspNode> nodes,

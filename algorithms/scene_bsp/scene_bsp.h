@@ -5,7 +5,8 @@
 // Each inner node holds one support plane and every piece that lies in it, so that coplanar
 // polygons are always together. Pieces of one part are convex and at most one a node. Reference:
 // Chin & Feiner 1989, sec. 3. The root of each subtree is chosen among a few sampled candidates by
-// splits and balance, on bounding boxes in doubles: a heuristic that cannot affect correctness.
+// splits and balance, on bounding boxes in doubles, or is the first that was fed to it: a heuristic
+// that cannot affect correctness.
 // Explicit stack; memory is the pieces (append only), about 40 bytes a vertex and piece.
 #ifndef GNOMON_ALGORITHMS_SCENE_BSP_SCENE_BSP_H
 #define GNOMON_ALGORITHMS_SCENE_BSP_SCENE_BSP_H
@@ -21,6 +22,7 @@
 #include "algorithms/partition/loop_store.h"
 #include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
+#include "gnomon/algorithms/method_options.h"
 #include "gnomon/scene/prepare.h"
 #include "kernel/concept/kernel_concept.h"
 
@@ -60,17 +62,23 @@ class RootChooser {
   std::uint64_t state_;
 };
 
+/// The parts as Slater 1992, sec. 6, says that he fed them to the tree: "polygons furthest from the
+/// centre of the scene" first, so that furniture does not split the walls of its room. How far out
+/// a part is, is told by its corner that is farthest from the middle of the box of the whole scene,
+/// in doubles, the same for every kernel; ties keep their order.
+std::vector<std::uint32_t> outside_first(const PreparedScene& scene,
+                                         std::span<const std::uint32_t> parts);
+
 /// Builds the tree of the given parts. `identity` tells whether pieces of the same support plane go
 /// to the node unasked; without it (what most programs do) only the root's own piece does.
 /// A space may have add_plane_of(loop), a support plane of its own for a fragment that becomes the
-/// root of a subtree; without it the root's plane is that of its part.
+/// root of a subtree; without it the root's plane is that of its part. Only where
+/// roots are chosen does `seed` change anything.
 template <SceneSpaceModel Space>
-SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedScene& scene,
-                                                 std::span<const std::uint32_t> parts,
-                                                 std::uint64_t seed, bool identity,
-                                                 const std::atomic<bool>* interrupted = nullptr,
-                                                 std::uint64_t max_pieces = 100'000'000,
-                                                 const Rules& rules = {});
+SceneBsp<typename Space::Vertex> build_scene_bsp(
+    Space& space, const PreparedScene& scene, std::span<const std::uint32_t> parts,
+    std::uint64_t seed, bool identity, const std::atomic<bool>* interrupted = nullptr,
+    std::uint64_t max_pieces = 100'000'000, const Rules& rules = {}, Roots roots = Roots::kChosen);
 
 /// Returns the nodes front to back as seen from a viewpoint; `side_of_node`: the viewpoint's side
 /// of a plane. O(nodes), explicit stack.

@@ -25,6 +25,7 @@ class SceneBspBuilder {
     const std::atomic<bool>* interrupted;
     std::uint64_t max_pieces;
     Rules rules;
+    Roots roots;
   };
 
   SceneBspBuilder(Space& space, const PreparedScene& scene, std::span<const std::uint32_t> parts,
@@ -34,6 +35,11 @@ class SceneBspBuilder {
         part_count_(parts.size()),
         chooser_(scene.geometry, options.seed) {
     const SceneEdges names = space.edges();
+    std::vector<std::uint32_t> outer_first;
+    if (options.roots == Roots::kOutside) {
+      outer_first = outside_first(scene, parts);
+      parts = outer_first;
+    }
     for (const std::uint32_t index : parts) {
       const Part& part = scene.parts[index];
       const LoopRange range{tree_.loops.size(), part.count, index};
@@ -56,7 +62,7 @@ class SceneBspBuilder {
       tasks_.pop_back();
       const std::size_t begin = work_.size() - task.count;
       const std::span<const std::uint32_t> here(work_.data() + begin, task.count);
-      const std::uint32_t root = here[chooser_.choose(here, boxes_, planes_)];
+      const std::uint32_t root = root_of(here);
       const PlaneId plane = plane_of_root(root);
       sort_pieces(here, root, plane);
       work_.resize(begin);
@@ -72,6 +78,12 @@ class SceneBspBuilder {
     bool is_front;
     std::uint32_t depth;
   };
+
+  /// Pieces are kept in the order in which they, or what they are of, were fed.
+  std::uint32_t root_of(std::span<const std::uint32_t> here) {
+    return options_.roots == Roots::kChosen ? here[chooser_.choose(here, boxes_, planes_)]
+                                            : here.front();
+  }
 
   std::uint32_t add_piece(const LoopRange& range, PlaneId plane) {
     const std::array<double, 3> first = space_.approximate(tree_.loops.vertex(range.first));
@@ -187,9 +199,10 @@ SceneBsp<typename Space::Vertex> build_scene_bsp(Space& space, const PreparedSce
                                                  std::span<const std::uint32_t> parts,
                                                  std::uint64_t seed, bool identity,
                                                  const std::atomic<bool>* interrupted,
-                                                 std::uint64_t max_pieces, const Rules& rules) {
+                                                 std::uint64_t max_pieces, const Rules& rules,
+                                                 Roots roots) {
   return SceneBspBuilder<Space>(space, scene, parts,
-                                {seed, identity, interrupted, max_pieces, rules})
+                                {seed, identity, interrupted, max_pieces, rules, roots})
       .build();
 }
 

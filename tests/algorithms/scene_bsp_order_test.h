@@ -77,8 +77,8 @@ Rational3 corner_position(const PreparedScene& scene, const SceneEdges& names,
 
 template <class SceneSpace>
 RationalBsp rational_bsp(SceneSpace& space, const PreparedScene& scene,
-                         const std::vector<std::uint32_t>& parts, std::uint64_t seed) {
-  const auto bsp = build_scene_bsp(space, scene, parts, seed, true);
+                         const std::vector<std::uint32_t>& parts, std::uint64_t seed, Roots roots) {
+  const auto bsp = build_scene_bsp(space, scene, parts, seed, true, nullptr, 1'000'000, {}, roots);
   EXPECT_EQ(bsp.vanished, 0u);
   RationalBsp result{bsp.nodes, std::vector<std::int32_t>(bsp.nodes.size(), BspNode::kEmpty), {}};
   for (std::uint32_t node = 0; node < bsp.nodes.size(); ++node) {
@@ -202,25 +202,32 @@ class SceneBspOrder : public testing::Test {
     add(LightType::kDirectional, {Number(0.0), Number(seed % 2 == 0 ? 1.0 : 0.0), Number(1.0)});
     const auto prepared = prepare(scene);
     if (!prepared) return;
-    const KernelOptions options{true, 0};
-    SceneSpace space(prepared->geometry, options);
+    SceneSpace space(prepared->geometry, {true, 0});
     std::vector<std::uint32_t> parts;
     for (std::uint32_t i = 0; i < prepared->parts.size(); ++i) {
       if (seed % 4 != 3 || i % 3 != 1) parts.push_back(i);
     }
-    const RationalBsp bsp = rational_bsp(space, *prepared, parts, seed);
-    expect_tiled(*prepared, bsp, parts);
-    expect_in_place(*prepared, bsp);
-    expect_coplanar_together(*prepared, bsp);
-    pieces_ += bsp.pieces.size();
-    parts_ += parts.size();
-    for (const PreparedLight& light : prepared->lights) {
+    for (const Roots roots : {Roots::kChosen, Roots::kFed, Roots::kOutside}) {
+      SCOPED_TRACE("roots " + std::to_string(static_cast<int>(roots)));
+      const RationalBsp bsp = rational_bsp(space, *prepared, parts, seed, roots);
+      expect_tiled(*prepared, bsp, parts);
+      expect_in_place(*prepared, bsp);
+      expect_coplanar_together(*prepared, bsp);
+      pieces_ += bsp.pieces.size();
+      parts_ += parts.size();
+      check_order(space, *prepared, bsp);
+    }
+  }
+
+  /// From every point and directional light of the scene.
+  void check_order(SceneSpace& space, const PreparedScene& prepared, const RationalBsp& bsp) {
+    for (const PreparedLight& light : prepared.lights) {
       if (light.has_area()) continue;
       const RationalLight exact(light.point);
-      const LightSpace light_space(space, light.point, options);
+      const LightSpace light_space(space, light.point, {true, 0});
       std::vector<std::uint32_t> order = front_to_back(bsp.nodes, [&](PlaneId plane) {
         const Sign side = light_space.light_side(plane);
-        EXPECT_EQ(static_cast<int>(side), exact.side_of(support_plane(*prepared, plane)));
+        EXPECT_EQ(static_cast<int>(side), exact.side_of(support_plane(prepared, plane)));
         if (side == Sign::kZero) ++lights_in_planes_;
         return side;
       });

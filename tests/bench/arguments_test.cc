@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 ArgumentsRead read(std::vector<std::string_view> words) {
-  static const std::vector<std::string_view> kParts = {"targets", "kernels", "area"};
+  static const std::vector<std::string_view> kParts = {"targets", "kernels", "area", "papers"};
   return read_arguments(words, kParts);
 }
 
@@ -47,6 +47,13 @@ TEST(BenchArguments, JsonIsOfTheTargetsAlone) {
   EXPECT_EQ(read({"targets", "--json"}).complaint, "");
   EXPECT_THAT(read({"--json"}).complaint, HasSubstr("targets alone"));
   EXPECT_THAT(read({"--json", "targets", "area"}).complaint, HasSubstr("targets alone"));
+}
+
+TEST(BenchArguments, PlotsAreOfThePapers) {
+  EXPECT_EQ(read({"papers", "--plots", "docs/img"}).arguments.plots, "docs/img");
+  EXPECT_EQ(read({"--plots", "docs/img"}).complaint, "");  // papers are a usual part
+  EXPECT_EQ(read({"--plots", "docs/img", "area"}).complaint, "--plots is of the part papers");
+  EXPECT_EQ(read({"papers", "--plots"}).complaint, "--plots needs a folder");
 }
 
 TEST(BenchArguments, ComplainsOfWhatItDoesNotKnow) {

@@ -48,6 +48,11 @@ enum class CastersAre : std::uint8_t { kPolygons, kSolids };
 /// none.
 enum class MergeOf : std::uint8_t { kSiblings, kConvex, kNone };
 
+/// Which piece becomes the root of a subtree of the scene BSP: of a few that are tried the one that
+/// splits least and balances best; the first in the order of input, as polygons are fed to it; or
+/// the one whose polygon reaches farthest out (Slater 1992, sec. 6, feeds them so, more or less).
+enum class Roots : std::uint8_t { kChosen, kFed, kOutside };
+
 /// Which edges of a fragment become nodes of a tree: those that it has from the scene, or all of
 /// them, as in a program that does not know which plane made which edge.
 enum class EdgesInTree : std::uint8_t { kOwn, kAll };
@@ -66,6 +71,7 @@ struct MethodOptionValues {
   bool prune = true;          // basic, tiling: covered targets cast nothing, volumes may die
   std::uint32_t tiles = 128;  // tiling: so many rows and columns on each face
   InsertionOrder order = InsertionOrder::kNearFirst;  // svbsp-full, zbuffer
+  Roots roots = Roots::kChosen;                       // basic, tiling, svbsp
   bool cells = true;                                  // two-pass: in cells of light space
   CellSplit split = CellSplit::kAxis;                 // sectors
   // svbsp, of lights together:
