@@ -229,7 +229,7 @@ class Scene:
         asked.tz = "" if tz is None else str(tz)
         asked.epw = "" if epw is None else os.fspath(epw)
         asked.elevation, asked.north = elevation, north
-        asked.year, asked.first, asked.last, asked.step = year, from_, to, step
+        asked.year, asked.from_, asked.to, asked.step = year, from_, to, step
         asked.sun_at, asked.sun_model, asked.average_days = sun_at, sun_model, average_days
         asked.refraction, asked.pressure, asked.temperature = refraction, pressure, temperature
         found = self._native.year(asked, gross, _names_of_run(kernel, algorithm, jobs))
