@@ -65,7 +65,6 @@ function(gnomon_add_component name)
   if(arg_CGAL_SOURCES)
     add_library(${target}_cgal OBJECT ${arg_CGAL_SOURCES})
     gnomon_set_flags(${target}_cgal)
-    target_compile_options(${target}_cgal PRIVATE ${gnomon_flags_of_call_once})
     target_include_directories(${target}_cgal PRIVATE include)
     target_link_libraries(${target}_cgal PRIVATE ${arg_LINK} ${arg_LINK_PRIVATE}
                           gnomon_internals CGAL::CGAL)

@@ -5,11 +5,6 @@
 # rounds once where the proof counts twice. -ffast-math must never be added anywhere. -frounding-math
 # belongs to the sources that use CGAL alone (CGAL_SOURCES of gnomon_add_component).
 
-# What -ftls-model=initial-exec says of own thread-local variables it says of the standard library's too,
-# which only std::call_once has. A program that has loaded that library before, as Python has once it has
-# drawn a picture, could not load our module then: what uses std::call_once is compiled with this as well.
-set(gnomon_flags_of_call_once -ftls-model=global-dynamic)
-
 function(gnomon_set_flags target)
   get_target_property(type ${target} TYPE)
   if(type STREQUAL "INTERFACE_LIBRARY")
@@ -20,9 +15,10 @@ function(gnomon_set_flags target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   # The Python module links the same archives into a shared object. All sources have the same flag, since a
-  # precompiled header serves none that differs. Nobody replaces our functions at load time, and our few
-  # thread-local variables fit into what a loaded module may have of the fast kind.
-  target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition -ftls-model=initial-exec)
+  # precompiled header serves none that differs, and nobody replaces our functions at load time.
+  # -ftls-model=initial-exec would make thread-local variables faster, but also those of the standard library
+  # behind std::call_once, and then a program that has loaded that library before could not load the module.
+  target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition)
   target_compile_options(${target} PUBLIC -ffp-contract=off PRIVATE -Wall -Wextra -Wpedantic)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # GCC 12 sees overlaps in std::string's operator+ where there are none (GCC bug 105651).
