@@ -61,7 +61,9 @@ TEST(ClosedSolids, AreClosedAndWithoutTJunctions) {
       EXPECT_TRUE(component.is_closed);
       EXPECT_FALSE(component.is_convex);
     }
-    if (kind != "polycube") EXPECT_EQ(components.size(), 1u);
+    if (kind != "polycube") {
+      EXPECT_EQ(components.size(), 1u);
+    }
     EXPECT_EQ(vertices_within_edges(scene), 0u);
   }
 }
