@@ -30,9 +30,8 @@ const std::vector<Generator>& registry() {
     for (auto family : {scene_detail::paper_generators, scene_detail::room_generators,
                         scene_detail::figure_generators, scene_detail::solid_generators,
                         scene_detail::large_generators, scene_detail::object_generators,
-                        scene_detail::hard_generators,
-                        scene_detail::repair_generators, scene_detail::area_paper_generators,
-                        scene_detail::area_generators}) {
+                        scene_detail::hard_generators, scene_detail::repair_generators,
+                        scene_detail::area_paper_generators, scene_detail::area_generators}) {
       for (Generator& generator : family()) result.push_back(std::move(generator));
     }
     for (Generator& generator : result) add_area_parameters(generator.info.parameters);

@@ -213,7 +213,8 @@ TEST(Exports, NamesTellTheFormat) {
   EXPECT_EQ(export_format("a.VTP").value(), ExportFormat::kVtp);
   EXPECT_EQ(export_format("a.geojson").value(), ExportFormat::kGeoJson);
   EXPECT_EQ(export_format("a.b.glb").value(), ExportFormat::kGlb);
-  EXPECT_THAT(export_format("a.vtk").error().expected, HasSubstr(".vtp, .geojson, .glb or .city.json"));
+  EXPECT_THAT(export_format("a.vtk").error().expected,
+              HasSubstr(".vtp, .geojson, .glb or .city.json"));
 }
 
 }  // namespace
