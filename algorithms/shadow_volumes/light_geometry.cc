@@ -85,7 +85,8 @@ class Builder {
   }
 
   /// Three corners that are far apart, in the loop's order, since rounded kernels have the light's
-  /// plane from them; the same wherever the loop begins.
+  /// plane from them; the same wherever the loop begins, so that places and no numbers decide
+  /// between corners that are as far.
   SupportTriple wide_triple(const std::vector<VertexId>& loop) const {
     const auto square = [](const Vector3<mpz_class>& v) { return dot(v, v); };
     const auto farthest = [&](const auto& measure) {
@@ -93,14 +94,15 @@ class Builder {
       mpz_class most = measure(loop[0]);
       for (std::size_t i = 1; i < loop.size(); ++i) {
         mpz_class own = measure(loop[i]);
-        if (own > most || (own == most && loop[i] < loop[best])) {
+        if (own > most || (own == most && at(loop[i]) < at(loop[best]))) {
           best = i;
           most = std::move(own);
         }
       }
       return best;
     };
-    const VertexId first = *std::min_element(loop.begin(), loop.end());
+    const auto by_place = [&](VertexId v, VertexId w) { return at(v) < at(w); };
+    const VertexId first = *std::min_element(loop.begin(), loop.end(), by_place);
     const std::size_t a =
         farthest([&](VertexId v) { return square(difference(at(v), at(first))); });
     const std::size_t b =

@@ -37,7 +37,8 @@ inline double dot_of(const Double3& a, const Double3& b) {
 /// The direction of a sample.
 struct SampleRay {
   Integer3 exact;
-  Double3 d{};  // the same numbers, off by at most 2u (of a moved ray)
+  Double3
+      d{};  // the same, or of a moved ray a power of two of it, off by at most 2u of the largest
   double largest = 0;
 };
 

@@ -42,10 +42,15 @@ SampleRay SampledView::ray(std::uint32_t i, std::uint32_t j) const {
 SampleRay SampledView::moved_ray(std::uint32_t i, std::uint32_t j) const {
   SampleRay ray = this->ray(i, j);
   ray.largest = 0;
+  // What is asked of a ray is linear in it, an integer of five coordinates of the grid, or of six
+  // where one is a light's, and of the ray: a move by less than one over that cannot turn it.
+  const unsigned move = 8 * bits_ + 64;
   for (std::size_t k = 0; k < 3; ++k) {
-    ray.exact[k] =
-        (ray.exact[k] << 120) + (mpz_class(camera_.right[k]) << 60) + mpz_class(camera_.up[k]);
-    ray.d[k] = ray.exact[k].get_d();
+    ray.exact[k] = (ray.exact[k] << (2 * move)) + (mpz_class(camera_.right[k]) << move) +
+                   mpz_class(camera_.up[k]);
+    long exponent = 0;
+    const double mantissa = mpz_get_d_2exp(&exponent, ray.exact[k].get_mpz_t());
+    ray.d[k] = std::ldexp(mantissa, static_cast<int>(exponent - 2 * static_cast<long>(move)));
     ray.largest = std::max(ray.largest, std::fabs(ray.d[k]));
   }
   return ray;

@@ -24,7 +24,8 @@ class SampledView {
   std::uint32_t width() const { return camera_.width; }
   std::uint32_t height() const { return camera_.height; }
   SampleRay ray(std::uint32_t i, std::uint32_t j) const;
-  /// The same ray moved by 2^-60 of R and 2^-120 of U.
+  /// The same ray moved along R by so little that no sign changes but those that are zero, and
+  /// along U by as little again.
   SampleRay moved_ray(std::uint32_t i, std::uint32_t j) const;
   Integer3 position(VertexId vertex) const;
   const PreparedScene& scene() const { return scene_; }

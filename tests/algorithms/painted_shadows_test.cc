@@ -202,7 +202,7 @@ TEST(MethodOptions, AreReadAndWritten) {
   EXPECT_EQ(message("tiles"), "tiles: no such algorithm; expected one of: " +
                                   method_names({.point = true, .area = true}));
   EXPECT_EQ(message("basic:tiles=4"),
-            "basic:tiles=4: basic has no option 'tiles'; expected one of: cover, prune");
+            "basic:tiles=4: basic has no option 'tiles'; expected one of: cover, prune, roots");
   EXPECT_EQ(message("sectors:tiles=4"),
             "sectors:tiles=4: sectors has no option 'tiles'; expected one of: split");
   EXPECT_EQ(message("contour:tiles=4"),

@@ -64,7 +64,7 @@ TEST_F(IlluminationCommand, AKernelThatIsOffFails) {
   const RunResult found = run({"--on", "floor", "--at", "2,1.9,0", "--kernel", "float"});
   EXPECT_EQ(found.status, 1) << found.out;
   EXPECT_THAT(found.out, AllOf(HasSubstr("failed"), HasSubstr("worst at 2,1.9,0"),
-                               HasSubstr("--from=2,1.9,0 --on floor --area-light panel")));
+                               HasSubstr("--from=2,1.9,0"), HasSubstr("--area-light")));
   EXPECT_EQ(
       run({"--on", "floor", "--at", "2,1.9,0", "--kernel", "float", "--tolerance", "1e-3"}).status,
       0);

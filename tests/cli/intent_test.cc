@@ -154,10 +154,10 @@ TEST_F(Intent, AFarScene) {
 
 TEST_F(Intent, AForeignFile) {
   const std::string file = directory_.file("model.json");
-  write_text(file, R"({ "asset" : {"version": "2.0"}, "meshes": [] })");
+  write_text(file, "ISO-10303-21;\nHEADER;\n");
   const RunResult result = shadows(file);
   EXPECT_EQ(result.status, 2);
-  EXPECT_THAT(result.err, HasSubstr("this is glTF"));
+  EXPECT_THAT(result.err, HasSubstr("this is STEP"));
 }
 
 TEST_F(Intent, InfoTellsWhatIsClosedAndWhatTheContoursAre) {
