@@ -56,7 +56,7 @@ if(gnomon_installed)
 endif()
 
 # For those who build without CMake: the library alone, found from where its file lies.
-file(RELATIVE_PATH gnomon_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+file(RELATIVE_PATH gnomon_pc_up "/${CMAKE_INSTALL_DATADIR}/pkgconfig" "/")
 string(REGEX REPLACE "/$" "" gnomon_pc_up "${gnomon_pc_up}")
 set(gnomon_pc_libs "")
 foreach(component IN ITEMS algorithms result scene kernel)
@@ -66,7 +66,7 @@ foreach(component IN ITEMS algorithms result scene kernel)
 endforeach()
 configure_file("${PROJECT_SOURCE_DIR}/cmake/gnomon.pc.in" "${PROJECT_BINARY_DIR}/cmake/gnomon.pc" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/cmake/gnomon.pc" COMPONENT development
-        DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+        DESTINATION "${CMAKE_INSTALL_DATADIR}/pkgconfig")
 
 if(TARGET gnomon)
   include(GnomonManual)

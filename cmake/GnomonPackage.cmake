@@ -40,7 +40,7 @@ set(CPACK_PACKAGE_NAME gnomon)
 set(CPACK_PACKAGE_VERSION "${PROJECT_VERSION}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY
     "exact shadows of polygons, and the verdict on other programs' shadows")
-set(CPACK_PACKAGE_CONTACT "Gnomon developers <gnomon@localhost>")
+set(CPACK_PACKAGE_CONTACT "Gnomon developers <gnomon@gnomon.invalid>")
 set(CPACK_PACKAGE_VENDOR "Gnomon")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
@@ -62,14 +62,14 @@ set(CPACK_DEBIAN_COMMAND_DESCRIPTION
 "Gnomon computes which parts of which polygons are lit by point, directional and
 area lights, with numbers that do not round, and judges any other program's
 result: by how much it is off, where, and which polygon decides there. It reads
-OBJ, OFF, PLY, CityJSON, IDF and epJSON.")
+OBJ, OFF, PLY, STL, glTF, CityJSON, Radiance, gbXML, HBJSON, IDF and epJSON.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgnomon-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libgmp-dev, libmpfr-dev, libfmt-dev, libtbb-dev, libexpected-dev, libssl-dev")
+    "libgmp-dev, libmpfr-dev, libfmt-dev, libtbb-dev, libexpected-dev, libssl-dev, libpugixml-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
-"Libraries and headers to classify polygon scenes exactly under point, directional and area
-lights, and to judge what others computed; with a CMake package and a file for
-pkg-config.")
+"Libraries and headers to classify polygon scenes exactly under point,
+directional and area lights, and to judge what others computed; with a CMake
+package and a file for pkg-config.")
 include(CPack)

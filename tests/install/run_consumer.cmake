@@ -52,7 +52,7 @@ endif()
 # The same without CMake.
 find_program(PKG_CONFIG_PROGRAM pkg-config)
 if(WAY STREQUAL "find_package" AND PKG_CONFIG_PROGRAM)
-  set(ENV{PKG_CONFIG_PATH} "${prefix}/${LIBDIR}/pkgconfig:$ENV{PKG_CONFIG_PATH}")
+  set(ENV{PKG_CONFIG_PATH} "${prefix}/share/pkgconfig:$ENV{PKG_CONFIG_PATH}")
   run("${PKG_CONFIG_PROGRAM}" --cflags --libs gnomon)
   separate_arguments(flags UNIX_COMMAND "${output}")
   run("${COMPILER}" "${CONSUMER_DIR}/consumer.cc" -o "${WORK_DIR}/by_pkg_config" ${flags})
