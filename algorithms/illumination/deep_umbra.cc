@@ -26,10 +26,11 @@ mpq_class twice_area(const Chart& chart, const Point& a, const Point& b, const P
 /// Of one side: penumbra triangles, largest first, halved until they are decided.
 class Subdivision {
  public:
-  Subdivision(const LightView& view, const PartResult& result, const LightResult& light)
+  Subdivision(const LightView& view, const EdgeLines& lines, const PartResult& result,
+              const LightResult& light)
       : view_(view),
         part_(view.scene().parts[result.part]),
-        cells_(view, part_, result.side),
+        cells_(view, lines, part_, result.side),
         chart_(chart_of(view.scene().geometry, part_.plane)) {
     const auto loop = view.scene().loop(part_);
     const Geometry& geometry = view.scene().geometry;
@@ -157,6 +158,7 @@ Expected<std::vector<DeepUmbraBounds>> deep_umbra_bounds(const PreparedScene& sc
                 "a result of an exact kernel with exact points");
   }
   const LightView view(scene, classified.light);
+  const EdgeLines lines(scene.geometry);
   std::vector<DeepUmbraBounds> result(classified.parts.size());
   tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t i) {
     const PartResult& part = classified.parts[i];
@@ -165,7 +167,7 @@ Expected<std::vector<DeepUmbraBounds>> deep_umbra_bounds(const PreparedScene& sc
       return;
     }
     result[i] =
-        Subdivision(view, part, classified).run(part, classified.area_fractions[i], options);
+        Subdivision(view, lines, part, classified).run(part, classified.area_fractions[i], options);
   });
   if (options.interrupted != nullptr && *options.interrupted) {
     return fail(ErrorCode::kInterrupted, "interrupted");

@@ -12,6 +12,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "algorithms/illumination/cell_shadow.h"
+#include "algorithms/illumination/edge_lines.h"
 #include "algorithms/illumination/light_view.h"
 #include "algorithms/illumination/visible_pieces.h"
 
@@ -26,19 +28,13 @@ struct UmbraCell {
   std::array<UmbraCell, 2> halves(const Geometry& geometry) const;
 };
 
-/// One side of a caster.
-struct CasterSide {
-  std::uint32_t caster = 0;  // in LightView::casters()
-  bool front = true;
-};
-
 enum class CellAnswer : std::uint8_t { kDeep, kSeen, kUndecided };
 
 class UmbraCells {
  public:
   /// For one side of a part. Keeps references.
-  UmbraCells(const LightView& view, const Part& part, Side side)
-      : view_(view), part_(part), side_(side) {}
+  UmbraCells(const LightView& view, const EdgeLines& lines, const Part& part, Side side)
+      : view_(view), lines_(lines), part_(part), side_(side) {}
 
   /// Finds all casters that may hide something of the light from some point of the cell.
   std::vector<CasterSide> casters_of(const UmbraCell& cell) const;
@@ -47,6 +43,7 @@ class UmbraCells {
 
  private:
   const LightView& view_;
+  const EdgeLines& lines_;
   const Part& part_;
   Side side_;
 };

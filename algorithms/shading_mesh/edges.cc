@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
-#include <unordered_map>
+
+#include "algorithms/partition/exact_line.h"
 
 namespace gnomon {
 
@@ -14,38 +14,6 @@ namespace {
 
 std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-}
-
-/// Direction and moment of a line, primitive, the first component of the direction that is not 0
-/// positive: equal lines have equal numbers.
-struct LineKey {
-  std::array<mpz_class, 6> numbers;
-  std::uint64_t hash = 0;
-  friend bool operator==(const LineKey& a, const LineKey& b) {
-    return a.hash == b.hash && a.numbers == b.numbers;
-  }
-};
-
-/// With a = A / u and b = B / v: direction u B - v A and moment A x B, both times 1 / (u v).
-LineKey line_through(const ExactPoint& a, const ExactPoint& b) {
-  LineKey key;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-    key.numbers[k] = a.denominator * b.numerator[k] - b.denominator * a.numerator[k];
-    key.numbers[3 + k] = a.numerator[i] * b.numerator[j] - a.numerator[j] * b.numerator[i];
-  }
-  mpz_class factor = 0;
-  int sign = 0;
-  for (const mpz_class& number : key.numbers) {
-    if (factor != 1) factor = gcd(factor, number);
-    if (sign == 0) sign = sgn(number);
-  }
-  if (sign < 0) factor = -factor;
-  for (mpz_class& number : key.numbers) {
-    if (factor != 1) mpz_divexact(number.get_mpz_t(), number.get_mpz_t(), factor.get_mpz_t());
-    key.hash = hash_of(number, key.hash);
-  }
-  return key;
 }
 
 /// The axis along which the line of an edge runs, for comparing points on it.
@@ -111,28 +79,19 @@ FaceLoops insert_vertices(const FaceLoops& loops, const EdgeList& edges,
 
 FaceLoops fit_edges(const FaceLoops& loops, const PointTable& points) {
   const EdgeList edges(loops, [](std::size_t) { return true; });
-  std::vector<LineKey> lines(edges.size());
+  std::vector<ExactLine> lines(edges.size());
   tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t edge) {
-    lines[edge] = line_through(points.exact(edges.from(edge)), points.exact(edges.to(edge)));
+    const ExactPoint &from = points.exact(edges.from(edge)), &to = points.exact(edges.to(edge));
+    lines[edge] = line_through(from.numerator, from.denominator, to.numerator, to.denominator);
   });
-  // Edges of one line stand together; which line comes first does not matter for the result.
-  const auto hash = [&](std::size_t edge) { return static_cast<std::size_t>(lines[edge].hash); };
-  const auto same = [&](std::size_t a, std::size_t b) { return lines[a] == lines[b]; };
-  std::unordered_map<std::size_t, std::size_t, decltype(hash), decltype(same)> numbers(edges.size(),
-                                                                                       hash, same);
-  std::vector<std::vector<std::size_t>> on_line;
-  for (std::size_t edge = 0; edge < edges.size(); ++edge) {
-    const auto [at, is_new] = numbers.emplace(edge, on_line.size());
-    if (is_new) on_line.emplace_back();
-    on_line[at->second].push_back(edge);
-  }
+  const std::vector<std::vector<std::uint32_t>> on_line = group_equal_lines(lines);
   std::vector<std::vector<std::uint32_t>> inserted(edges.size());
   tbb::parallel_for(std::size_t{0}, on_line.size(), [&](std::size_t line) {
-    const std::vector<std::size_t>& members = on_line[line];
+    const std::vector<std::uint32_t>& members = on_line[line];
     if (members.size() == 1) return;
     const int axis = axis_along(points, edges.from(members[0]), edges.to(members[0]));
     std::vector<std::uint32_t> ends;
-    for (const std::size_t edge : members) {
+    for (const std::uint32_t edge : members) {
       ends.push_back(edges.from(edge));
       ends.push_back(edges.to(edge));
     }
@@ -141,7 +100,7 @@ FaceLoops fit_edges(const FaceLoops& loops, const PointTable& points) {
     };
     std::sort(ends.begin(), ends.end(), before);
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    for (const std::size_t edge : members) {
+    for (const std::uint32_t edge : members) {
       auto low = std::lower_bound(ends.begin(), ends.end(), edges.from(edge), before);
       auto high = std::lower_bound(ends.begin(), ends.end(), edges.to(edge), before);
       if (low < high) {

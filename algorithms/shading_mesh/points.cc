@@ -3,21 +3,10 @@
 
 #include <cmath>
 
+#include "algorithms/partition/exact_line.h"
 #include "kernel/signs/nearest_double.h"
 
 namespace gnomon {
-
-std::uint64_t hash_of(const mpz_class& number, std::uint64_t seed) {
-  // Multiply and fold: every bit of a limb reaches every bit of the hash.
-  const auto mix = [&](std::uint64_t value) {
-    seed = (seed ^ value) * 0x9e3779b97f4a7c15u;
-    seed ^= seed >> 32;
-  };
-  const std::size_t limbs = mpz_size(number.get_mpz_t());
-  mix(static_cast<std::uint64_t>(limbs) * 2 + (sgn(number) < 0 ? 1 : 0));
-  for (std::size_t i = 0; i < limbs; ++i) mix(mpz_getlimbn(number.get_mpz_t(), i));
-  return seed;
-}
 
 std::array<mpq_class, 3> ExactPoint::rational() const {
   std::array<mpq_class, 3> result;

@@ -17,8 +17,6 @@
 
 namespace gnomon {
 
-std::uint64_t hash_of(const mpz_class& number, std::uint64_t seed);
-
 /// Converts a point exactly. Requires: canonical rationals.
 ExactPoint exact_point(const std::array<mpq_class, 3>& point);
 /// Divides by the common factor and makes the denominator positive.

@@ -16,6 +16,7 @@
 #include "oracle/answer/truth_overlay.h"
 #include "oracle/geometry/group_overlay.h"
 #include "oracle/geometry/region_width.h"
+#include "oracle/judge/area_clearance.h"
 #include "oracle/judge/cells.h"
 #include "oracle/judge/claimed_groups.h"
 #include "oracle/judge/clearance.h"
@@ -129,6 +130,7 @@ class GroupComparison {
                       const std::vector<std::uint32_t>& boundary, const std::vector<Cell>& cells,
                       bool rounding, double known, long double most);
   void describe(Witness& witness, const Cell& cell, const ChartPoint& point) const;
+  std::optional<double> clearance_of_area(const Witness& witness) const;
   std::string describe_shadow(Witness& witness, const std::string& claimed,
                               const ChartPoint& point) const;
   std::string describe_area(Witness& witness, const std::string& claimed,
@@ -489,14 +491,21 @@ ErrorRegion GroupComparison::examine(const std::vector<std::uint32_t>& faces,
   witness.polygon = result_.polygon;
   witness.side = entry_.side;
   witness.block = terms_.block;
-  if (options_.clearance > 0 && group_.faces && !rules_.area &&
-      witness.kind == ErrorKind::kMisclassified) {
-    witness.clearance = decide(answer_.prepared(), answer_.prepared().lights[light_],
-                               group_.parts.front(), witness.point)
-                            .clearance;
+  if (options_.clearance > 0 && group_.faces && witness.kind == ErrorKind::kMisclassified) {
+    witness.clearance = rules_.area ? clearance_of_area(witness)
+                                    : decide(answer_.prepared(), answer_.prepared().lights[light_],
+                                             group_.parts.front(), witness.point)
+                                          .clearance;
     region.ill_conditioned = witness.clearance && *witness.clearance < options_.clearance;
   }
   return region;
+}
+
+std::optional<double> GroupComparison::clearance_of_area(const Witness& witness) const {
+  if (!witness.found) return std::nullopt;
+  return area_clearance(answer_.prepared(), answer_.prepared().lights[light_],
+                        answer_.area_visibility(light_), group_.parts, group_.side, witness.point,
+                        {.state = *witness.found, .per_caster = rules_.per_caster});
 }
 
 /// Names the caster that decides, and what follows the true class in a sentence.
@@ -536,6 +545,9 @@ std::string GroupComparison::describe_shadow(Witness& witness, const std::string
 std::string GroupComparison::describe_area(Witness& witness, const std::string& claimed,
                                            const ChartPoint& point) const {
   if (!group_.faces) return " (it sees nothing of the light)";
+  if (!witness.clearance && witness.kind == ErrorKind::kMisclassified) {
+    witness.clearance = clearance_of_area(witness);
+  }
   bool penumbra = false;
   for (std::uint32_t part : group_.parts) {
     const AreaShade& shade = answer_.area_shade(light_, part, group_.side);

@@ -94,20 +94,64 @@ TEST(DeepUmbra, UnderABoxWhoseFacesHideTheLightTogether) {
               static_cast<unsigned long long>(floor.cells));
 }
 
+/// A cube of six panels as seen by a light above it, some of them in halves or quarters whose
+/// corners lie inside the edges of their neighbours.
+void add_cube_with_t_junctions(LightSceneBuilder& builder, bool with_floor) {
+  if (with_floor) builder.polygon({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
+  // The top in two halves, then the sides: the second in an upper and a lower half, the third in a
+  // half and two quarters.
+  builder.polygon({{-1, -1, 2}, {1, -1, 2}, {1, 0.25, 2}, {-1, 0.25, 2}});
+  builder.polygon({{-1, 0.25, 2}, {1, 0.25, 2}, {1, 1, 2}, {-1, 1, 2}});
+  builder.polygon({{-1, -1, 0}, {1, -1, 0}, {1, -1, 2}, {-1, -1, 2}});
+  builder.polygon({{1, -1, 0}, {1, 1, 0}, {1, 1, 0.75}, {1, -1, 0.75}});
+  builder.polygon({{1, -1, 0.75}, {1, 1, 0.75}, {1, 1, 2}, {1, -1, 2}});
+  builder.polygon({{1, 1, 0}, {0.125, 1, 0}, {0.125, 1, 2}, {1, 1, 2}});
+  builder.polygon({{0.125, 1, 0}, {-1, 1, 0}, {-1, 1, 1.5}, {0.125, 1, 1.5}});
+  builder.polygon({{0.125, 1, 1.5}, {-1, 1, 1.5}, {-1, 1, 2}, {0.125, 1, 2}});
+  builder.polygon({{-1, 1, 0}, {-1, -1, 0}, {-1, -1, 2}, {-1, 1, 2}});
+}
+
+TEST(DeepUmbra, OfACubeWhosePanelsMeetInTJunctions) {
+  for (const bool with_floor : {true, false}) {
+    LightSceneBuilder builder;
+    // The floor of the cube itself is dark all over; of the ground below it, what the cube stands
+    // on is, since the light is larger than the cube.
+    if (!with_floor) builder.polygon({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}});
+    add_cube_with_t_junctions(builder, with_floor);
+    builder.area({{-5, -5, 3}, {-5, 5, 3}, {5, 5, 3}, {5, -5, 3}});
+    const PreparedScene scene = builder.build();
+    DeepUmbraOptions options;
+    options.tolerance = 1e-3;
+    options.max_cells = 2000;
+    const auto bounds = deep_umbra_bounds(scene, 0, options);
+    ASSERT_TRUE(bounds);
+    const DeepUmbraBounds& floor = (*bounds)[0];
+    const double truth = with_floor ? 1 : 0.25;
+    EXPECT_LE(floor.fraction.lower, truth);
+    EXPECT_GE(floor.fraction.upper, truth);
+    EXPECT_LE(floor.fraction.upper - floor.fraction.lower, 1.001e-3);
+    std::printf("cube with T-junctions: [%.6f, %.6f], %llu cells\n", floor.fraction.lower,
+                floor.fraction.upper, static_cast<unsigned long long>(floor.cells));
+  }
+}
+
 TEST(DeepUmbra, CellsAreWhatTheirPointsAre) {
   Random random(21);
   std::size_t deep = 0, seen = 0, undecided = 0;
-  for (int round = 0; round < 300; ++round) {
-    const PreparedScene scene = round % 2 == 0 ? soup(random, 8 + round % 12, 2 + round % 4)
-                                               : solids(random, 3 + round % 6, 3 + round % 3);
+  for (int round = 0; round < 450; ++round) {
+    const PreparedScene scene = round % 3 == 0 ? soup(random, 8 + round % 12, 2 + round % 4)
+                                : round % 3 == 1
+                                    ? solids(random, 3 + round % 6, 3 + round % 3)
+                                    : divided_boxes(random, 1 + round % 4, 2 + round % 3);
     const BruteView brute(scene);
     const LightView view(scene, 0);
+    const EdgeLines lines(scene.geometry);
     const LightVisibility visibility(scene, 0);
     SignCounts counts;
     for (std::uint32_t part = 0; part < scene.parts.size(); ++part) {
       const Side side =
           scene.parts[part].two_sided && random.chance(1, 2) ? Side::kBack : Side::kFront;
-      const UmbraCells cells(view, scene.parts[part], side);
+      const UmbraCells cells(view, lines, scene.parts[part], side);
       // Down to some random small cell of the part's first triangle.
       UmbraCell cell;
       cell.weight = 1;

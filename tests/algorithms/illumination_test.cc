@@ -422,6 +422,30 @@ TEST(Illumination, OfAWholeSkyIsPi) {
               1e-12);
 }
 
+TEST(Illumination, InTheLightsOwnPlaneIsNothing) {
+  // A wall through the middle of a light that looks up. Its points in the light's plane receive
+  // nothing; what those above them receive goes to 0 beside the light, and on it to half of half a
+  // sky.
+  LightSceneBuilder builder;
+  builder.polygon({{0, -8, -8}, {0, 8, -8}, {0, 8, 8}, {0, -8, 8}});  // looks to +x
+  builder.area({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}});
+  const PreparedScene scene = builder.build();
+  const Illuminator illuminator(scene, 0, 1.0);
+  const auto at = [&](double y, double z) {
+    return illuminator.at(0, Side::kFront, exactly({0, y, z}), false).value;
+  };
+  const double half_pi = std::acos(0.0);
+  for (const double y : {-3.0, -2.0, 0.0, 0.5, 7.0}) {
+    EXPECT_EQ(at(y, 0), 0) << y;
+    EXPECT_EQ(at(y, -1), 0) << y;
+  }
+  for (const double z : {0x1p-10, 0x1p-20, 0x1p-40}) {
+    EXPECT_NEAR(at(0.5, z), half_pi, 4 * z) << z;
+    EXPECT_GT(at(3, z), 0) << z;
+    EXPECT_LT(at(3, z), 4 * z) << z;
+  }
+}
+
 TEST(Illumination, OfPointAndDirectionalLights) {
   LightSceneBuilder builder;
   builder.polygon({{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}});

@@ -223,6 +223,55 @@ inline PreparedScene solids(Random& random, int count, int size) {
   return builder.build();
 }
 
+/// The same of boxes on a lattice whose faces are cut into rectangles, so that these meet in
+/// T-junctions at the boxes' edges and on their faces. Boxes may touch and cross each other.
+inline PreparedScene divided_boxes(Random& random, int count, int size) {
+  LightSceneBuilder builder;
+  const double s = size;
+  builder.polygon({{-s, -s, 0}, {2 * s, -s, 0}, {2 * s, 2 * s, 0}, {-s, 2 * s, 0}});
+  builder.area({{0, 0, 2 * s}, {0, s, 2 * s}, {s, s, 2 * s}, {s, 0, 2 * s}});
+  for (int made = 0; made < count; ++made) {
+    Triple low, high;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = random.between(0, size - 1);
+      low[k] = static_cast<double>(a);
+      high[k] = static_cast<double>(random.between(a + 1, size));
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+      for (const bool at_high : {false, true}) {
+        struct Rectangle {
+          Triple low, high;
+        };
+        std::vector<Rectangle> rectangles{{low, high}};
+        for (std::int64_t cuts = random.between(0, 2); cuts > 0; --cuts) {
+          const std::size_t which = random.below(rectangles.size());
+          const std::size_t along = random.chance(1, 2) ? u : v;
+          Rectangle second = rectangles[which];
+          const double middle = second.low[along] + (second.high[along] - second.low[along]) / 2;
+          rectangles[which].high[along] = second.low[along] = middle;
+          rectangles.push_back(second);
+        }
+        for (const Rectangle& r : rectangles) {
+          const double level = at_high ? high[axis] : low[axis];
+          const auto corner = [&](double x, double y) {
+            Triple p;
+            p[axis] = level;
+            p[u] = x;
+            p[v] = y;
+            return p;
+          };
+          std::vector<Triple> loop{corner(r.low[u], r.low[v]), corner(r.high[u], r.low[v]),
+                                   corner(r.high[u], r.high[v]), corner(r.low[u], r.high[v])};
+          if (!at_high) std::reverse(loop.begin(), loop.end());
+          builder.polygon(loop);
+        }
+      }
+    }
+  }
+  return builder.build();
+}
+
 }  // namespace gnomon::test
 
 #endif  // GNOMON_TESTS_ALGORITHMS_LIGHT_SOUP_H

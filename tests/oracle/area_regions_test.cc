@@ -193,6 +193,30 @@ TEST(AreaRegions, DeepUmbraBehindABoxOnTheFloor) {
   EXPECT_FALSE(visibility.hides_all_from(0, Side::kFront, strip(-6.5, -4)));
 }
 
+TEST(AreaRegions, DeepUmbraBehindABoxWhosePanelsMeetInTJunctions) {
+  // The same with its top and its front in two panels each, whose corners lie inside edges of
+  // others.
+  SceneBuilder builder;
+  builder.polygon("floor", kFloor)
+      .polygon("left", {{-1, -1, 0}, {-1, -1, 2}, {-1, 1, 2}, {-1, 1, 0}})
+      .polygon("low", {{1, -1, 0}, {1, 1, 0}, {1, 1, 0.75}, {1, -1, 0.75}})
+      .polygon("high", {{1, -1, 0.75}, {1, 1, 0.75}, {1, 1, 2}, {1, -1, 2}})
+      .polygon("near", {{-1, -1, 0}, {1, -1, 0}, {1, -1, 2}, {-1, -1, 2}})
+      .polygon("far", {{1, 1, 0}, {-1, 1, 0}, {-1, 1, 2}, {1, 1, 2}})
+      .polygon("top 1", {{-1, -1, 2}, {1, -1, 2}, {1, 0.125, 2}, {-1, 0.125, 2}})
+      .polygon("top 2", {{-1, 0.125, 2}, {1, 0.125, 2}, {1, 1, 2}, {-1, 1, 2}})
+      .area("panel", {{4, -1, 4}, {4, 1, 4}, {6, 1, 4}, {6, -1, 4}});
+  const BuiltScene built = builder.build();
+  const AreaVisibility visibility(built.prepared, built.prepared.lights[0]);
+  const auto strip = [](double x0, double x1) {
+    return std::vector<RationalPoint>{at(x0, -0.25, 0), at(x1, -0.25, 0), at(x1, 0.25, 0),
+                                      at(x0, 0.25, 0)};
+  };
+  EXPECT_TRUE(visibility.at(0, Side::kFront, at(-3, 0, 0)).deep());
+  EXPECT_TRUE(visibility.hides_all_from(0, Side::kFront, strip(-5, -2)));
+  EXPECT_FALSE(visibility.hides_all_from(0, Side::kFront, strip(-6.5, -4)));
+}
+
 TEST(AreaRegions, WhatIsCertifiedDarkIsDark) {
   // Meshes with shared edges, random triangles of the floor: what is said to be dark must be so at
   // all points tried.
@@ -208,7 +232,19 @@ TEST(AreaRegions, WhatIsCertifiedDarkIsDark) {
     const Triple a{-side, -side, level}, b{side, -side, some(1, 2)}, c{side, side, level},
         d{-side, side, some(1, 3)};
     builder.polygon("1", {a, b, top}).polygon("2", {b, c, top}).polygon("3", {c, d, top});
-    if (seed % 3 != 0) builder.polygon("4", {d, a, top});
+    if (seed % 3 != 0) {
+      // Whole, or in two halves that meet the first facet, or the third, in a T-junction.
+      const auto half = [](const Triple& p, const Triple& q) {
+        return Triple{(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2};
+      };
+      if (seed % 4 == 1) {
+        builder.polygon("4", {d, a, half(a, top)}).polygon("5", {d, half(a, top), top});
+      } else if (seed % 4 == 2) {
+        builder.polygon("4", {d, a, half(d, top)}).polygon("5", {half(d, top), a, top});
+      } else {
+        builder.polygon("4", {d, a, top});
+      }
+    }
     if (seed % 2 == 0) builder.box("box", {some(-7, -5), -6, 0}, {some(-4, -2), -3, some(1, 3)});
     const double x = some(-5, 5), y = some(-5, 5);
     builder.area("panel", {{x, y, 6}, {x, y + 2, 6}, {x + 2, y + 2, 6}, {x + 2, y, 6}});

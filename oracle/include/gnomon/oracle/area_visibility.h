@@ -57,15 +57,26 @@ class AreaVisibility {
   /// The same with some casters alone, in order of parts.
   AreaPointVisibility at(std::uint32_t receiver, Side side, const RationalPoint& point,
                          bool fractions, std::span<const std::uint32_t> casters) const;
+  /// The same if one of the casters had another convex loop in its plane, as one has that stands in
+  /// for what an input that is off by a little would have been.
+  AreaPointVisibility at_if_moved(std::uint32_t receiver, Side side, const RationalPoint& point,
+                                  std::span<const std::uint32_t> casters, std::uint32_t moved,
+                                  const std::vector<RationalPoint>& loop) const;
   /// Whether certainly no part of A_R is visible from any point of a convex polygon on that side:
   /// what each caster hides from all its corners it hides from all of it, and these parts together
   /// cover A_R. False says nothing. A polygon on or behind the light's plane is no answer's concern
-  /// here: false. Casters that share edges count as one sheet.
+  /// here: false. Casters that share edges, or meet in T-junctions, count as one sheet.
   bool hides_all_from(std::uint32_t receiver, Side side,
                       const std::vector<RationalPoint>& polygon) const;
 
  private:
   struct Data;
+  struct Moved;
+
+  AreaPointVisibility look(std::uint32_t receiver, Side side, const RationalPoint& point,
+                           bool fractions, std::span<const std::uint32_t> casters,
+                           const Moved* moved) const;
+
   std::unique_ptr<Data> data_;
 };
 
