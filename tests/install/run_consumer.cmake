@@ -32,11 +32,11 @@ if(WAY STREQUAL "find_package")
     endforeach()
   endforeach()
 else()
-  # The whole library is compiled again here, room by room and without optimisation, so that this takes a
-  # fraction of the first time. The folder is kept from run to run.
+  # The library is compiled again here, room by room, without optimisation and without CGAL's kernels, as a
+  # project may want it, so that this takes a fraction of the first time. The folder is kept from run to run.
   set(CONFIG Debug)
   list(APPEND options "-DGNOMON_DIR=${GNOMON_SOURCE_DIR}" -DGNOMON_WARNINGS_AS_ERRORS=ON
-       -DGNOMON_COMPILE_BY_ROOMS=ON)
+       -DGNOMON_COMPILE_BY_ROOMS=ON -DGNOMON_CGAL_KERNELS=OFF)
 endif()
 
 run("${CMAKE_COMMAND}" -S "${CONSUMER_DIR}" -B "${WORK_DIR}/build" -G "${GENERATOR}"
