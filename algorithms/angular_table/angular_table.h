@@ -40,12 +40,41 @@ struct TableTask {
   const Rules& rules;
 };
 
+/// The loops of all objects in a chart, and the rows that they are in: a table before it has
+/// entries.
+struct TableOutline {
+  struct FaceLoop {
+    std::uint32_t part = 0;
+    bool faces = false;
+    EdgeLoop loop;
+  };
+  struct ObjectLoops {
+    std::vector<EdgeLoop> ridges;
+    std::vector<FaceLoop> faces;  // that tell distances
+  };
+
+  TableOutline(const TableTask& task, const TableChart& chart);
+
+  /// Of an object's ridge loops with the rows, paired as the options say.
+  std::vector<RidgeCrossing> crossings(const TableTask& task, std::uint32_t object) const;
+  template <class Use>
+  void for_each_stretch(const FaceLoop& face, const Use& use) const;
+
+  TableMesh mesh;
+  std::vector<ObjectLoops> loops;
+  std::optional<TableRows> rows;
+
+ private:
+  void add_loops(const TableTask& task);
+  void make_rows(std::uint32_t count);
+};
+
 class AngularTable {
  public:
   AngularTable(const TableTask& task, const TableChart& chart);
 
-  const TableMesh& mesh() const { return mesh_; }
-  const TableRows& rows() const { return *rows_; }
+  const TableMesh& mesh() const { return outline_.mesh; }
+  const TableRows& rows() const { return *outline_.rows; }
   /// Of a table of rows: spans of objects, and stretches of parts.
   const IntervalRows& spans() const { return *spans_; }
   const IntervalRows& stretches() const { return *stretches_; }
@@ -58,27 +87,10 @@ class AngularTable {
   void count(WorkCounts& work) const;
 
  private:
-  struct FaceLoop {
-    std::uint32_t part = 0;
-    bool faces = false;
-    EdgeLoop loop;
-  };
-  struct ObjectLoops {
-    std::vector<EdgeLoop> ridges;
-    std::vector<FaceLoop> faces;  // that tell distances
-  };
-
-  void add_loops(const TableTask& task);
-  void make_rows(std::uint32_t rows);
-  std::vector<RidgeCrossing> crossings_of_object(const TableTask& task, const ObjectLoops& object);
   void fill_rows(const TableTask& task);
   void fill_slabs(const TableTask& task);
-  template <class Use>
-  void for_each_stretch(const FaceLoop& face, const Use& use) const;
 
-  TableMesh mesh_;
-  std::optional<TableRows> rows_;
-  std::vector<ObjectLoops> loops_;  // until the table is made
+  TableOutline outline_;  // its loops until the table is made
   std::optional<IntervalRows> spans_, stretches_;
   std::vector<TableCrossing> crossings_;
   std::vector<TableInterval> stretch_runs_;

@@ -105,7 +105,15 @@ mpq_class TableRows::border(std::uint32_t k) const {
   return is_exact_ ? values_[k] : mpq_class(low_ + step_ * k);
 }
 
-double TableRows::near_border(std::uint32_t k) const { return near_values_[k]; }
+std::optional<std::uint32_t> TableRows::holding(const mpq_class& t) const {
+  if (count_ == 0 || t < border(0) || t >= border(count_)) return std::nullopt;
+  std::uint32_t low = 0, high = count_;
+  while (high - low > 1) {
+    const std::uint32_t middle = low + (high - low) / 2;
+    (t >= border(middle) ? low : high) = middle;
+  }
+  return low;
+}
 
 std::uint32_t TableRows::guess(double t) const {
   const auto above = std::ranges::upper_bound(near_values_, t);

@@ -9,6 +9,7 @@
 #define GNOMON_ALGORITHMS_ANGULAR_TABLE_TABLE_ROWS_H
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,9 +31,9 @@ class TableRows {
   mpq_class middle(std::uint32_t row) const;
   /// Where slice k begins and slice k - 1 ends, k up to count().
   mpq_class border(std::uint32_t k) const;
-  /// The nearest double of the same.
-  double near_border(std::uint32_t k) const;
-  /// The slice that holds t, about.
+  /// The slice that holds t.
+  std::optional<std::uint32_t> holding(const mpq_class& t) const;
+  /// The same, about: one that is there.
   std::uint32_t guess(double t) const;
 
  private:
