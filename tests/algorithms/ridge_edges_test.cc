@@ -45,8 +45,7 @@ oracle::ImageReport judged(const PreparedView& view, const ExactCamera& camera,
                            const std::string& method, const Pixels& pixels) {
   oracle::ImageOptions exact;
   exact.moves_ties = true;
-  exact.stands_for =
-      report::rows_of_table(view, parse_method(method, Domain::kImageSpace).value());
+  exact.stands_for = report::rows_of_table(view, parse_method(method, Domain::kImageSpace).value());
   auto report =
       oracle::judge_pixels(view, report::pixel_claims_of(pixels, view.scene, camera), exact);
   EXPECT_TRUE(report) << to_string(report.error());
@@ -68,8 +67,7 @@ std::vector<Scene> scenes() {
 /// A closed solid of `gnomon generate closed` over a slab, under its lamp and a sun.
 Scene solid_over_slab(const std::string& kind) {
   const GeneratorInfo& info = *generator_by_name("closed");
-  Scene scene =
-      generate("closed", {{"kind", parameter_value(info, "kind", kind).value()}}).value();
+  Scene scene = generate("closed", {{"kind", parameter_value(info, "kind", kind).value()}}).value();
   double low = 0;
   for (const Position& vertex : scene.vertices) low = std::min(low, vertex[2].nearest());
   fuzz::ScenePen pen;
@@ -116,7 +114,8 @@ TEST(RidgeEdges, EveryExactKernelHasTheSamplesOfZbuffer) {
       const Pixels reference = pixels_of(view, options_of("zbuffer"));
       for (const KernelId kernel : kExactKernels) {
         for (const char* pairing : {"", ",pairing=signed"}) {
-          const Pixels own = pixels_of(view, options_of(std::string(kAnyPolygons) + pairing, kernel));
+          const Pixels own =
+              pixels_of(view, options_of(std::string(kAnyPolygons) + pairing, kernel));
           EXPECT_EQ(own.part, reference.part) << scene.name << ", " << eye.name;
           EXPECT_EQ(own.lit_by, reference.lit_by) << scene.name << ", " << eye.name;
         }
@@ -150,8 +149,7 @@ TEST(RidgeEdges, HiddenFacesAreAsGoodAsFacingOnes) {
       const PreparedView view = prepare_view(scene, eye.camera).value();
       const Pixels reference = pixels_of(view, options_of("zbuffer"));
       for (const char* pairing : {"", ",pairing=signed"}) {
-        const std::string method =
-            std::string("ridge-edges:rows=exact,hemisphere=cube") + pairing;
+        const std::string method = std::string("ridge-edges:rows=exact,hemisphere=cube") + pairing;
         EXPECT_EQ(pixels_of(view, options_of(method)).lit_by, reference.lit_by)
             << scene.name << ", " << eye.name;
       }
@@ -281,8 +279,7 @@ TEST(RidgeEdges, RefusesALightInsideTheViewUnlessByPyramids) {
   view.look_at = {0, 0, 3};
   view.field_of_view = 60;
   view.width = view.height = 24;
-  const ExactCamera camera =
-      make_camera({Number(0.0), Number(-20.0), Number(3.0)}, view).value();
+  const ExactCamera camera = make_camera({Number(0.0), Number(-20.0), Number(3.0)}, view).value();
   const PreparedView prepared = prepare_view(scene, camera).value();
   PixelOptions options = options_of("ridge-edges");
   options.scene = &scene;
@@ -327,7 +324,8 @@ TEST(RidgeEdges, FarPolygonsFirstAreLookedUpInVain) {
 
 TEST(RidgeEdges, CountsDoNotDependOnThreads) {
   const Look look = look_down(solid_over_slab("holed"), 80);
-  for (const char* method : {"ridge-edges:hemisphere=cube", "ridge-edges:hemisphere=cube,rows=exact"}) {
+  for (const char* method :
+       {"ridge-edges:hemisphere=cube", "ridge-edges:hemisphere=cube,rows=exact"}) {
     PixelOptions options = options_of(method);
     const Pixels one = pixels_of(look.view, options);
     options.jobs = 3;
