@@ -3,9 +3,10 @@
 //              [--benchmark_...]
 //
 // Parts: targets point kernels area papers scene-bsp lights pitfalls thickness systems pictures
-// classes; all but the last six by default. Exit status: 0; 1 if exact kernels, algorithms or peers
-// gave different answers, or fractions that do not add up to 1; 2 bad usage. (`child` and `measure`
-// with their arguments are for the program itself: child.h, comparison/run_measurement.h.)
+// classes ridge; all but the last seven by default. Exit status: 0; 1 if exact kernels, algorithms
+// or peers gave different answers, or fractions that do not add up to 1; 2 bad usage. (`child` and
+// `measure` with their arguments are for the program itself: child.h,
+// comparison/run_measurement.h.)
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -46,9 +47,11 @@ constexpr const char* kUsage =
     "             compare`, and pictures\n"
     "  pictures   samples a second of pictures, plane against double, and the oracle's time\n"
     "  classes    the three classes of Crow 1977: storage, time, growth, lines of code\n"
+    "  ridge      the objects and cubes of Thakur, Cheng & Miura: look-ups, times, growth\n"
     "\n"
-    "Without PART: all but lights, pitfalls, thickness, systems, pictures and classes. --short\n"
-    "takes seconds; --long adds a million polygons to the targets and the scene BSP, full sizes\n"
+    "Without PART: all but lights, pitfalls, thickness, systems, pictures, classes and ridge.\n"
+    "--short takes seconds; --long adds a million polygons to the targets and the scene BSP, full "
+    "sizes\n"
     "for the slow exact kernels, and repetitions. --against names the gnomon command that the\n"
     "targets are ratios to; --json writes the targets alone, as JSON; --plots writes the figures\n"
     "of the papers to a folder. Options that begin with --benchmark_ go to Google Benchmark.\n";
@@ -73,7 +76,7 @@ bool papers(const Arguments& arguments) {
 }
 
 // The targets come first: the peak memory of a program is never below that of who started it.
-constexpr std::array<NamedPart, 12> kParts{
+constexpr std::array<NamedPart, 13> kParts{
     {{"targets", targets, true},
      {"point", by_extent<gnomon::bench::run_point>, true},
      {"kernels", by_extent<gnomon::bench::run_kernels>, true},
@@ -85,7 +88,8 @@ constexpr std::array<NamedPart, 12> kParts{
      {"thickness", by_extent<gnomon::bench::run_thickness>, false},
      {"systems", by_extent<gnomon::bench::run_systems>, false},
      {"pictures", by_extent<gnomon::bench::run_pictures>, false},
-     {"classes", by_extent<gnomon::bench::run_classes>, false}}};
+     {"classes", by_extent<gnomon::bench::run_classes>, false},
+     {"ridge", by_extent<gnomon::bench::run_ridge>, false}}};
 
 }  // namespace
 

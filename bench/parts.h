@@ -22,6 +22,9 @@ bool run_thickness(Extent extent);
 bool run_papers(Extent extent, const std::string& plots);
 /// Crow 1977, the comparison of the three classes: storage, time, growth, lines of code.
 bool run_classes(Extent extent);
+/// Thakur, Cheng & Miura: look-ups and times of their objects, their cubes beside other methods.
+/// False if an order of drawing changes a sample, or near polygons first cost more look-ups.
+bool run_ridge(Extent extent);
 /// Several lights together: one of them moves, their orders, what trees grow from and what is kept.
 bool run_lights(Extent extent);
 /// Splits, depth, memory and time of the scene BSP.

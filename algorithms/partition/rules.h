@@ -79,6 +79,15 @@ struct Rules {
   /// Fragments of several lights together become one only if the same lights reach them ("A
   /// result": a fragment has one class under each light).
   bool merged_fragments_agree_on_every_light = true;
+  /// The crossings of a ridge loop with a row are paired by the arcs of the loop above it, not by
+  /// their order along it (docs/ridge-edges.md, "Pairs").
+  bool crossings_pair_by_arcs = true;
+  /// A pair runs from where one comes onto the facing side to where one leaves it; the other way
+  /// round it is a hole (docs/ridge-edges.md, "Pairs").
+  bool holes_have_a_direction = true;
+  /// What lies on a face that the light does not see is behind the solid ("Lit and in shadow": a
+  /// floor under a box).
+  bool on_a_hidden_face_is_behind_it = true;
   /// Which fragments stay: null for all of them, however thin they are, since fragments tile their
   /// polygon ("A result").
   bool (*fragment_stays)(const LoopShape&) = nullptr;

@@ -43,7 +43,9 @@ Expected<PixelWork> by_rows_of(const PixelTask& task, const Make& make) {
       }
     }
     const std::lock_guard lock(mutex);
-    total.work += run.work().work;
+    const PixelWork own = run.work();
+    total.work += own.work;
+    total.lookup_seconds += own.lookup_seconds;
     total.stages += run.stages();
     covered += run.covered();
   };

@@ -64,9 +64,10 @@ struct PixelTask {
 struct PixelWork {
   WorkCounts work;
   StageCounts stages;
+  double table_seconds = 0, lookup_seconds = 0;  // as Pixels has them
 };
 
-/// A method of image space on a kernel. Errors: kInterrupted.
+/// A method of image space on a kernel. Errors: kInterrupted, kGeometry.
 using PixelFunction = Expected<PixelWork> (*)(const PixelTask&);
 
 }  // namespace gnomon

@@ -29,13 +29,20 @@ class VisibleParts {
 
   /// Requires: nothing is drawn in the row.
   void draw_row(std::uint32_t row, std::span<std::uint32_t> seen, WorkCounts& work) {
+    draw_row(row, seen, work, [](std::uint32_t, Span) {});
+  }
+  /// Calls drawn(part, span) for each span of a part that nothing drawn before hides; a part that
+  /// is drawn later may.
+  template <class Drawn>
+  void draw_row(std::uint32_t row, std::span<std::uint32_t> seen, WorkCounts& work,
+                const Drawn& drawn) {
     for (const std::uint32_t part : order_) {
       if (balls_.misses_row(part, row)) continue;
       const Span span = covered_span(scene_, part, row);
       if (span.empty()) continue;
       ++work[Counter::kSpans];
       covered_ += span.size();
-      draw_span(scene_, part, span, row, seen, work);
+      draw_span(scene_, part, span, row, seen, work, [&](Span own) { drawn(part, own); });
     }
   }
 

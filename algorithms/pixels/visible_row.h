@@ -58,10 +58,11 @@ Span part_in_region(Space& space, Span span, const PreparedLight& light, PlaneRe
   return span;
 }
 
-/// Draws a part into a row. Requires: the part covers the span.
-template <class Space>
+/// Draws a part into a row, and calls drawn(span) for each span of it that nothing drawn before
+/// hides. Requires: the part covers the span.
+template <class Space, class Drawn>
 void draw_span(ImageScene<Space>& scene, std::uint32_t part, Span span, std::uint32_t row,
-               std::span<std::uint32_t> seen, WorkCounts& work) {
+               std::span<std::uint32_t> seen, WorkCounts& work, const Drawn& drawn) {
   const PlaneRef plane = scene.facing_eye(part);
   for (Span run{span.begin, span.begin}; run.begin < span.end; run.begin = run.end) {
     const std::uint32_t other = seen[run.begin];
@@ -78,6 +79,7 @@ void draw_span(ImageScene<Space>& scene, std::uint32_t part, Span span, std::uin
       }
     }
     std::fill(seen.begin() + nearer.begin, seen.begin() + nearer.end, part);
+    if (!nearer.empty()) drawn(nearer);
   }
 }
 

@@ -12,7 +12,7 @@ namespace gnomon {
 
 namespace {
 
-constexpr std::uint32_t kMostTiles = 1024;
+constexpr std::uint32_t kMostTiles = 1024, kMostRows = 32768;
 
 /// Reads one of the words into `value`.
 template <class T, std::size_t N>
@@ -28,6 +28,16 @@ bool read_word(T& value, std::string_view text, const std::pair<std::string_view
 std::string on_or_off(bool value) { return value ? "on" : "off"; }
 bool read_switch(bool& value, std::string_view text) {
   return read_word<bool>(value, text, {{"on", true}, {"off", false}});
+}
+
+/// A whole number from 1 to `most`.
+bool read_number(std::uint32_t& value, std::string_view text, std::uint32_t most) {
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return false;
+  if (number < 1 || number > most) return false;
+  value = number;
+  return true;
 }
 
 /// A distance, at most so large that planes at it are on some grid.
@@ -99,6 +109,20 @@ constexpr std::array kOptions = {
                        return cover.has_value();
                      },
                  .text = [](const MethodOptionValues& v) { return std::string(name_of(v.cover)); }},
+    MethodOption{.name = "depth",
+                 .values = "hidden|facing",
+                 .summary = "which faces of an object tell its distance: those that the light does "
+                            "not see, as the paper has it, or those that it sees",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<TableDepth>(
+                           v.depth, t,
+                           {{"hidden", TableDepth::kHidden}, {"facing", TableDepth::kFacing}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.depth == TableDepth::kHidden ? "hidden" : "facing");
+                     }},
     MethodOption{.name = "edges",
                  .values = "own|all",
                  .summary = "which edges of a fragment become nodes: its own, or all, as in a "
@@ -119,6 +143,20 @@ constexpr std::array kOptions = {
         .read = [](MethodOptionValues& v, std::string_view t) { return read_distance(v.far, t); },
         .text = [](const MethodOptionValues& v) { return distance_text(v.far); }},
     MethodOption{
+        .name = "hemisphere",
+        .values = "one|cube",
+        .summary =
+            "directions in a table: on one side of the light, or all of them in six pyramids",
+        .read =
+            [](MethodOptionValues& v, std::string_view t) {
+              return read_word<Hemisphere>(
+                  v.hemisphere, t, {{"one", Hemisphere::kOne}, {"cube", Hemisphere::kCube}});
+            },
+        .text =
+            [](const MethodOptionValues& v) {
+              return std::string(v.hemisphere == Hemisphere::kOne ? "one" : "cube");
+            }},
+    MethodOption{
         .name = "interleaved",
         .values = "on|off",
         .summary = "receivers go down trees that still grow, in the order of a scene BSP from the "
@@ -126,6 +164,21 @@ constexpr std::array kOptions = {
         .read = [](MethodOptionValues& v,
                    std::string_view t) { return read_switch(v.interleaved, t); },
         .text = [](const MethodOptionValues& v) { return on_or_off(v.interleaved); }},
+    MethodOption{.name = "interpolate",
+                 .values = "plane|linear",
+                 .summary = "the distance of a face between its edges: by its plane, or linear in "
+                            "the angle, which is not exact",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<Interpolation>(
+                           v.interpolation, t,
+                           {{"plane", Interpolation::kPlane}, {"linear", Interpolation::kLinear}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.interpolation == Interpolation::kPlane ? "plane"
+                                                                                   : "linear");
+                     }},
     MethodOption{.name = "merge",
                  .values = "siblings|convex|off",
                  .summary = "which fragments become one: children of a split, also neighbours that "
@@ -242,6 +295,20 @@ constexpr std::array kOptions = {
                      [](const MethodOptionValues& v) {
                        return std::string(v.outlines == Outlines::kPartial ? "partial" : "whole");
                      }},
+    MethodOption{.name = "pairing",
+                 .values = "peaks|signed",
+                 .summary = "crossings of loops and rows become spans from the peaks of loops "
+                            "downwards, or by their sum",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       return read_word<Pairing>(
+                           v.pairing, t,
+                           {{"peaks", Pairing::kPeaks}, {"signed", Pairing::kSigned}});
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return std::string(v.pairing == Pairing::kPeaks ? "peaks" : "signed");
+                     }},
     MethodOption{
         .name = "prune",
         .values = "on|off",
@@ -271,6 +338,21 @@ constexpr std::array kOptions = {
         .summary = "keep the blots in the cells of a k-d tree of light space",
         .read = [](MethodOptionValues& v, std::string_view t) { return read_switch(v.sectors, t); },
         .text = [](const MethodOptionValues& v) { return on_or_off(v.sectors); }},
+    MethodOption{.name = "rows",
+                 .values = "1..32768|exact",
+                 .summary = "of the angular table: samples near borders are wrong, fewer the more "
+                            "rows; or exact, by what lies between two vertices",
+                 .read =
+                     [](MethodOptionValues& v, std::string_view t) {
+                       if (t != "exact") return read_number(v.rows, t, kMostRows);
+                       v.rows = MethodOptionValues::kExactRows;
+                       return true;
+                     },
+                 .text =
+                     [](const MethodOptionValues& v) {
+                       return v.rows == MethodOptionValues::kExactRows ? std::string("exact")
+                                                                       : std::to_string(v.rows);
+                     }},
     MethodOption{.name = "split",
                  .values = "axis|contour",
                  .summary = "what splits cells: values of an axis, or planes through edges of the "
@@ -288,18 +370,8 @@ constexpr std::array kOptions = {
     MethodOption{.name = "tiles",
                  .values = "1..1024",
                  .summary = "rows and columns of tiles on each face of the cube",
-                 .read =
-                     [](MethodOptionValues& v, std::string_view t) {
-                       std::uint32_t tiles = 0;
-                       const auto [end, error] =
-                           std::from_chars(t.data(), t.data() + t.size(), tiles);
-                       if (error != std::errc() || end != t.data() + t.size() || tiles < 1 ||
-                           tiles > kMostTiles) {
-                         return false;
-                       }
-                       v.tiles = tiles;
-                       return true;
-                     },
+                 .read = [](MethodOptionValues& v,
+                            std::string_view t) { return read_number(v.tiles, t, kMostTiles); },
                  .text = [](const MethodOptionValues& v) { return std::to_string(v.tiles); }},
     MethodOption{.name = "volumes",
                  .values = "chain|polygons",

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "algorithms/angular_table/by_ridge_edges.h"
 #include "algorithms/contour/by_contour.h"
 #include "algorithms/run/by_receiver.h"
 #include "algorithms/run/on_every_kernel.h"
@@ -61,6 +62,11 @@ constexpr std::array<std::string_view, 2> kScanOutOptions = {"lists", "lazy"};
 constexpr std::array kScanOutCounters = {kSamples,      kSpans,       kEvents,         kDepthTests,
                                          kOverlapTests, kTileWrites,  kListEntries,    kLongestList,
                                          kListBytes,    kCasterTests, kDepthComplexity};
+constexpr std::array<std::string_view, 6> kRidgeEdgesOptions = {
+    "rows", "pairing", "depth", "interpolate", "hemisphere", "order"};
+constexpr std::array kRidgeEdgesCounters = {
+    kSamples,        kSpans,      kDepthTests, kRidgeLoops, kTableRows,    kTableSpans,
+    kTableStretches, kTableBytes, kLookUps,    kSpanTests,  kStretchTests, kDepthComplexity};
 constexpr std::array kSectorsCounters = {kShadowPolygons, kCellCuts};
 constexpr std::array kTwoPassCounters = {kClips, kShadowPolygons, kLists, kLongestList,
                                          kDeepestStack};
@@ -215,6 +221,19 @@ constexpr std::array kImageMethods = {
            .makes_fragments = false,
            .options = kScanOutOptions,
            .counters = kScanOutCounters},
+    Method{
+        .id = MethodId::kRidgeEdges,
+        .name = "ridge-edges",
+        .summary = "an angular table of the outlines of solids, looked up while polygons are drawn",
+        .source = "Thakur, Cheng & Miura, section 3",
+        .lights = {.point = true},
+        .domain = Domain::kImageSpace,
+        .needs = {.closed_meshes = true, .camera = true, .one_hemisphere = true},
+        .threads = true,
+        .names_casters = false,
+        .makes_fragments = false,
+        .options = kRidgeEdgesOptions,
+        .counters = kRidgeEdgesCounters},
 };
 
 template <template <class> class Run>
@@ -309,6 +328,7 @@ MethodFunction run_of(MethodId method, const Pick& pick) {
     case MethodId::kZbuffer:  // pixel_function() has those of image space
     case MethodId::kShadowPolygons:
     case MethodId::kScanOut:
+    case MethodId::kRidgeEdges:
       break;
   }
   return nullptr;
@@ -328,6 +348,8 @@ PixelFunction pixel_function(MethodId method, KernelId kernel) {
       return on_kernel<ByShadowPolygons>(kernel);
     case MethodId::kScanOut:
       return on_kernel<ByScanOut>(kernel);
+    case MethodId::kRidgeEdges:
+      return on_kernel<ByRidgeEdges>(kernel);
     default:
       return nullptr;
   }

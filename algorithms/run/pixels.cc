@@ -117,6 +117,8 @@ Expected<Pixels> compute_pixels_with(const PreparedScene& scene, const ImageFram
   pixels.seconds = cpu_seconds() - start;
   pixels.work = work->work;
   pixels.stages = work->stages;
+  pixels.table_seconds = work->table_seconds;
+  pixels.lookup_seconds = work->lookup_seconds;
   return pixels;
 }
 

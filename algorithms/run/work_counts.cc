@@ -75,6 +75,16 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kBlotCuts, "blot cuts", "sub-objects, or polygons of them, cut by a blot", kSum},
     {Counter::kBoxShortcuts, "shortcuts", "sub-objects before all blots, or wholly inside one",
      kSum},
+    {Counter::kRidgeLoops, "ridge loops", "of the outlines of objects", kMost},
+    {Counter::kTableRows, "table rows", "of angular tables", kMost},
+    {Counter::kTableSpans, "table spans", "of shadow, in all rows", kMost},
+    {Counter::kTableStretches, "table stretches", "of faces that tell distances, in all rows",
+     kMost},
+    {Counter::kTableBytes, "table bytes", "memory of angular tables", kMost},
+    {Counter::kLookUps, "look-ups", "rows fetched from an angular table", kSum},
+    {Counter::kSpanTests, "span tests", "of samples in one row and a span of it", kSum},
+    {Counter::kStretchTests, "stretch tests", "of samples in one row and a face's stretch of it",
+     kSum},
 }};
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "gnomon/scene/digest.h"
 #include "report/pixels/picture_certificate.h"
 #include "report/pixels/pixel_claims_of.h"
+#include "report/pixels/rows_of_table.h"
 #include "report/text/number_text.h"
 
 namespace gnomon::cli {
@@ -117,6 +118,7 @@ class PictureRun {
     pixel_options.method = method.id;
     pixel_options.options = method.values;
     pixel_options.lights = loaded_.lights;
+    pixel_options.scene = &loaded_.scene;
     pixel_options.jobs = options_.jobs;
     pixel_options.control.interrupted = &interrupted();
     progress_.set_label("kernel " + picture.name);
@@ -129,18 +131,22 @@ class PictureRun {
         certificate_.interrupted = true;
         return {};
       }
+      const bool refused = pixels.error().code == ErrorCode::kGeometry;
+      if (refused && options_.methods.size() == 1) return tl::unexpected(pixels.error());
+      if (refused) picture.counts = false;
       // A kernel that cannot finish is a finding about that kernel.
       limit_reached_ = limit_reached_ || pixels.error().code == ErrorCode::kLimit;
-      picture.error = to_string(pixels.error());
+      picture.error = (refused ? "refused: " : "") + to_string(pixels.error());
       certificate_.pictures.push_back(std::move(picture));
       return {};
     }
     picture.cpu_seconds = pixels->seconds;
-    return judge(std::move(picture), view, report::pixel_claims_of(*pixels, view.scene, camera));
+    return judge(std::move(picture), view, report::pixel_claims_of(*pixels, view.scene, camera),
+                 report::rows_of_table(view, method));
   }
 
   Expected<void> judge(report::JudgedPicture picture, const PreparedView& view,
-                       const PixelClaims& claims) {
+                       const PixelClaims& claims, oracle::PointTaken stands_for = {}) {
     picture.camera = camera_text(claims.camera, loaded_.scene);
     picture.width = claims.camera.width;
     picture.height = claims.camera.height;
@@ -148,6 +154,7 @@ class PictureRun {
     oracle::ImageOptions image_options;
     image_options.clearance = options_.clearance;
     image_options.interrupted = &interrupted();
+    image_options.stands_for = std::move(stands_for);
     progress_.set_label("judging " + picture.name);
     image_options.progress = progress_.callback();
     auto report = oracle::judge_pixels(view, claims, image_options);

@@ -65,7 +65,19 @@ std::string statistics(const Pixels& pixels, const Method& method) {
   if (pixels.seconds > 0) {
     text += ", " + report::rounded(samples / pixels.seconds, 3) + " samples a second";
   }
-  return text + '\n';
+  text += '\n';
+  if (pixels.table_seconds > 0) {
+    text += "of these the table: " + report::rounded(pixels.table_seconds, 3) +
+            ", look-ups: " + report::rounded(pixels.lookup_seconds, 3);
+    const std::uint64_t look_ups = pixels.work[Counter::kLookUps];
+    if (look_ups > 0) {
+      text += ", " +
+              report::rounded(1e6 * pixels.lookup_seconds / static_cast<double>(look_ups), 3) +
+              " microseconds each";
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 Expected<void> write(const PixelsOptions& options, Form form, const LoadedScene& loaded,
@@ -102,6 +114,7 @@ Expected<void> sample(const PixelsOptions& options) {
   pixel_options.method = method->id;
   pixel_options.options = method->values;
   pixel_options.lights = loaded->lights;
+  pixel_options.scene = &loaded->scene;
   pixel_options.stage_counts = options.stats;
   pixel_options.jobs = options.scene.jobs;
   pixel_options.control.interrupted = &interrupted();

@@ -48,6 +48,11 @@ Expected<void> check_mistake(const Subject& subject, const std::string& whole) {
     return fail(ErrorCode::kUsage, "'" + whole + "': " + mistake + " is a mistake of merging",
                 "svbsp:merge=convex");
   }
+  if (subject.mistake == Mistake::kHiddenDepthStrict &&
+      subject.options.depth != TableDepth::kHidden) {
+    return fail(ErrorCode::kUsage, "'" + whole + "': " + mistake + " is a mistake of hidden faces",
+                "ridge-edges:depth=hidden");
+  }
   const KernelId kernel = subject.kernel.kernel;
   // A picture has no area lights.
   const bool has_areas = method_info(subject.algorithm).domain != Domain::kImageSpace;

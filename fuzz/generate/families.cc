@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "fuzz/generate/object_scenes.h"
 #include "fuzz/generate/random_shapes.h"
 #include "fuzz/generate/scene_pen.h"
 #include "fuzz/generate/small_lattice.h"
@@ -352,6 +353,8 @@ const std::vector<Family>& families() {
       {"Decimals", decimals, 2, 200},
       {"Repaired", repaired, 2, 200},
       {"SmallLattice", small_lattice, 2, 200, false},
+      {"ClosedBoxes", closed_boxes, 1, 100, false},
+      {"Frames", frames, 1, 100, false},
   };
   return all;
 }

@@ -12,6 +12,7 @@ constexpr std::string_view kChin1992 = "Chin & Feiner 1992";
 constexpr std::string_view kSlater1992 = "Slater 1992";
 constexpr std::string_view kAppel1967 = "Appel 1967";
 constexpr std::string_view kCrow1977 = "Crow 1977";
+constexpr std::string_view kThakur = "Thakur, Cheng & Miura";
 
 constexpr std::array kMistakes = {
     MistakeInfo{Mistake::kPlanesFromFragments, "planes-from-fragments",
@@ -83,6 +84,14 @@ constexpr std::array kMistakes = {
     MistakeInfo{Mistake::kBlotAbsorbedEarly, "blot-absorbed-early",
                 "an outline absorbs a blot before all in its object's planes have received that",
                 kCrow1977},
+    MistakeInfo{Mistake::kPairsInOrder, "pairs-in-order",
+                "crossings of an outline and a row are paired in their order along the row",
+                kThakur},
+    MistakeInfo{Mistake::kHolesWithoutDirection, "holes-without-direction",
+                "a pair of crossings is shadow between them, also where it runs around a hole",
+                kThakur},
+    MistakeInfo{Mistake::kHiddenDepthStrict, "hidden-depth-strict",
+                "what lies on a face that the light does not see counts as before it", kThakur},
 };
 
 }  // namespace
@@ -122,6 +131,10 @@ bool applies_to_pictures(Mistake mistake, MethodId method) {
     case Mistake::kWallsKeepOrder:
     case Mistake::kOnePerspective:
       return method == MethodId::kShadowPolygons;
+    case Mistake::kPairsInOrder:
+    case Mistake::kHolesWithoutDirection:
+    case Mistake::kHiddenDepthStrict:
+      return method == MethodId::kRidgeEdges;
     default:
       return false;
   }
@@ -190,6 +203,9 @@ bool applies_to(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kEyeCountedOnce:
     case Mistake::kWallsKeepOrder:
     case Mistake::kOnePerspective:
+    case Mistake::kPairsInOrder:
+    case Mistake::kHolesWithoutDirection:
+    case Mistake::kHiddenDepthStrict:
       return false;
   }
   return false;
@@ -233,6 +249,9 @@ bool applies_to_area(Mistake mistake, KernelId kernel, MethodId method) {
     case Mistake::kEyeCountedOnce:
     case Mistake::kWallsKeepOrder:
     case Mistake::kOnePerspective:
+    case Mistake::kPairsInOrder:
+    case Mistake::kHolesWithoutDirection:
+    case Mistake::kHiddenDepthStrict:
     case Mistake::kCombinedBitLost:
       return false;
   }

@@ -47,6 +47,9 @@ enum class Mistake : std::uint8_t {
   kOnePerspective,     // what a light sees mapped by one perspective division
   kCombinedBitLost,    // lights together: fragments that one light tells apart become one
   kBlotAbsorbedEarly,  // a blot dropped before all in the planes of its heir have received it
+  kPairsInOrder,       // crossings of a ridge loop paired as neighbours along a row
+  kHolesWithoutDirection,  // a pair taken for shadow whichever way it runs
+  kHiddenDepthStrict,      // what lies on a hidden face taken as before it
 };
 
 struct MistakeInfo {

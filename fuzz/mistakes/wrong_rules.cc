@@ -113,6 +113,15 @@ Rules rules_of(Mistake mistake) {
     case Mistake::kBlotAbsorbedEarly:
       rules.blots_absorbed_after_their_planes_received = false;
       break;
+    case Mistake::kPairsInOrder:
+      rules.crossings_pair_by_arcs = false;
+      break;
+    case Mistake::kHolesWithoutDirection:
+      rules.holes_have_a_direction = false;
+      break;
+    case Mistake::kHiddenDepthStrict:
+      rules.on_a_hidden_face_is_behind_it = false;
+      break;
     case Mistake::kOnSwapped:
       rules.on_goes_to_its_own_side = false;
       break;

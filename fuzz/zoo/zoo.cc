@@ -20,6 +20,10 @@ constexpr std::string_view kPointScenes = "mix", kAreaScenes = "area-mix";
 constexpr std::string_view kTVertex = "t-vertex";
 constexpr std::string_view kWrongLight = "wrong light", kWrongPolygon = "wrong polygon seen";
 
+/// ridge-edges with nothing that is wrong without a mistake, and on scenes that are no solids.
+constexpr std::string_view kAnyPolygons =
+    "plane/ridge-edges:rows=exact,depth=facing,hemisphere=cube";
+
 constexpr std::array kZoo = {
     ZooEntry{"planes-from-fragments", Mistake::kPlanesFromFragments, "double+identity+thin/svbsp",
              "soup-lattice", "misclassified"},
@@ -74,6 +78,11 @@ constexpr std::array kZoo = {
              kPointScenes, "misclassified"},
     ZooEntry{"blot-absorbed-early", Mistake::kBlotAbsorbedEarly, "plane/blots",
              "family-small-lattice", "misclassified"},
+    ZooEntry{"pairs-in-order", Mistake::kPairsInOrder, kAnyPolygons, "family-frames", kWrongLight},
+    ZooEntry{"holes-without-direction", Mistake::kHolesWithoutDirection, kAnyPolygons,
+             "family-frames", kWrongLight},
+    ZooEntry{"hidden-depth-strict", Mistake::kHiddenDepthStrict,
+             "plane/ridge-edges:rows=exact,hemisphere=cube", "family-closed-boxes", kWrongLight},
     ZooEntry{"area-on-swapped", Mistake::kOnSwapped, "plane", kAreaScenes, "misclassified"},
 };
 

@@ -27,6 +27,15 @@ class EpeckImageArithmetic {
     return numbers({grid.at(v, 0), grid.at(v, 1), grid.at(v, 2)});
   }
   Vector point(const LightPoint& light) const { return numbers(light.grid); }
+  Vector position(const std::array<mpq_class, 3>& grid) const {
+    const auto number = [](const mpq_class& x) {
+      Number result = epeck_detail::number_from(x.get_num());
+      if (x.get_den() != 1) result /= epeck_detail::number_from(x.get_den());
+      result.exact();  // a leaf of all later expressions
+      return result;
+    };
+    return {number(grid[0]), number(grid[1]), number(grid[2])};
+  }
   Number number(std::int64_t value) const { return Number(static_cast<double>(value)); }
   Plane plane_through(const Vector& a, const Vector& b, const Vector& c) const {
     return plane_along(a, {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, c);

@@ -27,6 +27,13 @@ class EpickImageArithmetic {
 
   Vector vertex(VertexId v) const { return geometry_->positions[v]; }
   Vector point(const LightPoint& light) const { return light.nearest; }
+  Vector position(const std::array<mpq_class, 3>& grid) const {
+    Vector result;
+    for (std::size_t k = 0; k < 3; ++k) {
+      result[k] = mpq_class(geometry_->origin[k] + geometry_->step * grid[k]).get_d();
+    }
+    return result;
+  }
   double number(std::int64_t value) const { return static_cast<double>(value); }
   Plane plane_through(const Vector& a, const Vector& b, const Vector& c) const {
     return plane_of({EpickPlane::Kind::kPoints, a, b, c, nullptr});

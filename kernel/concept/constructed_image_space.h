@@ -7,7 +7,7 @@
 // The arithmetic A has: Number, Vector (three of them), Plane (with members n and d, the value at x
 // being n . x - d), kExact, and
 //  - vertex(id), point(light): positions, or the direction of a directional light;
-//  - number(integer);
+//  - position(x): a point of the grid by rational coordinates; number(integer);
 //  - plane_through(a, b, c), normal (b - a) x (c - a), and plane_along(a, direction, c), normal
 //    direction x (c - a);
 //  - side(plane, x), with the plane's thickness if it has one; along(plane, d), the sign of n . d;
@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernel/concept/grid_plane_points.h"
 #include "kernel/concept/image_guess.h"
 #include "kernel/concept/image_space.h"
 
@@ -35,7 +36,10 @@ class ConstructedImageSpace {
 
   ConstructedImageSpace(const Geometry& geometry, const ImageFrame& frame,
                         const KernelOptions& options)
-      : arithmetic_(geometry, options), frame_(frame), eye_(arithmetic_.point(frame.eye)) {
+      : arithmetic_(geometry, options),
+        frame_(frame),
+        grid_bits_(geometry.grid.bits()),
+        eye_(arithmetic_.point(frame.eye)) {
     right_ = vector(frame.right);
     up_ = vector(frame.up);
     direction_ = vector(frame.direction(sample_));
@@ -58,6 +62,12 @@ class ConstructedImageSpace {
     return PlaneRef(add(planes_, from.directional
                                      ? arithmetic_.plane_along(first, from.point, second)
                                      : arithmetic_.plane_through(from.point, second, first)));
+  }
+  PlaneRef add_grid_plane(const GridPlane& plane) {
+    const auto [a, b, c] = points_of(plane, grid_bits_);
+    return PlaneRef(
+        add(planes_, arithmetic_.plane_through(arithmetic_.position(a), arithmetic_.position(b),
+                                               arithmetic_.position(c))));
   }
   /// Requires: one of the two is no directional light.
   RayPlaneRef add_ray_plane(ImagePoint from, ImagePoint to) {
@@ -179,6 +189,7 @@ class ConstructedImageSpace {
 
   A arithmetic_;
   ImageFrame frame_;
+  unsigned grid_bits_;
   Vector eye_, right_, up_;
   std::vector<PlaneOf> planes_, ray_planes_;
   std::vector<LightOf> lights_;

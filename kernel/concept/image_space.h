@@ -17,6 +17,9 @@
 #ifndef GNOMON_KERNEL_CONCEPT_IMAGE_SPACE_H
 #define GNOMON_KERNEL_CONCEPT_IMAGE_SPACE_H
 
+#include <gmpxx.h>
+
+#include <array>
 #include <concepts>
 #include <cstdint>
 
@@ -50,6 +53,13 @@ struct ImagePoint {
   bool is_light = false;
 };
 
+/// The plane n . x = d of positions x on the grid, in front where n . x is more. Requires: n is not
+/// zero.
+struct GridPlane {
+  std::array<mpz_class, 3> n;
+  mpz_class d;
+};
+
 /// Planes are named as everywhere: below geometry.planes.size() the support planes, from there on
 /// those added here. A space is one thread's; copies are independent.
 ///
@@ -60,13 +70,16 @@ concept ImageSpaceModel = std::copy_constructible<S> &&
     std::constructible_from<S, const Geometry&, const ImageFrame&, const KernelOptions&> &&
     requires(S& space, const S& constant, const LightPoint& point, ImageLight light, PlaneRef plane,
              RayPlaneRef ray_plane, ImagePoint from, VertexId vertex, ImageSample sample,
-             std::uint32_t row) {
+             const GridPlane& grid_plane, std::uint32_t row) {
   { S::kExact } -> std::convertible_to<bool>;
   { constant.frame() } -> std::same_as<const ImageFrame&>;
   { space.add_light(point) } -> std::same_as<ImageLight>;
   /// The plane through a light and the edge from one vertex to another. Its front is inside a loop
   /// that has this edge and is counter-clockwise seen from the light.
   { space.add_shadow_plane(light, vertex, vertex) } -> std::same_as<PlaneRef>;
+  /// Any plane of the grid, for methods that make planes of their own. It is exactly that on exact
+  /// kernels; rounded ones take three points of it.
+  { space.add_grid_plane(grid_plane) } -> std::same_as<PlaneRef>;
   /// The plane through the eye and two points; its front is inside a loop with an edge from the
   /// first to the second that is counter-clockwise seen from the eye.
   { space.add_ray_plane(from, from) } -> std::same_as<RayPlaneRef>;

@@ -40,6 +40,18 @@ class CoordinateImageArithmetic {
     }
     return result;
   }
+  Vector position(const std::array<mpq_class, 3>& grid) const {
+    Vector result;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const mpq_class x = geometry_->origin[k] + geometry_->step * grid[k];
+      if constexpr (kExact) {
+        result[k] = x;
+      } else {
+        result[k] = static_cast<T>(x.get_d());
+      }
+    }
+    return result;
+  }
   T number(std::int64_t value) const {
     if constexpr (kExact) {
       return mpq_class(static_cast<long>(value));

@@ -69,6 +69,15 @@ PlaneRef ImplicitImageSpace<Stats>::add_shadow_plane(ImageLight light, VertexId 
 }
 
 template <class Stats>
+PlaneRef ImplicitImageSpace<Stats>::add_grid_plane(const GridPlane& plane) {
+  Source source;
+  source.kind = Source::Kind::kGrid;
+  source.support = static_cast<PlaneId>(grid_planes_.size());
+  grid_planes_.push_back(plane);
+  return PlaneRef(add(planes_, source));
+}
+
+template <class Stats>
 RayPlaneRef ImplicitImageSpace<Stats>::add_ray_plane(ImagePoint from, ImagePoint to) {
   Source source;
   source.kind = Source::Kind::kRay;
@@ -83,30 +92,51 @@ auto ImplicitImageSpace<Stats>::exact(const Source& source) const -> ExactSource
   const ExactGeometry<Int> exact(*geometry_);
   if (source.kind == Source::Kind::kSupport) {
     return {exact.template normal<Int>(source.support),
-            exact.position(geometry_->planes[source.support].a)};
+            exact.position(geometry_->planes[source.support].a),
+            {}};
+  }
+  if (source.kind == Source::Kind::kGrid) {
+    const GridPlane& plane = grid_planes_[source.support];
+    return {integers<Int>(plane.n), {}, integer_from<Int>(plane.d)};
   }
   if (source.kind == Source::Kind::kShadow) {
     const Vector3<Int> a = point<Int>(source.from), b = point<Int>(source.to);
     const LightPoint& light = lights_[source.light.index];
     const Vector3<Int> at = integers<Int>(light.grid);
-    return {cross(light.directional ? at : difference(at, a), difference(b, a)), a};
+    return {cross(light.directional ? at : difference(at, a), difference(b, a)), a, {}};
   }
   const Vector3<Int> eye = integers<Int>(frame_.eye.grid);
   const auto seen = [&](const ImagePoint& of) {
     return is_direction(of) ? point<Int>(of) : difference(point<Int>(of), eye);
   };
-  return {cross(seen(source.to), seen(source.from)), eye};
+  return {cross(seen(source.to), seen(source.from)), eye, {}};
 }
 
-/// Signed bits of the plane's value at a position.
+/// Of the largest component of its normal.
+template <class Stats>
+unsigned ImplicitImageSpace<Stats>::grid_plane_bits(const Source& source) const {
+  return bits_of(grid_planes_[source.support].n);
+}
+
+/// Signed bits of the plane's value at a position, and of its offset.
 template <class Stats>
 unsigned ImplicitImageSpace<Stats>::value_bits(const Plane& plane) const {
+  if (plane.source.kind == Source::Kind::kGrid) {
+    // Three products, a difference, a sign.
+    return std::max(grid_plane_bits(plane.source) + grid_bits_ + 2,
+                    bits_of(grid_planes_[plane.source.support].d)) +
+           2;
+  }
   return plane.has_direction ? 2 * grid_bits_ + direction_bits_ + 3
                              : side_of_support_bits(grid_bits_);
 }
 
 template <class Stats>
 unsigned ImplicitImageSpace<Stats>::coverage_bits(const Plane& plane) const {
+  if (plane.source.kind == Source::Kind::kGrid) {
+    // Its offset is read with it.
+    return std::max(grid_plane_bits(plane.source) + sample_bits_ + 2, value_bits(plane));
+  }
   return plane.has_direction ? image_coverage_bits(grid_bits_, direction_bits_, sample_bits_)
                              : image_coverage_bits(grid_bits_, sample_bits_);
 }
@@ -124,7 +154,7 @@ std::uint32_t ImplicitImageSpace<Stats>::add(std::vector<Plane>& planes, const S
   with_width(narrowest_width(value_bits(plane) + 1), [&]<class Int>() {
     const ExactSource<Int> of = exact<Int>(source);
     const Int at_eye = of.value(integers<Int>(frame_.eye.grid));
-    const Int offset = dot(of.n, of.base);
+    const Int offset = Int(dot(of.n, of.base) + of.d);
     plane.eye_sign = sign_of(at_eye);
     for (std::size_t k = 0; k < 3; ++k) plane.guess.n[k] = to_double_scaled(of.n[k], shift);
     plane.guess.at_eye = to_double_scaled(at_eye, value_shift);
@@ -160,7 +190,10 @@ template <class Stats>
 Sign ImplicitImageSpace<Stats>::side_of_light(PlaneRef ref, ImageLight light) {
   const Plane& plane = planes_[ref.index()];
   const LightPoint& of = lights_[light.index];
-  const unsigned bits = of.directional ? 2 * grid_bits_ + direction_bits_ + 3 : value_bits(plane);
+  unsigned bits = of.directional ? 2 * grid_bits_ + direction_bits_ + 3 : value_bits(plane);
+  if (plane.source.kind == Source::Kind::kGrid) {
+    bits = std::max(grid_plane_bits(plane.source) + direction_bits_ + 3, value_bits(plane));
+  }
   const Sign sign = stages_.exact(narrowest_width(bits), 0, [&]<class, class Int>() {
     const ExactSource<Int> source = exact<Int>(plane.source);
     const Vector3<Int> at = integers<Int>(of.grid);
@@ -250,14 +283,22 @@ Sign ImplicitImageSpace<Stats>::moved(const Plane& q, const Plane& p) {
 }
 
 template <class Stats>
+unsigned ImplicitImageSpace<Stats>::bracket_bits(const Plane& q, const Plane& p) const {
+  if (q.source.kind == Source::Kind::kGrid || p.source.kind == Source::Kind::kGrid) {
+    // The difference of two products.
+    return std::max(coverage_bits(p) + value_bits(q), coverage_bits(q) + value_bits(p)) + 1;
+  }
+  return q.has_direction && p.has_direction
+             ? image_order_bits(grid_bits_, direction_bits_, sample_bits_)
+         : q.has_direction || p.has_direction
+             ? image_side_bits(grid_bits_, direction_bits_, sample_bits_)
+             : image_side_bits(grid_bits_, sample_bits_);
+}
+
+template <class Stats>
 Sign ImplicitImageSpace<Stats>::exact_bracket(const Plane& q, const Plane& p,
                                               const std::array<std::int64_t, 3>& d) {
-  const unsigned bits = q.has_direction && p.has_direction
-                            ? image_order_bits(grid_bits_, direction_bits_, sample_bits_)
-                        : q.has_direction || p.has_direction
-                            ? image_side_bits(grid_bits_, direction_bits_, sample_bits_)
-                            : image_side_bits(grid_bits_, sample_bits_);
-  return stages_.exact(narrowest_width(bits), 0, [&]<class, class Int>() {
+  return stages_.exact(narrowest_width(bracket_bits(q, p)), 0, [&]<class, class Int>() {
     const ExactSource<Int> first = exact<Int>(q.source), second = exact<Int>(p.source);
     const Vector3<Int> eye = integers<Int>(frame_.eye.grid), along = along_of<Int>(d);
     return sign_of(Int(Int(dot(second.n, along) * first.value(eye)) -

@@ -35,6 +35,7 @@ class ImplicitImageSpace {
   const ImageFrame& frame() const { return frame_; }
   ImageLight add_light(const LightPoint& light);
   PlaneRef add_shadow_plane(ImageLight light, VertexId a, VertexId b);
+  PlaneRef add_grid_plane(const GridPlane& plane);
   /// Requires: one of the two is no directional light.
   RayPlaneRef add_ray_plane(ImagePoint from, ImagePoint to);
 
@@ -61,11 +62,11 @@ class ImplicitImageSpace {
   StageCounts stage_counts() const { return stages_.counts(); }
 
  private:
-  /// What a plane goes through: three positions, or two and a direction.
+  /// What a plane goes through: three positions, or two and a direction; or its coefficients.
   struct Source {
-    enum class Kind : std::uint8_t { kSupport, kShadow, kRay };
+    enum class Kind : std::uint8_t { kSupport, kShadow, kRay, kGrid };
     Kind kind = Kind::kSupport;
-    PlaneId support = 0;
+    PlaneId support = 0;  // kGrid: into grid_planes_
     ImagePoint from, to;  // kShadow: the edge's vertices; kRay: with the eye
     ImageLight light;     // kShadow
   };
@@ -85,7 +86,8 @@ class ImplicitImageSpace {
   template <class Int>
   struct ExactSource {
     Vector3<Int> n, base;
-    Int value(const Vector3<Int>& x) const { return dot(n, difference(x, base)); }
+    Int d{};  // of the value at the base: -d
+    Int value(const Vector3<Int>& x) const { return Int(dot(n, difference(x, base)) - d); }
   };
 
   static Sign turned(Sign sign, bool flipped) { return flipped ? -sign : sign; }
@@ -108,8 +110,10 @@ class ImplicitImageSpace {
     return {integer_from<Int>(d[0]), integer_from<Int>(d[1]), integer_from<Int>(d[2])};
   }
 
+  unsigned grid_plane_bits(const Source& source) const;
   unsigned value_bits(const Plane& plane) const;
   unsigned coverage_bits(const Plane& plane) const;
+  unsigned bracket_bits(const Plane& q, const Plane& p) const;
   std::uint32_t add(std::vector<Plane>& planes, const Source& source);
   const Direction& look_along(ImageSample sample);
   Sign along(const Plane& plane, ImageSample sample);
@@ -124,6 +128,7 @@ class ImplicitImageSpace {
   unsigned scale_bits_, grid_bits_, sample_bits_, direction_bits_ = 0;
   std::array<std::array<std::int64_t, 3>, 2> moves_;  // R, U
   std::vector<Plane> planes_, ray_planes_;
+  std::vector<GridPlane> grid_planes_;
   std::vector<LightPoint> lights_;
   ImageSample sample_;  // the last one asked for
   Direction direction_;

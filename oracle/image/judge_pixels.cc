@@ -127,7 +127,8 @@ class PixelJudge {
       wrong.light = claims_.lights[l];
       wrong.claimed_lit = (claims_.lit_by[s] >> l & 1) != 0;
       if (truth.casters[l]) wrong.caster = view_.scene().parts[*truth.casters[l]].polygon;
-      wrong.clearance = clearance_of_light(l, seen, ray);
+      wrong.by_rows = is_right_where_it_looks(l, seen, ray, wrong.claimed_lit);
+      if (!wrong.by_rows) wrong.clearance = clearance_of_light(l, seen, ray);
       counts.samples.push_back(wrong);
     }
   }
@@ -161,6 +162,17 @@ class PixelJudge {
     return decide(view_.scene(), *lights_[l], seen.part, point).clearance;
   }
 
+  /// On a border the candidate may say either.
+  bool is_right_where_it_looks(std::size_t l, const Seen& seen, const SampleRay& ray,
+                               bool claimed_lit) {
+    if (!options_.stands_for || !lit_[l]->faces(seen.part)) return false;
+    const auto point = options_.stands_for(claims_.lights[l], seen.part,
+                                           seen_point(view_, seen_.plane(seen.part), ray));
+    if (!point) return false;
+    const Visibility there = lit_[l]->at_point(seen.part, *point).visibility;
+    return there == Visibility::kBoundary || (there == Visibility::kLit) == claimed_lit;
+  }
+
   void add(Counts counts) {
     const std::lock_guard lock(mutex_);
     report_.judged += counts.judged;
@@ -179,9 +191,11 @@ class PixelJudge {
   }
   /// The worst is that of the largest clearance; of equals the first of the picture.
   void add(const WrongSample& wrong) {
-    ++(wrong.clearance && *wrong.clearance < options_.clearance ? report_.ill_conditioned : plain_);
+    ++(wrong.by_rows                                              ? report_.by_rows
+       : wrong.clearance && *wrong.clearance < options_.clearance ? report_.ill_conditioned
+                                                                  : plain_);
     const auto key = [](const WrongSample& w) {
-      return std::tuple(-w.clearance.value_or(-1), w.j, w.i, w.light.value_or(0));
+      return std::tuple(w.by_rows, -w.clearance.value_or(-1), w.j, w.i, w.light.value_or(0));
     };
     if (!report_.worst || key(wrong) < key(*report_.worst)) report_.worst = wrong;
   }

@@ -80,6 +80,11 @@ void add_notes(const Scene& scene, const JudgedPicture& picture, TextTable& tabl
   } else if (!report.reason.empty()) {
     table.add_note("why: " + report.reason);
   }
+  if (report.by_rows > 0) {
+    table.add_note(grouped(report.by_rows) + " of the wrong " +
+                   (report.by_rows == 1 ? "is" : "are") +
+                   " within half a row of a border: right in the middle of the row");
+  }
   if (report.step > 1) {
     table.add_note(
         "one in " + grouped(report.step) + " of its " + grouped(report.samples) +
@@ -143,6 +148,7 @@ class CertificateWriter {
     json_.member("wrong", report.wrong);
     json_.member("wrong_polygon", report.wrong_polygon);
     json_.member("ill_conditioned", report.ill_conditioned);
+    json_.member("by_rows", report.by_rows);
     json_.key("wrong_of_lights");
     json_.begin_object(JsonLayout::kInline);
     for (std::size_t l = 0; l < picture.lights.size(); ++l) {

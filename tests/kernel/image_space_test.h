@@ -129,9 +129,47 @@ TYPED_TEST_P(ImageSpaceOf, ShadowPlanesHaveTheInsideInFront) {
   }
 }
 
-REGISTER_TYPED_TEST_SUITE_P(ImageSpaceOf, ATieLeavesThePlaneOfTheSampleAsItIs,
-                            OneOfTwoNeighboursCoversASample, ARayLeavesAPlaneThatHoldsTheEye,
-                            ShadowPlanesHaveTheInsideInFront);
+/// A plane by its coefficients is the same plane as by its points, and is turned as they say.
+TYPED_TEST_P(ImageSpaceOf, APlaneOfTheGridIsWhatItsCoefficientsSay) {
+  const PreparedView view = view_of(
+      {{{-9, -9, 8}, {9, -9, 8}, {9, 9, 10}, {-9, 9, 10}}, {{-1, -3, 4}, {2, 3, 7}, {-2, 2, 5}}},
+      {0, 0, 0}, along_z(9, 9));
+  TypeParam space(view.scene.geometry, view.frame, {});
+  const PlaneRef on(view.scene.parts[0].plane), same(view.scene.parts[1].plane);
+  const SupportTriple& triple = view.scene.geometry.planes[same.index()];
+  const auto at = [&](VertexId v) {
+    const GridPositions& grid = view.scene.geometry.grid;
+    return std::array<mpz_class, 3>{grid.at(v, 0), grid.at(v, 1), grid.at(v, 2)};
+  };
+  const auto a = at(triple.a), b = at(triple.b), c = at(triple.c);
+  GridPlane plane;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+    plane.n[k] = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
+    plane.d += plane.n[k] * a[k];
+  }
+  for (const int factor : {1, 7, -3}) {
+    GridPlane scaled = plane;
+    for (mpz_class& n : scaled.n) n *= factor;
+    scaled.d *= factor;
+    const PlaneRef added = space.add_grid_plane(scaled);
+    const PlaneRef other = factor > 0 ? same : -same;
+    EXPECT_EQ(space.side_of_eye(added), space.side_of_eye(other));
+    for (std::uint32_t i = 0; i < 9; ++i) {
+      for (std::uint32_t j = 0; j < 9; ++j) {
+        EXPECT_EQ(space.side_at_sample(added, on, {i, j}), space.side_at_sample(other, on, {i, j}));
+        EXPECT_EQ(space.heading(added, {i, j}), space.heading(other, {i, j}));
+      }
+    }
+    for (const VertexId v : view.scene.loop(view.scene.parts[0])) {
+      EXPECT_EQ(space.side_of_vertex(added, v), space.side_of_vertex(other, v));
+    }
+  }
+}
+
+REGISTER_TYPED_TEST_SUITE_P(ImageSpaceOf, APlaneOfTheGridIsWhatItsCoefficientsSay,
+                            ATieLeavesThePlaneOfTheSampleAsItIs, OneOfTwoNeighboursCoversASample,
+                            ARayLeavesAPlaneThatHoldsTheEye, ShadowPlanesHaveTheInsideInFront);
 
 /// Exact spaces alone: every answer is that of a sample that is moved by 2^-60 of R and 2^-120 of
 /// U, in integers.

@@ -36,6 +36,7 @@ enum class MethodId : std::uint8_t {
   kZbuffer,
   kShadowPolygons,
   kScanOut,
+  kRidgeEdges,
 };
 
 /// Where a method finds its regions: on the polygons themselves, or in a picture of them.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The options of methods: `--algorithm NAME[:option=value,...]`. No option changes a class or an
-// area, but for `count` of shadow-polygons, which shows where graphics hardware is wrong; they
-// change the work, and how the answer is put out.
+// area, but for `count` of shadow-polygons, which shows where graphics hardware is wrong, and for
+// `rows` and `interpolation` of ridge-edges, which show what a table of rows costs; they change the
+// work, and how the answer is put out.
 #ifndef GNOMON_ALGORITHMS_METHOD_OPTIONS_H
 #define GNOMON_ALGORITHMS_METHOD_OPTIONS_H
 
@@ -65,12 +66,29 @@ enum class ListsBy : std::uint8_t { kAll, kSectors, kTiles };
 /// as Crow (1977) has it, or its whole outline, which then overlaps the blots before it.
 enum class Outlines : std::uint8_t { kPartial, kWhole };
 
+/// How crossings of a ridge loop with a row of the angular table become spans: each arc of the loop
+/// above the row is a pair, found from its peaks downwards (Thakur, Cheng & Miura, section 3.2), or
+/// all crossings are sorted and their senses summed.
+enum class Pairing : std::uint8_t { kPeaks, kSigned };
+
+/// Which faces of an object tell how far away it is: those that the light does not see, as the
+/// paper has it (section 3.3), or those that it sees.
+enum class TableDepth : std::uint8_t { kHidden, kFacing };
+
+/// How the distance of a face is found between its two edges in a row: by its plane, or linear in
+/// the angle, as the paper allows for small spans.
+enum class Interpolation : std::uint8_t { kPlane, kLinear };
+
+/// How much of all directions tables hold: those on one side of the light, or all of them in six
+/// pyramids.
+enum class Hemisphere : std::uint8_t { kOne, kCube };
+
 /// Each method reads its own of them (Method::options).
 struct MethodOptionValues {
   Cover cover = Cover::kPartition;
   bool prune = true;          // basic, tiling: covered targets cast nothing, volumes may die
   std::uint32_t tiles = 128;  // tiling: so many rows and columns on each face
-  InsertionOrder order = InsertionOrder::kNearFirst;  // svbsp-full, zbuffer
+  InsertionOrder order = InsertionOrder::kNearFirst;  // svbsp-full, zbuffer, ridge-edges
   Roots roots = Roots::kChosen;                       // basic, tiling, svbsp
   bool cells = true;                                  // two-pass: in cells of light space
   CellSplit split = CellSplit::kAxis;                 // sectors
@@ -92,6 +110,13 @@ struct MethodOptionValues {
   // blots:
   bool sectors = true;  // the blots and what is to come in cells of light space
   Outlines outlines = Outlines::kPartial;
+  // ridge-edges:
+  static constexpr std::uint32_t kExactRows = 0;  // no rows: what lies between two vertices
+  std::uint32_t rows = 600;                       // of the angular table, or kExactRows
+  Pairing pairing = Pairing::kPeaks;
+  TableDepth depth = TableDepth::kHidden;
+  Interpolation interpolation = Interpolation::kPlane;
+  Hemisphere hemisphere = Hemisphere::kOne;
   friend bool operator==(const MethodOptionValues&, const MethodOptionValues&) = default;
 };
 

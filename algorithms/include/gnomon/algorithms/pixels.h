@@ -29,6 +29,7 @@ struct PixelOptions {
   std::vector<std::uint32_t> lights;     // indices into PreparedScene::lights; empty: all
   bool stage_counts = false;             // Pixels::stages (kernel plane)
   bool caster_counts = false;            // Pixels::casters, of methods that count them
+  const Scene* scene = nullptr;          // its polygons' names for errors; null: their numbers
   unsigned jobs = 0;                     // threads; 0: as many as processors
   RunControl control;                    // light_done is not called
 };
@@ -51,13 +52,16 @@ struct Pixels {
   WorkCounts work;
   StageCounts stages;
   double seconds = 0;  // CPU time
+  // Of these, of methods with an angular table: what it took to make it, and to look things up.
+  double table_seconds = 0, lookup_seconds = 0;
 
   std::size_t index(ImageSample sample) const { return std::size_t{sample.j} * width + sample.i; }
 };
 
 /// Requires: `frame` was prepared with the scene (gnomon/scene/camera.h). Errors: kUsage (an area
 /// light, no such light, a kernel that was not built, a method that makes no fragments), kLimit
-/// (more than 64 lights), kInterrupted, and those of compute_shadows() for methods of object space.
+/// (more than 64 lights), kGeometry (a scene that the method does not take), kInterrupted, and
+/// those of compute_shadows() for methods of object space.
 Expected<Pixels> compute_pixels(const PreparedScene& scene, const ImageFrame& frame,
                                 const PixelOptions& options);
 

@@ -68,8 +68,16 @@ enum class Counter : std::uint8_t {
   kAbsorbed,         // of these, dropped since a later one holds them
   kBlotCuts,         // sub-objects, or polygons of them, cut by a blot
   kBoxShortcuts,     // sub-objects decided as a whole: before all blots, or inside one
+  kRidgeLoops,       // of the outlines of objects
+  kTableRows,        // of angular tables
+  kTableSpans,       // of shadow, in all rows of them
+  kTableStretches,   // of faces that tell distances, in all rows of them
+  kTableBytes,       // memory of angular tables
+  kLookUps,          // rows fetched from an angular table
+  kSpanTests,        // pairs of samples in one row and a span of it
+  kStretchTests,     // pairs of samples in one row and a stretch of it
 };
-inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kBoxShortcuts) + 1;
+inline constexpr std::size_t kCounterCount = static_cast<std::size_t>(Counter::kStretchTests) + 1;
 
 /// How the counts of two lights, or of two parts of one run, make one.
 enum class CountKind : std::uint8_t { kSum, kMost };

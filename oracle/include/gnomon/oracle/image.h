@@ -20,10 +20,16 @@
 #include <vector>
 
 #include "gnomon/oracle/verdict.h"
+#include "gnomon/result/claims.h"
 #include "gnomon/result/pixel_claims.h"
 #include "gnomon/scene/camera.h"
 
 namespace gnomon::oracle {
+
+/// Which point a candidate takes for a point of a part under a light (index into Scene::lights);
+/// none where it takes the point itself.
+using PointTaken = std::function<std::optional<RationalPoint>(
+    std::uint32_t light, std::uint32_t part, const RationalPoint& point)>;
 
 struct ImageOptions {
   double clearance = 0;  // scene units; wrong samples below it are ill-conditioned
@@ -33,7 +39,10 @@ struct ImageOptions {
   /// of U, in integers. For our own exact kernels, whose ties are defined; nobody else has to know
   /// them.
   bool moves_ties = false;
-  double most_boundary = 0.02;                     // of the samples judged, for a verdict
+  double most_boundary = 0.02;  // of the samples judged, for a verdict
+  /// Of a candidate that takes points for others of the same plane. A claim that is wrong for the
+  /// sample and right there is told apart (ImageReport::by_rows).
+  PointTaken stands_for;
   std::function<void(double)> progress;            // 0..1; called from one thread at a time
   const std::atomic<bool>* interrupted = nullptr;  // checked between rows
 };
@@ -48,11 +57,13 @@ struct WrongSample {
   bool claimed_lit = false;             // of that light
   std::optional<std::uint32_t> caster;  // polygon that decides, if one does
   std::optional<double> clearance;      // scene units: how far one vertex must move to change it
+  bool by_rows = false;                 // right for the point that stands for the sample
 };
 
 struct ImageReport {
   std::string candidate;
   Verdict verdict = Verdict::kIdentical;  // kWithinTolerance: all wrong samples are ill-conditioned
+                                          // or by rows
   std::string reason;                     // of a failure, one sentence
   std::uint64_t samples = 0;              // of the picture
   std::uint64_t step = 1;                 // every so many were looked at
@@ -61,6 +72,8 @@ struct ImageReport {
   std::uint64_t wrong = 0, wrong_polygon = 0;  // samples
   std::vector<std::uint64_t> wrong_of_light;   // samples, by the claims' lights
   std::uint64_t ill_conditioned = 0;           // of the wrong ones
+  std::uint64_t by_rows = 0;                   // of the wrong claims: right nearby, where the
+                                               // candidate looks (ImageOptions::stands_for)
   std::optional<WrongSample> worst;            // of the largest clearance
   bool interrupted = false;
 
