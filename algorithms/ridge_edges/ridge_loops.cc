@@ -8,32 +8,11 @@
 #include "algorithms/ridge_edges/ridge_arcs.h"
 #include "algorithms/ridge_edges/separate_loops.h"
 #include "gnomon/algorithms/components.h"
-#include "scene/base/vectors.h"
+#include "gnomon/algorithms/facing_sides.h"
 
 namespace gnomon {
 
 namespace {
-
-/// The side of each part that faces the light; kOn where none does.
-std::vector<Side> facing_of(const PreparedScene& scene, const LightPoint& light) {
-  const auto point = [&](VertexId vertex) {
-    return DirectionVector{scene.geometry.grid.at(vertex, 0), scene.geometry.grid.at(vertex, 1),
-                           scene.geometry.grid.at(vertex, 2)};
-  };
-  std::vector<Side> facing;
-  facing.reserve(scene.parts.size());
-  for (const Part& part : scene.parts) {
-    const SupportTriple& plane = scene.geometry.planes[part.plane];
-    const DirectionVector a = point(plane.a);
-    const DirectionVector normal = cross(minus(point(plane.b), a), minus(point(plane.c), a));
-    Sign sign =
-        sign_of(mpz_class(dot(normal, light.directional ? light.grid : minus(light.grid, a))));
-    if (part.flipped) sign = -sign;
-    const bool turns_away = sign == Sign::kNegative && !part.two_sided;
-    facing.push_back(turns_away ? Side::kOn : side_of(sign));
-  }
-  return facing;
-}
 
 RidgeLoop described(const PreparedScene& scene, const StretchLoop& strung,
                     std::span<const Stretch> stretches, const RidgeArcs& arcs,
@@ -106,7 +85,7 @@ Expected<std::vector<RidgeLoops>> ridge_loops(const Scene& scene, const Prepared
                 "a point or directional light");
   }
   const LightPoint& point = prepared.lights[light].point;
-  const std::vector<Side> facing = facing_of(prepared, point);
+  const std::vector<Side> facing = facing_sides(prepared, point);
   const LightDirections directions(prepared.geometry, point);
   const std::vector<Component> components = find_components(prepared);
   std::vector<RidgeLoops> result;
