@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "algorithms/angular_table/angular_table.h"
-#include "algorithms/ridge_edges/facing_sides.h"
+#include "gnomon/algorithms/facing_sides.h"
 #include "scene/base/vectors.h"
 
 namespace gnomon {

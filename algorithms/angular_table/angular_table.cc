@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "algorithms/angular_table/row_spans.h"
-#include "algorithms/ridge_edges/facing_sides.h"
+#include "gnomon/algorithms/facing_sides.h"
 
 namespace gnomon {
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "algorithms/angular_table/solid_checks.h"
-#include "algorithms/ridge_edges/facing_sides.h"
+#include "gnomon/algorithms/facing_sides.h"
 
 namespace gnomon {
 

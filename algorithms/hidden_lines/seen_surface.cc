@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "algorithms/facing_chain/contour.h"
-#include "gnomon/algorithms/hidden_lines.h"
 
 namespace gnomon {
 
@@ -33,15 +32,6 @@ Side facing_side(const Part& part, int viewer_side) {
 }
 
 }  // namespace
-
-std::vector<Side> facing_sides(const PreparedScene& scene, const PreparedLight& light) {
-  const std::vector<int> sides =
-      viewer_sides(scene.geometry, ViewSigns(scene.geometry, light.point));
-  std::vector<Side> facing;
-  facing.reserve(scene.parts.size());
-  for (const Part& part : scene.parts) facing.push_back(facing_side(part, sides[part.plane]));
-  return facing;
-}
 
 SeenSurface::SeenSurface(const PreparedScene& scene, const PreparedLight& light)
     : scene_(scene), signs_(scene.geometry, light.point), near_(scene.geometry, light.point) {

@@ -3,12 +3,12 @@
 
 #include <utility>
 
-#include "algorithms/ridge_edges/facing_sides.h"
 #include "algorithms/ridge_edges/light_directions.h"
 #include "algorithms/ridge_edges/loop_depth.h"
 #include "algorithms/ridge_edges/ridge_arcs.h"
 #include "algorithms/ridge_edges/separate_loops.h"
 #include "gnomon/algorithms/components.h"
+#include "gnomon/algorithms/facing_sides.h"
 
 namespace gnomon {
 
@@ -85,7 +85,7 @@ Expected<std::vector<RidgeLoops>> ridge_loops(const Scene& scene, const Prepared
                 "a point or directional light");
   }
   const LightPoint& point = prepared.lights[light].point;
-  const std::vector<Side> facing = facing_sides(prepared, signs_at_light(prepared, point));
+  const std::vector<Side> facing = facing_sides(prepared, point);
   const LightDirections directions(prepared.geometry, point);
   const std::vector<Component> components = find_components(prepared);
   std::vector<RidgeLoops> result;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/commands/certify_corpus.h"
+#include "cli/commands/certify_export.h"
 #include "cli/commands/certify_pixels.h"
 #include "cli/commands/certify_report.h"
 #include "cli/commands/certify_samples.h"
@@ -65,6 +66,7 @@ struct CertifyCommandOptions {
   bool combined = false;
   ReportOptions report;
   std::string json;
+  std::vector<std::string> exports;
   CorpusCommandOptions corpus;  // what certify_corpus.h needs besides
   YearOptions suns;             // of candidates that are tables
   TableOptionRules table_rules;
@@ -356,6 +358,7 @@ Expected<void> check_picture_options(const CertifyCommandOptions& options) {
        {std::pair("--candidate", !options.candidates.empty()),
         std::pair("--explain", options.explain), std::pair("--combined", options.combined),
         std::pair("--report or --junit", options.report.asked()),
+        std::pair("--export", !options.exports.empty()),
         std::pair("--leaks", options.leaks.has_value()),
         std::pair("--width", options.width.has_value()),
         std::pair("--tolerance", options.tolerance.has_value())}) {
@@ -416,6 +419,9 @@ int run_certify(const CertifyCommandOptions& options) {
     return report_error(checked.error());
   }
   if (tables > 0) return run_tables(options);
+  if (auto checked = check_certify_exports(options.exports); !checked) {
+    return report_error(checked.error());
+  }
   auto algorithms = chosen_algorithms(options);
   if (!algorithms) return report_error(algorithms.error());
   const ThreadLimit threads(options.scene.jobs);
@@ -458,6 +464,9 @@ int run_certify(const CertifyCommandOptions& options) {
     if (!output) return report_error(output.error());
     report::write_certificate_json(*output, run.certificate(), options.times);
     if (auto done = output->finish(); !done) return report_error(done.error());
+  }
+  if (auto done = write_certify_exports(options.exports, *loaded, run.certificate()); !done) {
+    return report_error(done.error());
   }
   if (options.report.asked()) {
     const auto done = write_certificate_report(options.report, *loaded, run.certificate(),
@@ -612,6 +621,7 @@ void add_certify_command(CLI::App& app, Action& action) {
   add_report_options(command, options->report);
   command.add_option("--json", options->json, "Write the verdicts as JSON; - is standard output")
       ->type_name("FILE");
+  add_certify_export_option(command, options->exports);
   repeatable(command.add_option("--pixels", options->pixel_files,
                                 "A file gnomon-pixels to judge, sample by sample (repeatable)"))
       ->type_name("FILE");

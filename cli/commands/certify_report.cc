@@ -189,6 +189,8 @@ report::JUnitCase junit_case_of(const report::JudgedRun& run, const std::string&
   return one;
 }
 
+}  // namespace
+
 Expected<ShadowResult> exact_result(const LoadedScene& loaded, const AlgorithmChoice& algorithm) {
   ShadowOptions options;
   algorithm.apply(options.method);
@@ -197,8 +199,6 @@ Expected<ShadowResult> exact_result(const LoadedScene& loaded, const AlgorithmCh
   options.control.interrupted = &interrupted();
   return compute_shadows(loaded.prepared, options);
 }
-
-}  // namespace
 
 Expected<Claims> exact_fragments(const LoadedScene& loaded, const AlgorithmChoice& algorithm) {
   const auto result = exact_result(loaded, algorithm);
@@ -238,7 +238,7 @@ Expected<void> write_certificate_report(const ReportOptions& options, const Load
     report.notes.emplace_back("The run was interrupted: what was not reached is missing.");
     return write_report(options, report);
   }
-  const auto result = exact_result(loaded, {});
+  const auto result = exact_result(loaded);
   if (!result) return tl::unexpected(result.error());
   const Claims exact = report::claims_of(loaded.scene, loaded.prepared, *result, "exact", false);
   add_pictures(report, loaded, certificate, candidates, exact);

@@ -9,6 +9,7 @@
 #include "cli/common/algorithm_choice.h"
 #include "cli/common/report_output.h"
 #include "cli/common/scene_options.h"
+#include "gnomon/algorithms/shadow_result.h"
 #include "gnomon/result/claims.h"
 #include "report/certificate/certificate.h"
 
@@ -21,8 +22,11 @@ Expected<void> write_certificate_report(const ReportOptions& options, const Load
                                         const report::Certificate& certificate,
                                         const std::vector<Claims>& candidates, bool times);
 
-/// The exact answer of the chosen lights as the kernel `plane` has it, for pictures. Errors:
+/// The exact answer of the chosen lights as the kernel `plane` has it, with points. Errors:
 /// kInterrupted, kLimit.
+Expected<ShadowResult> exact_result(const LoadedScene& loaded,
+                                    const AlgorithmChoice& algorithm = {});
+/// The same as claims, for pictures.
 Expected<Claims> exact_fragments(const LoadedScene& loaded, const AlgorithmChoice& algorithm = {});
 
 }  // namespace gnomon::cli

@@ -14,6 +14,7 @@
 #include "cli/common/messages.h"
 #include "cli/common/output.h"
 #include "cli/common/scene_options.h"
+#include "gnomon/algorithms/facing_sides.h"
 #include "gnomon/algorithms/hidden_lines.h"
 #include "gnomon/scene/digest.h"
 #include "report/lines/lines_json.h"
@@ -100,7 +101,7 @@ class LinesRun {
     drawn_.camera = camera;
     drawn_.geometry = geometry_digest(loaded_.scene);
     const PreparedLight& eye = prepared_.lights.back();
-    drawn_.edges = outline_edges(prepared_, facing_sides(prepared_, eye));
+    drawn_.edges = outline_edges(prepared_, facing_sides(prepared_, eye.point));
     for (const OutlineEdge& edge : drawn_.edges) edges_.push_back(edge.edge);
     auto seen = count("eye", eye);
     if (!seen) return tl::unexpected(std::move(seen.error()));

@@ -7,9 +7,9 @@
 
 #include "cli/common/interrupt.h"
 #include "gnomon/algorithms/facing_chain.h"
+#include "gnomon/algorithms/facing_sides.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/result/read_claims.h"
-#include "report/facts/facing.h"
 #include "report/sides/claims_of.h"
 
 namespace gnomon::cli {
@@ -41,8 +41,7 @@ Expected<Claims> lights_together(const LoadedScene& loaded, const std::string& r
 std::vector<std::vector<report::Point>> shadow_polygons(const PreparedScene& prepared,
                                                         std::uint32_t light) {
   const LightPoint& point = prepared.lights[light].point;
-  const FacingChain chain = facing_chain(
-      prepared, report::facing_sides(prepared, report::signs_at_light(prepared, point)));
+  const FacingChain chain = facing_chain(prepared, facing_sides(prepared, point));
   report::Point low{}, high{};
   bool is_first = true;
   for (const VertexId v : prepared.loop_vertices) {

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "report/text/number_text.h"
+#include "scene/base/ascii_case.h"
 
 namespace gnomon::comparison {
 
@@ -32,16 +33,11 @@ std::int32_t digit_count(std::uint32_t mantissa) {
   return count;
 }
 
-bool equals_in_lower_case(std::string_view text, std::string_view lower) {
-  return std::equal(text.begin(), text.end(), lower.begin(), lower.end(),
-                    [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
-}
-
 std::optional<WrittenNumber> parse_word(std::string_view text, bool negative) {
   WrittenNumber number;
-  if (equals_in_lower_case(text, "nan")) {
+  if (same_word(text, "nan")) {
     number.value = std::numeric_limits<double>::quiet_NaN();
-  } else if (equals_in_lower_case(text, "inf") || equals_in_lower_case(text, "infinity")) {
+  } else if (same_word(text, "inf") || same_word(text, "infinity")) {
     number.value = std::numeric_limits<double>::infinity() * (negative ? -1 : 1);
   } else {
     return std::nullopt;

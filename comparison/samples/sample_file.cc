@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scene/base/ascii_case.h"
 #include "scene/base/text_file.h"
 
 namespace gnomon::comparison {
@@ -24,12 +25,6 @@ std::string ids_of(const std::vector<Entry>& entries) {
   return text + (entries.size() > kExamples ? ", ..." : "");
 }
 
-bool equals_in_lower_case(std::string_view text, std::string_view lower) {
-  return std::ranges::equal(text, lower, [](char a, char b) {
-    return (a >= 'A' && a <= 'Z' ? a + ('a' - 'A') : a) == b;
-  });
-}
-
 }  // namespace
 
 const std::array<std::string_view, SampleFile::kColumns>& SampleFile::names() {
@@ -47,9 +42,8 @@ bool is_sample_file(const std::filesystem::path& file) {
   const auto head = csv->next();
   if (!head || !*head) return false;
   const auto has = [&](std::string_view name) {
-    return std::ranges::any_of(csv->fields(), [&](const CsvField& field) {
-      return equals_in_lower_case(field.text, name);
-    });
+    return std::ranges::any_of(csv->fields(),
+                               [&](const CsvField& field) { return same_word(field.text, name); });
   };
   return has("light") && has("visible") && has("x") && has("y");
 }
@@ -89,7 +83,7 @@ Expected<void> SampleFile::read_head() {
   for (std::size_t i = 0; i < columns_; ++i) {
     const std::string_view text = csv_.fields()[i].text;
     const auto name = std::ranges::find_if(
-        names(), [&](std::string_view known) { return equals_in_lower_case(text, known); });
+        names(), [&](std::string_view known) { return same_word(text, known); });
     if (name == names().end()) {
       passed_over_.emplace_back(text);
       continue;

@@ -29,6 +29,9 @@ namespace gnomon::python {
 
 namespace {
 
+/// Arrays and words by name.
+using Record = nb::typed<nb::dict, nb::str, nb::any>;
+
 /// Scenes never change, but nanobind's holders know no const.
 using SceneHandle = std::shared_ptr<LoadedScene>;
 SceneHandle handle(LoadedScenePtr scene) { return std::const_pointer_cast<LoadedScene>(scene); }
@@ -106,7 +109,7 @@ std::int64_t in_utc(suns::CivilTime time, suns::Minutes zone) {
 }
 
 /// Azimuths, altitudes and millionths of directions, by name.
-nb::dict sun_arrays(const std::vector<suns::SunTime>& times) {
+Record sun_arrays(const std::vector<suns::SunTime>& times) {
   std::vector<double> azimuth, altitude, direction;
   for (const suns::SunTime& sun : times) {
     azimuth.push_back(sun.angles.azimuth);
@@ -120,8 +123,8 @@ nb::dict sun_arrays(const std::vector<suns::SunTime>& times) {
   return arrays;
 }
 
-nb::dict year_of(const LoadedScene& loaded, const suns::AskedSuns& asked, bool gross,
-                 const RunNames& names) {
+Record year_of(const LoadedScene& loaded, const suns::AskedSuns& asked, bool gross,
+               const RunNames& names) {
   Year found = value_or_raise(interruptibly(
       [&](const std::atomic<bool>& stop) { return year(loaded, asked, gross, names, stop); }));
   const suns::Minutes zone = found.asked.place.zone;
@@ -141,8 +144,8 @@ nb::dict year_of(const LoadedScene& loaded, const suns::AskedSuns& asked, bool g
 }
 
 /// `times`: seconds since 1970 in UTC.
-nb::dict suns_at_times(double latitude, double longitude, const Integers& times, double elevation,
-                       double north, const std::string& model, bool refraction) {
+Record suns_at_times(double latitude, double longitude, const Integers& times, double elevation,
+                     double north, const std::string& model, bool refraction) {
   suns::AskedSuns asked;
   asked.sun_model = model;
   value_or_raise(suns::check_asked_suns(asked));
@@ -173,7 +176,7 @@ LightState state_by_name(const std::string& name) {
   return *state;
 }
 
-nb::dict fragment_arrays(const Shadows& shadows) {
+Record fragment_arrays(const Shadows& shadows) {
   FragmentArrays arrays = shadows.fragments();
   const std::size_t count = arrays.light.size(), points = arrays.points.size() / 3;
   nb::dict result;
@@ -213,8 +216,8 @@ void add_records(nb::module_& module) {
       .def_rw("elevation", &suns::AskedSuns::elevation, nb::arg().none())
       .def_rw("north", &suns::AskedSuns::north, nb::arg().none())
       .def_rw("year", &suns::AskedSuns::year)
-      .def_rw("from_", &suns::AskedSuns::from)
-      .def_rw("to", &suns::AskedSuns::to)
+      .def_rw("first", &suns::AskedSuns::from)
+      .def_rw("last", &suns::AskedSuns::to)
       .def_rw("step", &suns::AskedSuns::step)
       .def_rw("sun_at", &suns::AskedSuns::sun_at)
       .def_rw("sun_model", &suns::AskedSuns::sun_model)

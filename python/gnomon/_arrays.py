@@ -4,16 +4,21 @@ contiguous and of the right type already."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from ._errors import Error
 
-Doubles = npt.NDArray[np.float64]
-Integers = npt.NDArray[np.int64]
+# What types alone need, and what few calls do, is not imported with the module: it starts sooner.
+if TYPE_CHECKING:
+    from fractions import Fraction
+    from typing import TypeAlias
+
+    import numpy.typing as npt
+
+    Doubles: TypeAlias = npt.NDArray[np.float64]
+    Integers: TypeAlias = npt.NDArray[np.int64]
 
 
 def points(values: npt.ArrayLike, name: str) -> Doubles:
@@ -91,6 +96,8 @@ def fraction_or_float(text: str) -> Fraction | float | None:
     if not text:
         return None
     if "/" in text or text.lstrip("-").isdigit():
+        from fractions import Fraction
+
         return Fraction(text)
     return float(text)
 

@@ -2,14 +2,12 @@
 """Scenes, and what is asked of them."""
 from __future__ import annotations
 
-import json
 import os
 import warnings
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _arrays, _native
 from ._errors import Error, SceneWarning
@@ -17,6 +15,7 @@ from ._shadows import Shadows
 from ._verdict import Verdict
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
     import xarray
 
 Numbers = Literal["double", "decimal"]
@@ -229,7 +228,7 @@ class Scene:
         asked.tz = "" if tz is None else str(tz)
         asked.epw = "" if epw is None else os.fspath(epw)
         asked.elevation, asked.north = elevation, north
-        asked.year, asked.from_, asked.to, asked.step = year, from_, to, step
+        asked.year, asked.first, asked.last, asked.step = year, from_, to, step
         asked.sun_at, asked.sun_model, asked.average_days = sun_at, sun_model, average_days
         asked.refraction, asked.pressure, asked.temperature = refraction, pressure, temperature
         found = self._native.year(asked, gross, _names_of_run(kernel, algorithm, jobs))
@@ -300,6 +299,8 @@ class Scene:
             except OSError as error:
                 raise Error(f"{name}: {error.strerror}", code="file", file=name) from error
         elif isinstance(candidate, dict):
+            import json
+
             text = json.dumps(candidate)
         else:
             text, some_left_out = self._told_shares(candidate, self._names_of(asked))
@@ -316,6 +317,8 @@ class Scene:
 
     def _told_shares(self, candidate: npt.ArrayLike, lights: list[str]) -> tuple[str, bool]:
         """A result that tells lit shares alone, and whether it leaves some out."""
+        import json
+
         shares = np.asarray(candidate, dtype=np.float64)
         polygons = self.polygons
         if shares.ndim == 1 and len(lights) == 1:

@@ -2,17 +2,21 @@
 """A classified scene: shares by light and side, fragments as arrays."""
 from __future__ import annotations
 
-import json
 import os
 from dataclasses import dataclass
-from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
-from . import _arrays, _native
+from . import _arrays
 from ._errors import Error
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    import numpy.typing as npt
+
+    from . import _native
 
 #: The classes of fragments; `Fragments.state` counts them from 0.
 STATES = ("lit", "shadow", "penumbra", "umbra")
@@ -59,7 +63,7 @@ class Fragments:
 class Shadows:
     """What Scene.shadows() found."""
 
-    def __init__(self, native: Any) -> None:
+    def __init__(self, native: _native.Shadows) -> None:
         self._native = native
 
     @property
@@ -108,6 +112,8 @@ class Shadows:
                         expected="shadows(..., fragments=True)")
         exact = None
         if self._native.is_exact:
+            from fractions import Fraction
+
             numbers = [Fraction(text) for text in self._native.exact_points()]
             exact = list(zip(numbers[0::3], numbers[1::3], numbers[2::3]))
         return Fragments(exact_points=exact, **self._native.fragments())
@@ -122,12 +128,11 @@ class Shadows:
 
     def to_dict(self) -> dict[str, Any]:
         """The same as a dictionary."""
+        import json
+
         result: dict[str, Any] = json.loads(self.to_json())
         return result
 
     def __repr__(self) -> str:
         return (f"<gnomon.Shadows of {len(self.lights)} lights on {len(self.sides)} sides, "
                 f"{self.kernel}, {self.algorithm}>")
-
-
-assert _native.version

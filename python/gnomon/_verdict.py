@@ -2,7 +2,6 @@
 """What the oracle says of a result."""
 from __future__ import annotations
 
-import json
 from typing import Any
 
 
@@ -13,6 +12,8 @@ class Verdict:
     """
 
     def __init__(self, text: str, document: str) -> None:
+        import json
+
         self._text = text
         #: What `gnomon certify --json` writes (docs/formats.md, "Certificate").
         self.document: dict[str, Any] = json.loads(document)

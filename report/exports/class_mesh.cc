@@ -89,15 +89,11 @@ Expected<std::array<double, 3>> centre_of(std::span<const ResultPiece> pieces) {
   return centre;
 }
 
-template <class Numbers>
-void inline_numbers(JsonWriter& json, const char* key, const Numbers& numbers) {
-  json.key(key);
-  json.begin_array(JsonLayout::kInline);
-  for (const auto number : numbers) json.value(static_cast<double>(number));
-  json.end_array();
-}
-
 using Nodes = std::map<std::pair<std::uint32_t, std::size_t>, ClassNode>;  // by light and class
+
+std::array<double, 3> as_doubles(const std::array<float, 3>& numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
+}
 
 /// `list` of `count` objects; `write(i)` writes the members of one.
 template <class Write>
@@ -113,21 +109,10 @@ void objects(JsonWriter& json, const char* list, std::size_t count, const Write&
 }
 
 void write_materials(JsonWriter& json) {
-  objects(json, "materials", std::size(kClasses), [&](std::size_t i) {
-    const auto& [state, colour] = kClasses[i];
-    json.member("name", name_of(state));
-    json.key("pbrMetallicRoughness");
-    json.begin_object(JsonLayout::kInline);
-    inline_numbers(json, "baseColorFactor", std::array{colour[0], colour[1], colour[2], 1.0});
-    json.member("metallicFactor", 0);
-    json.end_object();
-    json.key("extensions");
-    json.begin_object(JsonLayout::kInline);
-    json.key("KHR_materials_unlit");
-    json.begin_object(JsonLayout::kInline);
-    json.end_object();
-    json.end_object();
-  });
+  json.key("materials");
+  json.begin_array();
+  for (const auto& [state, colour] : kClasses) write_unlit_material(json, name_of(state), colour);
+  json.end_array();
 }
 
 void write_meshes(JsonWriter& json, const std::vector<ClassNode>& nodes, const Nodes& by_class) {
@@ -149,8 +134,8 @@ void write_meshes(JsonWriter& json, const std::vector<ClassNode>& nodes, const N
     json.member("componentType", 5126);
     json.member("count", nodes[i].vertices);
     json.member("type", "VEC3");
-    inline_numbers(json, "min", nodes[i].low);
-    inline_numbers(json, "max", nodes[i].high);
+    inline_array(json, "min", as_doubles(nodes[i].low));
+    inline_array(json, "max", as_doubles(nodes[i].high));
   });
   objects(json, "bufferViews", nodes.size(), [&](std::size_t i) {
     json.member("buffer", 0);
@@ -166,34 +151,18 @@ std::string gltf_json(const std::vector<std::string>& names, const std::vector<C
   {
     JsonWriter json(sink);
     json.begin_object();
-    json.key("asset");
-    json.begin_object(JsonLayout::kInline);
-    json.member("version", "2.0");
-    json.member("generator", "gnomon");
-    json.end_object();
-    json.member("scene", 0);
-    objects(json, "scenes", 1, [&](std::size_t) {
-      if (!nodes.empty()) inline_numbers(json, "nodes", std::array{0});
-    });
+    begin_gltf(json, {}, !nodes.empty());
     if (!nodes.empty()) {
-      json.key("extensionsUsed");
-      json.begin_array(JsonLayout::kInline);
-      json.value("KHR_materials_unlit");
-      json.end_array();
       objects(json, "nodes", nodes.size() + 1, [&](std::size_t i) {
         if (i > 0) {
           json.member("name", names[i - 1]);
           json.member("mesh", i - 1);
           return;
         }
-        // A quarter turn about x, which takes (x, y, z) to (x, z, -y): z up to y up.
-        const double half = std::sqrt(0.5);
-        inline_numbers(json, "rotation", std::array{-half, 0.0, 0.0, half});
-        inline_numbers(json, "translation",
-                       std::array{centre[0], centre[2], centre[1] == 0 ? 0.0 : -centre[1]});
+        write_turn_to_y_up(json, centre);
         std::vector<std::size_t> children;
         for (std::size_t child = 1; child <= nodes.size(); ++child) children.push_back(child);
-        inline_numbers(json, "children", children);
+        inline_array(json, "children", children);
       });
       write_materials(json);
       write_meshes(json, nodes, by_class);

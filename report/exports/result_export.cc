@@ -5,12 +5,12 @@
 #include "report/exports/ground_shadows.h"
 #include "report/exports/sunlit_city.h"
 #include "report/exports/vtp.h"
+#include "scene/base/ascii_case.h"
 
 namespace gnomon::report {
 
 Expected<ExportFormat> export_format(const std::filesystem::path& path) {
-  std::string name = path.filename().string();
-  for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string name = lower_case(path.filename().string());
   if (name.ends_with(".vtp")) return ExportFormat::kVtp;
   if (name.ends_with(".geojson")) return ExportFormat::kGeoJson;
   if (name.ends_with(".glb")) return ExportFormat::kGlb;

@@ -3,9 +3,11 @@
 
 #include <charconv>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "report/sides/polygon_sides.h"
+#include "report/text/xml_text.h"
 
 namespace gnomon::report {
 
@@ -35,8 +37,8 @@ class VtpWriter {
   VtpWriter(TextSink& sink, std::span<const ResultPiece> pieces) : sink_(sink), pieces_(pieces) {}
 
   /// Texts as their bytes, each with a 0 behind it, as VTK has them.
-  void names(const char* name, const std::vector<std::string>& texts) {
-    sink_.write("<Array type=\"String\" Name=\"" + std::string(name) + "\" NumberOfTuples=\"" +
+  void names(std::string_view name, const std::vector<std::string>& texts) {
+    sink_.write("<Array type=\"String\" Name=\"" + xml_text(name) + "\" NumberOfTuples=\"" +
                 std::to_string(texts.size()) + "\" format=\"ascii\">\n");
     for (const std::string& text : texts) {
       std::string line;
@@ -86,7 +88,7 @@ class VtpWriter {
 
   /// One number for each piece.
   template <class Value>
-  void array(const char* type, const char* name, const Value& value) {
+  void array(const char* type, std::string_view name, const Value& value) {
     begin(type, name);
     for (const ResultPiece& piece : pieces_) {
       std::string line;
@@ -97,9 +99,9 @@ class VtpWriter {
   }
 
  private:
-  void begin(const char* type, const char* name, const std::string& more = {}) {
-    sink_.write("<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\" " + more +
-                "format=\"ascii\">\n");
+  void begin(const char* type, std::string_view name, const std::string& more = {}) {
+    sink_.write("<DataArray type=\"" + std::string(type) + "\" Name=\"" + xml_text(name) + "\" " +
+                more + "format=\"ascii\">\n");
   }
   void end() { sink_.write("</DataArray>\n"); }
 
@@ -110,7 +112,8 @@ class VtpWriter {
 }  // namespace
 
 void write_vtp(TextSink& sink, const Scene& scene, const PreparedScene& prepared,
-               const ShadowResult& result, std::span<const ResultPiece> pieces) {
+               const ShadowResult& result, std::span<const ResultPiece> pieces,
+               const VtpExtras& extras) {
   std::size_t points = 0;
   for (const ResultPiece& piece : pieces) points += piece.loop.size();
   std::vector<std::string> polygons, lights;
@@ -124,6 +127,7 @@ void write_vtp(TextSink& sink, const Scene& scene, const PreparedScene& prepared
       "byte_order=\"LittleEndian\">\n<PolyData>\n<FieldData>\n");
   writer.names("polygon_ids", polygons);
   writer.names("light_ids", lights);
+  for (const NamedTexts& field : extras.fields) writer.names(field.name, field.texts);
   sink.write("</FieldData>\n<Piece NumberOfPoints=\"" + std::to_string(points) +
              "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
              std::to_string(pieces.size()) + "\">\n<CellData Scalars=\"class\">\n");
@@ -139,6 +143,10 @@ void write_vtp(TextSink& sink, const Scene& scene, const PreparedScene& prepared
   writer.array("Float64", "lit_share", [](const ResultPiece& piece) { return piece.lit.middle(); });
   writer.array("Float64", "lit_share_width",
                [](const ResultPiece& piece) { return piece.lit.upper - piece.lit.lower; });
+  for (const CellArray& more : extras.cells) {
+    auto value = more.values.begin();
+    writer.array("Float64", more.name, [&](const ResultPiece&) { return *value++; });
+  }
   sink.write("</CellData>\n<Points>\n");
   writer.points();
   sink.write("</Points>\n<Polys>\n");

@@ -11,14 +11,33 @@
 #define GNOMON_REPORT_EXPORTS_VTP_H
 
 #include <span>
+#include <string>
+#include <vector>
 
 #include "report/exports/result_pieces.h"
 #include "report/text/text_sink.h"
 
 namespace gnomon::report {
 
+/// A number for each piece.
+struct CellArray {
+  std::string name;
+  std::vector<double> values;  // finite
+};
+/// Field data.
+struct NamedTexts {
+  std::string name;
+  std::vector<std::string> texts;
+};
+/// What stands behind the arrays above.
+struct VtpExtras {
+  std::vector<CellArray> cells;
+  std::vector<NamedTexts> fields;
+};
+
 void write_vtp(TextSink& sink, const Scene& scene, const PreparedScene& prepared,
-               const ShadowResult& result, std::span<const ResultPiece> pieces);
+               const ShadowResult& result, std::span<const ResultPiece> pieces,
+               const VtpExtras& extras = {});
 
 }  // namespace gnomon::report
 

@@ -51,23 +51,6 @@ Sign sign_at_light(const PreparedScene& scene, const Part& part, const LightPoin
   return sign_of(value);
 }
 
-std::vector<Sign> signs_at_light(const PreparedScene& scene, const LightPoint& light) {
-  std::vector<Sign> signs;
-  signs.reserve(scene.parts.size());
-  for (const Part& part : scene.parts) signs.push_back(sign_at_light(scene, part, light));
-  return signs;
-}
-
-std::vector<Side> facing_sides(const PreparedScene& scene, const std::vector<Sign>& signs) {
-  std::vector<Side> sides;
-  sides.reserve(signs.size());
-  for (std::size_t i = 0; i < signs.size(); ++i) {
-    const bool is_hidden = signs[i] == Sign::kNegative && !scene.parts[i].two_sided;
-    sides.push_back(is_hidden ? Side::kOn : side_of(signs[i]));
-  }
-  return sides;
-}
-
 bool sees_area_light(const PreparedScene& scene, const Part& part, Side side,
                      const PreparedLight& light) {
   if (side == Side::kBack && !part.two_sided) return false;

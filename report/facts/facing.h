@@ -15,10 +15,6 @@ namespace gnomon::report {
 /// The sign of the part's own plane at a point or directional light: positive if its front faces
 /// it.
 Sign sign_at_light(const PreparedScene& scene, const Part& part, const LightPoint& light);
-/// sign_at_light() of every part.
-std::vector<Sign> signs_at_light(const PreparedScene& scene, const LightPoint& light);
-/// The side of every part that faces the light of these signs; kOn where neither does.
-std::vector<Side> facing_sides(const PreparedScene& scene, const std::vector<Sign>& signs);
 /// The part receives with that side, and sees the area light: some of the light is in front of the
 /// side's plane, and some of the part in front of the light's.
 bool sees_area_light(const PreparedScene& scene, const Part& part, Side side,

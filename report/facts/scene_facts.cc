@@ -7,6 +7,7 @@
 #include <set>
 
 #include "gnomon/algorithms/facing_chain.h"
+#include "gnomon/algorithms/facing_sides.h"
 #include "gnomon/scene/digest.h"
 #include "report/facts/facing.h"
 
@@ -32,9 +33,8 @@ FacingShare facing_of(const PreparedScene& prepared, const std::vector<Sign>& si
   return share;
 }
 
-void count_contour(const PreparedScene& prepared, const std::vector<Sign>& signs,
-                   LightFacts& facts) {
-  const FacingChain chain = facing_chain(prepared, facing_sides(prepared, signs));
+void count_contour(const PreparedScene& prepared, const LightPoint& light, LightFacts& facts) {
+  const FacingChain chain = facing_chain(prepared, facing_sides(prepared, light));
   facts.contour_edges = chain.loop_edges.size();
   facts.contour_loops = chain.loops();
   facts.contour_share = chain.contour_share();
@@ -166,9 +166,8 @@ SceneFacts scene_facts(const Scene& scene, const PreparedScene& prepared, double
     if (source.has_area()) {
       count_area_light(prepared, light, one);
     } else {
-      const std::vector<Sign> signs = signs_at_light(prepared, light.point);
-      one.facing = facing_of(prepared, signs);
-      count_contour(prepared, signs, one);
+      one.facing = facing_of(prepared, signs_at_light(prepared, light.point));
+      count_contour(prepared, light.point, one);
     }
   }
   return facts;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gnomon/algorithms/components.h"
-#include "report/facts/facing.h"
+#include "gnomon/algorithms/facing_sides.h"
 #include "report/loops/ridge_loops_report.h"
 #include "report/pictures/svg.h"
 #include "scene/base/vectors.h"
@@ -139,7 +139,7 @@ bool add_loop(const RidgeLoop& loop, const RayPlaces& places, Drawn& drawn) {
 
 void add_facing(const RidgeLoopsOf& loops, const LightView& view, Drawn& drawn) {
   const LightPoint& light = loops.prepared.lights[loops.light].point;
-  const auto sides = facing_sides(loops.prepared, signs_at_light(loops.prepared, light));
+  const auto sides = facing_sides(loops.prepared, light);
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (sides[i] == Side::kOn) continue;
     std::vector<Point> points;

@@ -16,6 +16,7 @@
 #include "report/meshes/glb.h"
 #include "report/text/little_endian.h"
 #include "report/text/text_sink.h"
+#include "scene/base/ascii_case.h"
 
 namespace gnomon::report {
 
@@ -197,14 +198,6 @@ GltfBuffer gltf_buffer(const ShadingMesh& mesh, const ShadedMeshOptions& options
   return buffer;
 }
 
-template <class Values>
-void inline_array(JsonWriter& json, std::string_view key, const Values& values) {
-  json.key(key);
-  json.begin_array(JsonLayout::kInline);
-  for (const auto value : values) json.value(value);
-  json.end_array();
-}
-
 void buffer_view(JsonWriter& json, std::size_t offset, std::size_t length, int target) {
   json.begin_object(JsonLayout::kInline);
   json.member("buffer", 0);
@@ -222,32 +215,14 @@ std::string gltf_json(const Scene& scene, const GltfBuffer& buffer, const std::s
   {
     JsonWriter json(sink);
     json.begin_object();
-    json.key("asset");
-    json.begin_object(JsonLayout::kInline);
-    json.member("version", "2.0");
-    json.member("generator", "gnomon");
-    json.end_object();
-    json.member("scene", 0);
-    json.key("scenes");
-    json.begin_array(JsonLayout::kInline);
-    json.begin_object(JsonLayout::kInline);
-    if (!scene.name.empty()) json.member("name", scene.name);
-    if (!is_empty) inline_array(json, "nodes", std::array{0});
-    json.end_object();
-    json.end_array();
+    begin_gltf(json, scene.name, !is_empty);
     if (!is_empty) {
       const std::size_t vertex_bytes = 12 * buffer.vertices;
-      inline_array(json, "extensionsUsed", std::array{"KHR_materials_unlit"});
       json.key("nodes");
       json.begin_array();
       json.begin_object(JsonLayout::kInline);
       json.member("mesh", 0);
-      // A quarter turn about x, which takes (x, y, z) to (x, z, -y): z up to y up.
-      const double half = std::sqrt(0.5);
-      inline_array(json, "rotation", std::array{-half, 0.0, 0.0, half});
-      inline_array(json, "translation",
-                   std::array{buffer.frame.centre[0], buffer.frame.centre[2],
-                              buffer.frame.centre[1] == 0 ? 0.0 : -buffer.frame.centre[1]});
+      write_turn_to_y_up(json, buffer.frame.centre);
       if (buffer.frame.scale != 1) {
         inline_array(json, "scale",
                      std::array{buffer.frame.scale, buffer.frame.scale, buffer.frame.scale});
@@ -274,20 +249,7 @@ std::string gltf_json(const Scene& scene, const GltfBuffer& buffer, const std::s
       json.end_array();
       json.key("materials");
       json.begin_array();
-      json.begin_object(JsonLayout::kInline);
-      json.member("name", "shaded");
-      json.key("pbrMetallicRoughness");
-      json.begin_object(JsonLayout::kInline);
-      inline_array(json, "baseColorFactor", std::array{1, 1, 1, 1});
-      json.member("metallicFactor", 0);
-      json.end_object();
-      json.key("extensions");
-      json.begin_object(JsonLayout::kInline);
-      json.key("KHR_materials_unlit");
-      json.begin_object(JsonLayout::kInline);
-      json.end_object();
-      json.end_object();
-      json.end_object();
+      write_unlit_material(json, "shaded", {1, 1, 1});
       json.end_array();
       json.key("accessors");
       json.begin_array();
@@ -336,8 +298,7 @@ std::string gltf_json(const Scene& scene, const GltfBuffer& buffer, const std::s
 }  // namespace
 
 Expected<MeshFileFormat> mesh_file_format(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string extension = lower_case(path.extension().string());
   if (extension == ".ply") return MeshFileFormat::kPly;
   if (extension == ".gltf") return MeshFileFormat::kGltf;
   if (extension == ".glb") return MeshFileFormat::kGlb;

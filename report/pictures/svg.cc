@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "report/text/number_text.h"
+#include "report/text/xml_text.h"
 
 namespace gnomon::report {
 
@@ -16,29 +17,6 @@ constexpr double kFar = 1e6;
 std::string pixel(double value) {
   if (std::isnan(value)) value = 0;
   return shortest(std::round(std::clamp(value, -kFar, kFar) * 100) / 100 + 0.0);
-}
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return result;
 }
 
 }  // namespace
@@ -110,7 +88,7 @@ void SvgPicture::text(PixelPoint at, std::string_view words, double size, Colour
            pixel(size) + "\" fill=\"" + colour_text(colour) + '"';
   if (anchor != "start") body_ += " text-anchor=\"" + std::string(anchor) + '"';
   if (bold) body_ += " font-weight=\"600\"";
-  body_ += '>' + escaped(words) + "</text>\n";
+  body_ += '>' + xml_text(words) + "</text>\n";
 }
 
 void SvgPicture::begin_group(std::string_view attributes) {
@@ -127,7 +105,7 @@ void SvgPicture::write(TextSink& sink) const {
   const std::string size = "width=\"" + pixel(width_) + "\" height=\"" + pixel(height_) +
                            "\" viewBox=\"0 0 " + pixel(width_) + ' ' + pixel(height_) + '"';
   sink.write("<svg xmlns=\"http://www.w3.org/2000/svg\" " + size +
-             " font-family=\"Helvetica, Arial, sans-serif\">\n<title>" + escaped(title_) +
+             " font-family=\"Helvetica, Arial, sans-serif\">\n<title>" + xml_text(title_) +
              "</title>\n");
   if (!definitions_.empty()) sink.write("<defs>\n" + definitions_ + "</defs>\n");
   sink.write(body_);

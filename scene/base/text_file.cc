@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "scene/base/file_descriptor.h"
+#include "scene/base/utf16.h"
 
 namespace gnomon {
 
@@ -33,10 +34,11 @@ Expected<void> not_utf8(std::string_view text, const std::string& file, std::siz
               place_in_text(file, text, offset));
 }
 
-/// Do the first bytes of a file of that size (0: not known) begin a format of binary data?
+/// Do the first bytes of a file of that size (0: not known) begin a format of binary data, or a
+/// text whose characters have two bytes?
 bool goes_on_behind_zeros(std::string_view begin, std::size_t size) {
   return begin.starts_with("ply") || begin.starts_with("glTF") ||
-         is_size_of_binary_stl(begin, size);
+         is_size_of_binary_stl(begin, size) || is_utf16(begin);
 }
 
 Expected<std::string> read_bytes(const std::filesystem::path& path, bool stops_at_zeros);
@@ -58,7 +60,9 @@ std::string shown_name(const std::filesystem::path& path) {
 }
 
 Expected<std::string> read_file(const std::filesystem::path& path) {
-  return read_bytes(path, true);
+  auto bytes = read_bytes(path, true);
+  if (!bytes || !is_utf16(*bytes) || is_size_of_binary_stl(*bytes, bytes->size())) return bytes;
+  return utf8_of_utf16(*bytes, shown_name(path));
 }
 
 Expected<std::string> read_all_bytes(const std::filesystem::path& path) {
@@ -188,7 +192,7 @@ Expected<void> check_is_text(std::string_view text, const std::string& file) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") || nul == 0 ||
       (nul == 1 && text.size() > 3 && text[3] == '\0')) {
     return fail(ErrorCode::kSyntax, "the file is not UTF-8 (UTF-16 or UTF-32, it seems)",
-                "a file in UTF-8", ErrorPlace{file, 1, 1, {}});
+                "a file in UTF-8, or in UTF-16 with a byte order mark", ErrorPlace{file, 1, 1, {}});
   }
   if (nul != std::string_view::npos) {
     return fail(ErrorCode::kSyntax, "a NUL byte", "text", place_in_text(file, text, nul));

@@ -17,11 +17,12 @@ namespace gnomon {
 /// How a file is called in messages: its path, or <stdin> for `-`.
 std::string shown_name(const std::filesystem::path& path);
 
-/// All bytes of a file; `-` is standard input. A file that holds a NUL byte in its first 64 KiB and
-/// is no PLY, no glTF and no STL is not read to its end, since no text format goes on from there.
-/// Errors: kFile (absent, unreadable, a directory), kLimit (an endless stream).
+/// All bytes of a file; `-` is standard input. A text in UTF-16 that begins with a byte order mark
+/// becomes the same in UTF-8. Any other file that holds a NUL byte in its first 64 KiB and is no
+/// PLY, no glTF and no STL is not read to its end, since no text format goes on from there. Errors:
+/// kFile (absent, unreadable, a directory), kLimit (an endless stream), kSyntax (broken UTF-16).
 Expected<std::string> read_file(const std::filesystem::path& path);
-/// The same, to the end whatever the file holds.
+/// The bytes as they are, to the end whatever the file holds.
 Expected<std::string> read_all_bytes(const std::filesystem::path& path);
 
 /// Has a file the size that binary STL has? That format has no other mark: 80 bytes of anything,

@@ -2,10 +2,12 @@
 #include "scene/building/gbxml_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "scene/base/text_file.h"
 #include "scene/building/length_units.h"
+#include "scene/building/uncut_openings.h"
 #include "scene/files/readers.h"
 #include "scene/files/usable_id.h"
 #include "scene/model/decimal_arithmetic.h"
@@ -193,11 +195,13 @@ Expected<void> GbXmlReader::read_surface(const pugi::xml_node& surface) {
     interior_ += 1 + openings;
     return {};
   }
-  if (!is_one_of(kind, kOuter) && !is_one_of(kind, kFree)) {
-    return error(surface, ErrorCode::kFormat, "a surfaceType " + quoted_text(kind),
-                 "ExteriorWall, Roof, Shade, ...");
-  }
   const std::size_t before = builder_.polygon_count();
+  if (!is_one_of(kind, kOuter) && !is_one_of(kind, kFree)) {
+    return skip(surface, before,
+                error(surface, ErrorCode::kFormat, "a surfaceType " + quoted_text(kind),
+                      "ExteriorWall, Roof, Shade, ...")
+                    .value());
+  }
   if (auto done = add_surface(surface, kind); !done) {
     return skip(surface, before, std::move(done.error()));
   }
@@ -224,18 +228,40 @@ Expected<void> GbXmlReader::add_surface(const pugi::xml_node& surface, const std
 
 Expected<void> GbXmlReader::add_openings(const pugi::xml_node& surface, std::size_t wall,
                                          const OpeningPlane& plane, const std::string& space) {
+  std::vector<double> distances;
   for (const pugi::xml_node& opening : surface.children()) {
     if (local_name(opening) != "Opening") continue;
     const std::size_t before = builder_.polygon_count();
-    auto done = add_opening(opening, wall, plane, space);
-    if (done) continue;
-    if (auto skipped = skip(opening, before, std::move(done.error())); !skipped) return skipped;
+    auto distance = add_opening(opening, wall, plane, space);
+    if (distance) {
+      distances.push_back(*distance);
+      continue;
+    }
+    if (auto skipped = skip(opening, before, std::move(distance.error())); !skipped) return skipped;
+  }
+  return fill_unusable_holes(wall, distances);
+}
+
+Expected<void> GbXmlReader::fill_unusable_holes(std::size_t wall,
+                                                const std::vector<double>& distances) {
+  Polygon& polygon = builder_.scene().polygons[wall];
+  const auto unusable = unusable_holes(builder_.scene(), polygon);
+  if (!unusable) return tl::unexpected(unusable.error());
+  for (auto hole = unusable->rbegin(); hole != unusable->rend(); ++hole) {
+    polygon.holes.erase(polygon.holes.begin() + static_cast<std::ptrdiff_t>(*hole));
+    farthest_uncut_ = std::max(farthest_uncut_, distances[*hole]);
+  }
+  uncut_ += unusable->size();
+  for (std::size_t hole = 0; hole < distances.size(); ++hole) {
+    if (std::ranges::count(*unusable, hole) > 0 || distances[hole] == 0) continue;
+    ++off_plane_;
+    farthest_ = std::max(farthest_, distances[hole]);
   }
   return {};
 }
 
-Expected<void> GbXmlReader::add_opening(const pugi::xml_node& opening, std::size_t wall,
-                                        const OpeningPlane& plane, const std::string& space) {
+Expected<double> GbXmlReader::add_opening(const pugi::xml_node& opening, std::size_t wall,
+                                          const OpeningPlane& plane, const std::string& space) {
   const auto corners = poly_loop(opening);
   if (!corners) return tl::unexpected(corners.error());
   const auto loop = builder_.vertices(*corners);
@@ -251,10 +277,7 @@ Expected<void> GbXmlReader::add_opening(const pugi::xml_node& opening, std::size
   }
   builder_.scene().polygons[wall].holes.push_back(*loop);
   ++openings_;
-  const double distance = plane.distance(*corners);
-  if (distance > 0) ++off_plane_;
-  farthest_ = std::max(farthest_, distance);
-  return {};
+  return plane.distance(*corners);
 }
 
 void GbXmlReader::warn() {
@@ -270,6 +293,20 @@ void GbXmlReader::warn() {
                   " not exactly in the plane of the surface, by up to " + shown_length(farthest_) +
                   " m: the surface around them is not planar, and triangulated");
   }
+  if (uncut_ == 0) return;
+  std::string off;
+  if (farthest_uncut_ > 0) {
+    // The power of ten above all that is off, since the surface may be bent by what it holds.
+    const double enough =
+        std::pow(10.0, std::floor(std::log10(std::max(farthest_, farthest_uncut_))) + 1);
+    off = ", up to " + shown_length(farthest_uncut_) +
+          " m before or behind it: 'gnomon convert --snap " + shown_length(enough) +
+          " --parent' can put them into its plane";
+  }
+  builder_.warn(
+      std::to_string(uncut_) + " of " + counted_as(openings_, "opening", "openings") +
+      " not cut out: they cross or touch the edge of their surface or one another, and lie on it" +
+      off);
 }
 
 Likeness looks_like_gbxml(std::string_view text) {

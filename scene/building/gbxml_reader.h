@@ -27,8 +27,11 @@ class GbXmlReader {
   Expected<void> add_surface(const pugi::xml_node& surface, const std::string& kind);
   Expected<void> add_openings(const pugi::xml_node& surface, std::size_t wall,
                               const OpeningPlane& plane, const std::string& space);
-  Expected<void> add_opening(const pugi::xml_node& opening, std::size_t wall,
-                             const OpeningPlane& plane, const std::string& space);
+  /// How far it is from the plane of the wall, in metres.
+  Expected<double> add_opening(const pugi::xml_node& opening, std::size_t wall,
+                               const OpeningPlane& plane, const std::string& space);
+  /// Openings that are no holes of their wall lie on it. `distances`: of each from its plane.
+  Expected<void> fill_unusable_holes(std::size_t wall, const std::vector<double>& distances);
   /// The corners of an element's PlanarGeometry, in metres.
   Expected<std::vector<Position>> poly_loop(const pugi::xml_node& element) const;
   Expected<Position> point(const pugi::xml_node& element) const;
@@ -47,8 +50,8 @@ class GbXmlReader {
   Number factor_;  // metres in a unit of the file
   std::string units_ = "Meters";
   std::size_t interior_ = 0, unexposed_ = 0, air_ = 0;
-  std::size_t openings_ = 0, off_plane_ = 0;
-  double farthest_ = 0;
+  std::size_t openings_ = 0, off_plane_ = 0, uncut_ = 0;
+  double farthest_ = 0, farthest_uncut_ = 0;
 };
 
 }  // namespace gnomon

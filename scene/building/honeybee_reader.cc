@@ -364,8 +364,8 @@ void HoneybeeReader::warn() {
   builder_.warn_of(air_boundaries_, "air boundary", "air boundaries",
                    " left out: there is nothing in them");
   builder_.warn_of(indoor_shades_, "indoor shade", "indoor shades", " left out");
-  builder_.warn_of(transmitting_, "shade has", "shades have",
-                   " a transmittance schedule and count as opaque");
+  builder_.warn_of(transmitting_, "shade with a transmittance schedule counts",
+                   "shades with a transmittance schedule count", " as opaque");
   if (off_plane_ != 0) {
     const std::string distance = tolerance_.empty() ? Number(farthest_).to_text() : tolerance_;
     builder_.warn(std::to_string(off_plane_) + " of " +

@@ -307,9 +307,7 @@ Expected<void> CityReader::add_surface(const CityGeometry& geometry, const CityS
   group.push_back(number);
   if (surface.kind) {
     const std::string& kind = geometry.kinds[*surface.kind];
-    const auto [place, is_new] = kind_index_.try_emplace(kind, kinds_.size());
-    if (is_new) kinds_.push_back({kind, {}});
-    kinds_[place->second].polygons.push_back(number);
+    kinds_.add(kind, number);
   }
   offsets_.push_back(offset);
   scene_.polygons.push_back(std::move(polygon));

@@ -13,11 +13,11 @@
 #include <unordered_set>
 #include <vector>
 
-#include "gnomon/scene/groups.h"
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/unusable.h"
 #include "scene/cityjson/city_geometry.h"
 #include "scene/cityjson/city_vertices.h"
+#include "scene/files/extra_groups.h"
 #include "scene/files/readers.h"
 #include "scene/json/json_tape.h"
 
@@ -92,8 +92,8 @@ class CityReader {
 
   std::string prefix_;  // of the ids of the object's surfaces
   std::unordered_set<std::string> prefixes_;
-  std::vector<PolygonGroup> objects_, kinds_;
-  std::unordered_map<std::string, std::size_t> kind_index_;
+  std::vector<PolygonGroup> objects_;
+  GroupList kinds_;
   std::vector<std::string> solids_;     // objects that are one solid of one shell each
   std::vector<std::uint64_t> offsets_;  // of polygons
   std::vector<PolygonProblem> problems_;

@@ -1,88 +1,36 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // What is done to city objects when all of them are known: vertices in the order of the file,
 // solids outwards, groups and semantics in the scene's "extra", warnings, what was left out.
-#include <rapidjson/stringbuffer.h>
-#include <rapidjson/writer.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <unordered_set>
 #include <utility>
 
 #include "scene/base/text_file.h"
 #include "scene/cityjson/city_reader.h"
 #include "scene/files/left_out.h"
+#include "scene/files/scene_builder.h"
 
 namespace gnomon {
-
-namespace {
-
-using Writer = rapidjson::Writer<rapidjson::StringBuffer>;
-
-void write(Writer& writer, std::string_view text) {
-  writer.String(text.data(), static_cast<rapidjson::SizeType>(text.size()));
-}
-
-std::string counted(std::size_t count, const std::string& one, const std::string& many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-}  // namespace
 
 /// {"groups": {object or kind: ids}, "cityjson": {"version", "referenceSystem", "semantics":
 /// [kinds], "solids": [objects]}}. A kind that is called like an object has " surfaces" behind its
 /// name.
 std::string CityReader::extra() const {
-  std::unordered_set<std::string_view> names;
-  for (const PolygonGroup& object : objects_) names.insert(object.name);
-  rapidjson::StringBuffer buffer;
-  Writer writer(buffer);
-  const auto group = [&](const std::string& name, const PolygonGroup& group) {
-    write(writer, name);
-    writer.StartArray();
-    for (const std::uint32_t polygon : group.polygons) write(writer, scene_.polygons[polygon].id);
-    writer.EndArray();
-  };
-  const auto kind_name = [&](const PolygonGroup& kind) {
-    std::string name = kind.name;
-    while (names.contains(name)) name += " surfaces";
-    return name;
-  };
-  writer.StartObject();
-  write(writer, "groups");
-  writer.StartObject();
-  for (const PolygonGroup& object : objects_) group(object.name, object);
-  for (const PolygonGroup& kind : kinds_) group(kind_name(kind), kind);
-  writer.EndObject();
-  write(writer, "cityjson");
-  writer.StartObject();
-  write(writer, "version");
-  write(writer, version_);
+  std::vector<ExtraFact> facts = {{"version", json_string(version_)}};
   if (!reference_system_.empty()) {
-    write(writer, "referenceSystem");
-    write(writer, reference_system_);
+    facts.emplace_back("referenceSystem", json_string(reference_system_));
   }
-  if (!kinds_.empty()) {
-    write(writer, "semantics");
-    writer.StartArray();
-    for (const PolygonGroup& kind : kinds_) write(writer, kind_name(kind));
-    writer.EndArray();
+  if (!kinds_.list().empty()) {
+    facts.emplace_back("semantics", json_array(kind_names(objects_, kinds_.list())));
   }
-  if (!solids_.empty()) {
-    write(writer, "solids");
-    writer.StartArray();
-    for (const std::string& name : solids_) write(writer, name);
-    writer.EndArray();
-  }
-  writer.EndObject();
-  writer.EndObject();
-  return {buffer.GetString(), buffer.GetSize()};
+  if (!solids_.empty()) facts.emplace_back("solids", json_array(solids_));
+  return extra_with_groups(scene_, objects_, kinds_.list(), "cityjson", facts);
 }
 
 void CityReader::warn(ReadResult& result) const {
   for (const auto& [type, count] : passed_over_) {
-    result.warnings.push_back(counted(count, "geometry", "geometries") + " of type " + type +
+    result.warnings.push_back(counted_as(count, "geometry", "geometries") + " of type " + type +
                               " ignored: it has no surfaces");
   }
   if (without_lod_ != 0) {
@@ -90,16 +38,16 @@ void CityReader::warn(ReadResult& result) const {
     std::ranges::sort(lods, {}, [](const Number& lod) { return lod.exact(); });
     std::string there;
     for (const Number& lod : lods) there += (there.empty() ? "" : ", ") + lod.to_text();
-    result.warnings.push_back(counted(without_lod_, "city object has", "city objects have") +
+    result.warnings.push_back(counted_as(without_lod_, "city object has", "city objects have") +
                               " no geometry of level of detail " + options_.lod +
                               ": left out; in the file: " + (there.empty() ? "none" : there));
   }
   if (turned_solids_ != 0) {
-    result.warnings.push_back(counted(turned_solids_, "solid looks", "solids look") +
+    result.warnings.push_back(counted_as(turned_solids_, "solid looks", "solids look") +
                               " inwards, against the standard: turned over");
   }
   if (underflows_ != 0) {
-    result.warnings.push_back(counted(underflows_, "coordinate is", "coordinates are") +
+    result.warnings.push_back(counted_as(underflows_, "coordinate is", "coordinates are") +
                               " too small for full double precision");
   }
 }

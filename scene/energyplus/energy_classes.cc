@@ -199,21 +199,6 @@ constexpr EnergyClass kClasses[] = {
 
 }  // namespace
 
-bool same_word(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c; };
-    return lower(x) == lower(y);
-  });
-}
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
-}
-
 const EnergyClass* energy_class(std::string_view name) {
   for (const EnergyClass& known : kClasses) {
     if (same_word(known.name, name)) return &known;

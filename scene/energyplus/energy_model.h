@@ -15,6 +15,7 @@
 
 #include "gnomon/kernel/error.h"
 #include "gnomon/scene/number.h"
+#include "scene/base/ascii_case.h"
 #include "scene/base/text_file.h"
 
 namespace gnomon {
@@ -82,11 +83,6 @@ struct EnergyModel {
   Expected<Number> number(const EnergyObject& object, std::string_view field,
                           const char* otherwise = nullptr) const;
 };
-
-/// Are they the same but for upper and lower case?
-bool same_word(std::string_view a, std::string_view b);
-/// In lower case: a name as a key, since names in upper and lower case are the same.
-std::string lower_case(std::string_view text);
 
 /// The objects of an IDF text. Errors: kSyntax, kFormat.
 Expected<EnergyModel> parse_idf(const std::string& text, const std::string& file);

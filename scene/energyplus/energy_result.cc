@@ -2,99 +2,41 @@
 // What a reader of energy models says at the end: groups, place and north in the scene's "extra";
 // one line for each thing that is not as the file has it.
 #include <fmt/format.h>
-#include <rapidjson/stringbuffer.h>
-#include <rapidjson/writer.h>
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 #include "scene/energyplus/energy_scene.h"
 #include "scene/files/left_out.h"
 #include "scene/files/readers.h"
+#include "scene/files/scene_builder.h"
 #include "scene/files/usable_id.h"
 
 namespace gnomon::energy {
 
-namespace {
-
-using JsonWriter = rapidjson::Writer<rapidjson::StringBuffer>;
-
-void write_text(JsonWriter& writer, std::string_view text) {
-  writer.String(text.data(), static_cast<rapidjson::SizeType>(text.size()));
-}
-
-void write_number(JsonWriter& writer, const Number& number) {
-  const std::string text = number.to_text();
-  writer.RawValue(text.data(), text.size(), rapidjson::kNumberType);
-}
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-}  // namespace
-
 /// {"groups": {zone or kind: ids}, "energyplus": {"version", "coordinates", "north_axis", "turned",
 /// "kinds": [names of groups], "location": {...}}}.
 std::string EnergyScene::extra() const {
-  rapidjson::StringBuffer buffer;
-  JsonWriter writer(buffer);
-  std::set<std::string> names;
-  for (const PolygonGroup& zone : zone_groups_.list) names.insert(zone.name);
-  const auto kind_name = [&](const PolygonGroup& kind) {
-    std::string name = kind.name;
-    while (names.contains(name)) name += " surfaces";
-    return name;
-  };
-  const auto write_group = [&](const std::string& name, const PolygonGroup& group) {
-    write_text(writer, name);
-    writer.StartArray();
-    for (const std::uint32_t polygon : group.polygons) {
-      write_text(writer, scene_.polygons[polygon].id);
-    }
-    writer.EndArray();
-  };
-  writer.StartObject();
-  write_text(writer, "groups");
-  writer.StartObject();
-  for (const PolygonGroup& zone : zone_groups_.list) write_group(zone.name, zone);
-  for (const PolygonGroup& kind : kind_groups_.list) write_group(kind_name(kind), kind);
-  writer.EndObject();
-  write_text(writer, "energyplus");
-  writer.StartObject();
-  write_text(writer, "coordinates");
-  write_text(writer, rules_.is_world ? "world" : "relative");
-  write_text(writer, "north_axis");
-  write_number(writer, north_);
-  write_text(writer, "turned");
-  writer.Bool(is_turned_);
-  write_text(writer, "kinds");
-  writer.StartArray();
-  for (const PolygonGroup& kind : kind_groups_.list) write_text(writer, kind_name(kind));
-  writer.EndArray();
+  std::vector<ExtraFact> facts = {
+      {"coordinates", json_string(rules_.is_world ? "world" : "relative")},
+      {"north_axis", north_.to_text()},
+      {"turned", is_turned_ ? "true" : "false"},
+      {"kinds", json_array(kind_names(zone_groups_.list(), kind_groups_.list()))}};
   for (const EnergyObject& object : model_.objects) {
     if (object.type->kind == EnergyKind::kVersion) {
-      write_text(writer, "version");
-      write_text(writer, usable_text(object.field("version_identifier").text));
+      facts.emplace_back("version",
+                         json_string(usable_text(object.field("version_identifier").text)));
     }
     if (object.type->kind != EnergyKind::kLocation) continue;
-    write_text(writer, "location");
-    writer.StartObject();
-    write_text(writer, "name");
-    write_text(writer, usable_text(object.name()));
+    std::vector<ExtraFact> location = {{"name", json_string(usable_text(object.name()))}};
     for (const char* field : {"latitude", "longitude", "time_zone", "elevation"}) {
       const auto number = model_.number(object, field, "0");
-      if (!number) continue;
-      write_text(writer, field);
-      write_number(writer, *number);
+      if (number) location.emplace_back(field, number->to_text());
     }
-    writer.EndObject();
+    facts.emplace_back("location", json_object(location));
     break;
   }
-  writer.EndObject();
-  writer.EndObject();
-  return {buffer.GetString(), buffer.GetSize()};
+  return extra_with_groups(scene_, zone_groups_.list(), kind_groups_.list(), "energyplus", facts);
 }
 
 void EnergyScene::warn_of_turns(std::vector<std::string>& warnings) const {
@@ -133,13 +75,14 @@ void EnergyScene::warn_of_turns(std::vector<std::string>& warnings) const {
     }
   }
   if (zones != 0) {
-    told(counted(zones, "zone is turned", "zones are turned, the worst"), example->north, *angle);
+    told(counted_as(zones, "zone is turned", "zones are turned, the worst"), example->north,
+         *angle);
   }
 }
 
 void EnergyScene::warn(std::vector<std::string>& warnings) const {
   if (interior_ != 0) {
-    warnings.push_back(counted(interior_, "interior surface", "interior surfaces") +
+    warnings.push_back(counted_as(interior_, "interior surface", "interior surfaces") +
                        " left out: what does not face the outdoors neither casts nor receives");
   }
   if (!schedules_.empty()) {
@@ -149,8 +92,9 @@ void EnergyScene::warn(std::vector<std::string>& warnings) const {
       shades += count;
       names += (names.empty() ? "" : ", ") + name;
     }
-    warnings.push_back(counted(shades, "shading surface has", "shading surfaces have") +
-                       " a transmittance schedule (" + names + ") and count as opaque");
+    warnings.push_back(counted_as(shades, "shading surface", "shading surfaces") +
+                       " with a transmittance schedule (" + names + ") " +
+                       (shades == 1 ? "counts" : "count") + " as opaque");
   }
   warn_of_turns(warnings);
   if (!rounded_.empty()) {
@@ -160,25 +104,26 @@ void EnergyScene::warn(std::vector<std::string>& warnings) const {
       ids += (i == 0 ? "" : ", ") + rounded_[i];
     }
     if (rounded_.size() > kExamples) ids += ", ...";
-    warnings.push_back(counted(rounded_.size(), "surface is", "surfaces are") +
+    warnings.push_back(counted_as(rounded_.size(), "surface is", "surfaces are") +
                        " placed by lengths along a wall or by angles that no decimals are, "
                        "rounded at the 12th digit or later (" +
                        ids + ")");
   }
   if (turned_openings_ != 0) {
-    warnings.push_back(counted(turned_openings_, "window or door looks", "windows and doors look") +
-                       " the other way than the wall: turned over");
+    warnings.push_back(
+        counted_as(turned_openings_, "window or door looks", "windows and doors look") +
+        " the other way than the wall: turned over");
   }
   if (unexposed_ != 0) {
-    warnings.push_back(counted(unexposed_, "outer surface is", "outer surfaces are") +
+    warnings.push_back(counted_as(unexposed_, "outer surface is", "outer surfaces are") +
                        " said not to be exposed to the sun: kept");
   }
   if (multiplied_ != 0) {
-    warnings.push_back(counted(multiplied_, "window has", "windows have") +
+    warnings.push_back(counted_as(multiplied_, "window has", "windows have") +
                        " a multiplier: each is there once");
   }
   if (underflows_ != 0) {
-    warnings.push_back(counted(underflows_, "coordinate is", "coordinates are") +
+    warnings.push_back(counted_as(underflows_, "coordinate is", "coordinates are") +
                        " too small for full double precision");
   }
   for (const EnergyObject& object : model_.objects) {

@@ -155,14 +155,9 @@ Expected<Polygon*> EnergyScene::add_polygon(const EnergyObject& object, const st
 /// The last polygon.
 void EnergyScene::put_into_groups(const std::string& zone, const std::string& kind) {
   const auto polygon = static_cast<std::uint32_t>(scene_.polygons.size() - 1);
-  const auto add_to = [&](NamedGroups& groups, const std::string& name) {
-    const auto [place, is_new] = groups.index.try_emplace(name, groups.list.size());
-    if (is_new) groups.list.push_back({name, {}});
-    groups.list[place->second].polygons.push_back(polygon);
-  };
   // A zone's name may be written in several ways.
-  if (!zone.empty()) add_to(zone_groups_, usable_text(lower_case(zone)));
-  add_to(kind_groups_, kind);
+  if (!zone.empty()) zone_groups_.add(usable_text(lower_case(zone)), polygon);
+  kind_groups_.add(kind, polygon);
 }
 
 // ---------------------------------------------------------------------------- surfaces and

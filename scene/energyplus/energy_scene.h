@@ -11,11 +11,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "gnomon/scene/groups.h"
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/unusable.h"
 #include "scene/energyplus/energy_model.h"
 #include "scene/energyplus/wall_frame.h"
+#include "scene/files/extra_groups.h"
 #include "scene/model/decimal_vector.h"
 
 namespace gnomon::energy {
@@ -54,12 +54,6 @@ struct Opening {
 /// The frame of a surface by azimuth, tilt and corner. Errors: kFormat, kNumber, kLimit.
 Expected<WallFrame> frame_of_rectangle(const EnergyModel& model, const EnergyObject& object,
                                        const char* tilt_if_blank);
-
-/// Groups in the order of their first members.
-struct NamedGroups {
-  std::vector<PolygonGroup> list;
-  std::unordered_map<std::string, std::size_t> index;
-};
 
 class EnergyScene {
  public:
@@ -130,7 +124,7 @@ class EnergyScene {
   Scene scene_;
   std::unordered_map<std::string, VertexId> vertex_index_;
   std::unordered_map<std::string, std::uint32_t> polygon_index_;  // by name in lower case
-  NamedGroups zone_groups_, kind_groups_;
+  GroupList zone_groups_, kind_groups_;
   std::vector<std::uint64_t> offsets_;
   std::vector<PolygonProblem> problems_;
 

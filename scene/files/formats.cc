@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scene/base/ascii_case.h"
 #include "scene/files/readers.h"
 #include "scene/files/writers.h"
 
@@ -106,10 +107,7 @@ std::optional<SceneFormat> format_by_name(std::string_view name) {
 }
 
 std::optional<SceneFormat> format_by_extension(const std::filesystem::path& path) {
-  std::string name = path.filename().string();
-  for (char& c : name) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string name = lower_case(path.filename().string());
   // Of .json and .city.json the longer one counts.
   const FileFormat* longest = nullptr;
   for (const FileFormat& known : kFormats) {

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "scene/files/scene_builder.h"
 
-#include <rapidjson/stringbuffer.h>
-#include <rapidjson/writer.h>
-
-#include <unordered_set>
 #include <utility>
 
 #include "scene/base/text_file.h"
@@ -15,12 +11,6 @@
 namespace gnomon {
 
 namespace {
-
-using JsonWriter = rapidjson::Writer<rapidjson::StringBuffer>;
-
-void write_text(JsonWriter& writer, std::string_view text) {
-  writer.String(text.data(), static_cast<rapidjson::SizeType>(text.size()));
-}
 
 /// Equal texts for equal numbers of one base.
 void append_key(std::string& key, const Number& number) {
@@ -35,12 +25,6 @@ void append_key(std::string& key, const Number& number) {
 }
 
 }  // namespace
-
-void GroupList::add(const std::string& name, std::uint32_t polygon) {
-  const auto [place, is_new] = index_.try_emplace(name, list_.size());
-  if (is_new) list_.push_back({name, {}});
-  list_[place->second].polygons.push_back(polygon);
-}
 
 std::string counted_as(std::size_t count, const std::string& one, const std::string& many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
@@ -140,44 +124,9 @@ void SceneBuilder::put_into_groups(const std::string& owner, const std::string& 
   if (!kind.empty()) kinds_.add(kind, polygon);
 }
 
-void SceneBuilder::write_extra(const std::string& name,
-                               const std::vector<std::pair<std::string, std::string>>& facts) {
-  rapidjson::StringBuffer buffer;
-  JsonWriter writer(buffer);
-  std::unordered_set<std::string> owners;
-  for (const PolygonGroup& owner : owners_.list()) owners.insert(owner.name);
-  const auto kind_name = [&](const PolygonGroup& kind) {
-    std::string shown = kind.name;
-    while (owners.contains(shown)) shown += " surfaces";
-    return shown;
-  };
-  const auto write_group = [&](const std::string& shown, const PolygonGroup& group) {
-    write_text(writer, shown);
-    writer.StartArray();
-    for (const std::uint32_t polygon : group.polygons) {
-      write_text(writer, scene_.polygons[polygon].id);
-    }
-    writer.EndArray();
-  };
-  writer.StartObject();
-  write_text(writer, "groups");
-  writer.StartObject();
-  for (const PolygonGroup& owner : owners_.list()) write_group(owner.name, owner);
-  for (const PolygonGroup& kind : kinds_.list()) write_group(kind_name(kind), kind);
-  writer.EndObject();
-  write_text(writer, name);
-  writer.StartObject();
-  for (const auto& [key, value] : facts) {
-    write_text(writer, key);
-    writer.RawValue(value.data(), value.size(), rapidjson::kStringType);
-  }
-  write_text(writer, "kinds");
-  writer.StartArray();
-  for (const PolygonGroup& kind : kinds_.list()) write_text(writer, kind_name(kind));
-  writer.EndArray();
-  writer.EndObject();
-  writer.EndObject();
-  scene_.extra.assign(buffer.GetString(), buffer.GetSize());
+void SceneBuilder::write_extra(const std::string& format, std::vector<ExtraFact> facts) {
+  facts.emplace_back("kinds", json_array(kind_names(owners_.list(), kinds_.list())));
+  scene_.extra = extra_with_groups(scene_, owners_.list(), kinds_.list(), format, facts);
 }
 
 void SceneBuilder::warn_of(std::size_t count, const std::string& one, const std::string& many,

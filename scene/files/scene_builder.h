@@ -11,22 +11,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include "gnomon/scene/groups.h"
 #include "gnomon/scene/read.h"
 #include "gnomon/scene/unusable.h"
+#include "scene/files/extra_groups.h"
 
 namespace gnomon {
-
-/// Groups in the order of their first members.
-class GroupList {
- public:
-  void add(const std::string& name, std::uint32_t polygon);
-  const std::vector<PolygonGroup>& list() const { return list_; }
-
- private:
-  std::vector<PolygonGroup> list_;
-  std::unordered_map<std::string, std::size_t> index_;
-};
 
 /// "1 wall", "7 walls".
 std::string counted_as(std::size_t count, const std::string& one, const std::string& many);
@@ -59,11 +48,9 @@ class SceneBuilder {
   /// The last polygon belongs to this room, object or modifier, and is of that kind. An empty name
   /// is none.
   void put_into_groups(const std::string& owner, const std::string& kind);
-  /// Writes {"groups": {owner or kind: ids}, NAME: {"kinds": [names of groups], ...}} as the
-  /// scene's "extra". A kind that is called like an owner has " surfaces" behind its name. `facts`:
-  /// keys with values as JSON texts.
-  void write_extra(const std::string& name,
-                   const std::vector<std::pair<std::string, std::string>>& facts);
+  /// Writes the groups, and FORMAT: {the facts, "kinds": [names of groups]}, as the scene's "extra"
+  /// (extra_with_groups()).
+  void write_extra(const std::string& format, std::vector<ExtraFact> facts);
 
   void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
   /// One line if the count is not 0: "7 walls" and the rest.

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "scene/base/ascii_case.h"
+
 namespace gnomon {
 
 namespace {
@@ -116,10 +118,7 @@ std::string shown(std::string_view text) {
 
 bool says_not_finite(std::string_view text) {
   if (!text.empty() && (text[0] == '+' || text[0] == '-')) text.remove_prefix(1);
-  std::string lower;
-  for (const char c : text.substr(0, 8)) {
-    lower += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
+  const std::string lower = lower_case(text.substr(0, 8));
   return lower.starts_with("nan") || lower.starts_with("inf") || lower.starts_with("1.#");
 }
 

@@ -230,8 +230,9 @@ void RadReader::warn() {
     builder_.warn(counted_as(count, "surface", "surfaces") + " of type " + type +
                   " left out: only polygons are flat");
   }
-  builder_.warn_of(seen_through_, "polygon is", "polygons are",
-                   " of glass or another material that lets light through, and count as opaque");
+  builder_.warn_of(
+      seen_through_, "polygon of glass or another material that lets light through counts",
+      "polygons of glass or other materials that let light through count", " as opaque");
   builder_.warn_of(undefined_, "polygon has a modifier", "polygons have modifiers",
                    " that no file here defines: opaque");
   builder_.warn_of(nothing_, "polygon", "polygons", " of void or antimatter left out");

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // The reader of STL, ascii and binary: triangles with no names, whose vertices are one where their
-// coordinates are. Normals and attributes are not used: the order of the vertices tells the front.
+// coordinates are. Some programs write the words of ascii files in capitals. Normals and attributes
+// are not used: the order of the vertices tells the front.
 #include <array>
 #include <cmath>
 #include <cstdint>
 
+#include "scene/base/ascii_case.h"
 #include "scene/base/text_file.h"
 #include "scene/files/mesh_text.h"
 #include "scene/files/readers.h"
@@ -92,7 +94,7 @@ Expected<ReadResult> StlReader::read_binary() {
 
 Expected<void> StlReader::word(Tokens& tokens, std::string_view wanted) {
   const auto token = tokens.anywhere();
-  if (token && token->text == wanted) return {};
+  if (token && same_word(token->text, wanted)) return {};
   return error(ErrorCode::kSyntax,
                token ? "found " + quoted_text(token->text) : "the file ends inside a facet",
                "'" + std::string(wanted) + "'", token ? token->offset : text_.size());
@@ -152,11 +154,12 @@ Expected<ReadResult> StlReader::read_ascii() {
   Tokens tokens(text_, byte_order_mark(text_), Tokens::Continuation::kNone);
   std::size_t solids = 0;
   while (const auto token = tokens.anywhere()) {
-    if (token->text == "solid" || token->text == "endsolid") {
-      solids += token->text == "solid" ? 1 : 0;
+    const bool begins = same_word(token->text, "solid");
+    if (begins || same_word(token->text, "endsolid")) {
+      solids += begins ? 1 : 0;
       while (tokens.in_line()) {  // its name
       }
-    } else if (token->text == "facet" && solids != 0) {
+    } else if (same_word(token->text, "facet") && solids != 0) {
       if (auto done = facet(tokens, *token); !done) return tl::unexpected(std::move(done.error()));
     } else {
       return error(ErrorCode::kSyntax, "found " + quoted_text(token->text),
@@ -172,10 +175,9 @@ Expected<ReadResult> StlReader::read_ascii() {
 /// Does the text begin with a solid that has a facet or ends at once?
 bool is_ascii(std::string_view text) {
   constexpr std::size_t kFarEnough = 4096;
-  text = first_word_on(text).substr(0, kFarEnough);
-  return text.starts_with("solid") && text.find('\0') == std::string_view::npos &&
-         (text.find("facet") != std::string_view::npos ||
-          text.find("endsolid") != std::string_view::npos);
+  const std::string start = lower_case(first_word_on(text).substr(0, kFarEnough));
+  return start.starts_with("solid") && start.find('\0') == std::string::npos &&
+         (start.find("facet") != std::string::npos || start.find("endsolid") != std::string::npos);
 }
 
 }  // namespace

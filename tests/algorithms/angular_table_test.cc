@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "algorithms/angular_table/row_order.h"
-#include "algorithms/ridge_edges/facing_sides.h"
 #include "fuzz/generate/generator.h"
+#include "gnomon/algorithms/facing_sides.h"
 #include "gnomon/scene/camera.h"
 #include "gnomon/scene/generate.h"
 #include "scene/base/random.h"

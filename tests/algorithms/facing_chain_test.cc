@@ -15,6 +15,7 @@
 #include "exact_space.h"
 #include "fuzz/generate/generator.h"
 #include "fuzz/generate/scene_pen.h"
+#include "gnomon/algorithms/facing_sides.h"
 #include "gnomon/scene/generate.h"
 
 namespace gnomon {
@@ -67,6 +68,7 @@ Ends ends_of(const PreparedScene& scene, PlaneRef edge) {
 
 std::string problem_of(const PreparedScene& scene, const LightPoint& light) {
   const std::vector<Side> facing = facing_of(scene, light);
+  EXPECT_EQ(facing_sides(scene, light), facing);
   const FacingChain chain = facing_chain(scene, facing);
   std::map<Ends, int> contour;
   std::map<VertexId, int> in_less_out;

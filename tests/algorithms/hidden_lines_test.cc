@@ -21,6 +21,7 @@
 #include "fuzz/generate/families.h"
 #include "fuzz/generate/generator.h"
 #include "fuzz/generate/scene_pen.h"
+#include "gnomon/algorithms/facing_sides.h"
 #include "gnomon/oracle/line_counts.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/read.h"
@@ -209,7 +210,7 @@ TEST(HiddenLines, OfExamplesAndSharedScenesAreTheOracles) {
       const PreparedScene view = prepare(seen_from(scene, eye.camera.eye)).value();
       const PreparedLight& from = view.lights.back();
       std::vector<EdgeId> edges;
-      for (const OutlineEdge& edge : outline_edges(view, facing_sides(view, from))) {
+      for (const OutlineEdge& edge : outline_edges(view, facing_sides(view, from.point))) {
         edges.push_back(edge.edge);
       }
       ASSERT_EQ(problem_of(view, from, edges, random, met), "") << file << ", eye " << eye.name;
@@ -223,7 +224,7 @@ using PlacedLines = std::map<std::pair<std::string, std::string>, std::string>;
 
 PlacedLines placed_lines(const PreparedScene& scene, const PreparedLight& light) {
   std::vector<EdgeId> edges;
-  for (const OutlineEdge& edge : outline_edges(scene, facing_sides(scene, light))) {
+  for (const OutlineEdge& edge : outline_edges(scene, facing_sides(scene, light.point))) {
     edges.push_back(edge.edge);
   }
   const auto place = [&](VertexId vertex) {
@@ -419,7 +420,7 @@ TEST(OutlineEdges, AreThoseOfThePolygonAsItIs) {
       .polygon({{0, 0, 0}, {0, -4, 0}, {4, -4, 0}, {4, 0, 0}});
   const MapScene map(pen, {1, 1, 8});
   const std::vector<OutlineEdge> edges =
-      outline_edges(map.scene, facing_sides(map.scene, map.scene.lights.back()));
+      outline_edges(map.scene, facing_sides(map.scene, map.scene.lights.back().point));
   EXPECT_GT(map.scene.parts.size(), 2u);
   ASSERT_EQ(edges.size(), 9u);
   const auto shared = std::ranges::count_if(edges, [](const OutlineEdge& edge) {
@@ -428,8 +429,9 @@ TEST(OutlineEdges, AreThoseOfThePolygonAsItIs) {
   EXPECT_EQ(shared, 1);
   // From below nothing faces.
   const MapScene below(pen, {1, 1, -8});
-  EXPECT_THAT(outline_edges(below.scene, facing_sides(below.scene, below.scene.lights.back())),
-              IsEmpty());
+  EXPECT_THAT(
+      outline_edges(below.scene, facing_sides(below.scene, below.scene.lights.back().point)),
+      IsEmpty());
 }
 
 TEST(HiddenLines, StopWhenInterrupted) {

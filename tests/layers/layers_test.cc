@@ -132,7 +132,7 @@ const std::map<std::string, std::vector<Room>>& rooms() {
         {"certificate", {"facts", "json", "text"}},
         {"pixels", {"json", "text"}},
         {"meshes", {"json", "text"}},
-        {"exports", {"json", "meshes", "sides", "text"}},
+        {"exports", {"certificate", "json", "meshes", "sides", "text"}},
         {"junit", {"text"}},
         {"page", {"json", "text"}},
         {"pictures", {"meshes", "text"}},

@@ -12,8 +12,12 @@
 #include <sstream>
 
 #include "gnomon/algorithms/shadows.h"
+#include "gnomon/oracle/verdict.h"
 #include "gnomon/scene/read.h"
+#include "report/certificate/certificate.h"
 #include "report/exports/result_export.h"
+#include "report/exports/verdict_arrays.h"
+#include "report/sides/claims_of.h"
 
 namespace gnomon::report {
 namespace {
@@ -132,6 +136,77 @@ TEST(Exports, VtpHoldsEveryPieceWithItsArrays) {
   }
   // The roof's shadow under the sun is moved by 0.1 to the west.
   EXPECT_NEAR((lit[{0, 0}]), 16 - 1.9 * 4, 1e-12);
+}
+
+/// By the bounds of an interval of doubles around what is true.
+constexpr double kNear = 1e-12;
+
+TEST(Exports, VtpHoldsTheErrorsOfRuns) {
+  const Classified all = classify(kScene);
+  const Claims right = claims_of(all.scene, all.prepared, all.result, "right", false);
+  Claims wrong = right;
+  wrong.name = "a<b> & \"c\"";
+  // Under the sun the shadow on the floor, 1.9 by 4 of 4 by 4, is said to be lit.
+  ASSERT_EQ(wrong.lights[0].polygons[0].id, "floor");
+  for (ClaimedFragment& fragment : wrong.lights[0].polygons[0].fragments) {
+    fragment.state = LightState::kLit;
+    fragment.caster.clear();
+  }
+  const std::vector<std::uint32_t> lights = {0, 1};
+  Certificate certificate = certificate_of(all.scene, all.prepared, lights);
+  for (const Claims& claims : {right, wrong}) {
+    auto report = oracle::certify(all.scene, all.prepared, claims, {});
+    ASSERT_TRUE(report) << to_string(report.error());
+    certificate.runs.push_back(foreign_run(claims.name, claims));
+    certificate.runs.back().report = std::move(*report);
+  }
+  certificate.runs.emplace_back().name = "tired";  // has no report
+  StringSink sink;
+  ASSERT_TRUE(write_verdict_vtp(sink, certificate, all.result));
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(sink.text().c_str()));
+  const pugi::xml_node data = document.child("VTKFile").child("PolyData");
+  EXPECT_THAT(texts(data.child("FieldData"), "run_ids"), ElementsAre("right", wrong.name, "tired"));
+  EXPECT_THAT(texts(data.child("FieldData"), "run_verdicts"),
+              ElementsAre("within tolerance", "failed", "gave up"));
+  const pugi::xml_node cells = data.child("Piece").child("CellData");
+  const auto polygons = numbers(cells, "polygon"), of_lights = numbers(cells, "light");
+  const auto shares = numbers(cells, ("wrong_share " + wrong.name).c_str());
+  const auto widths = numbers(cells, ("wrong_width " + wrong.name).c_str());
+  ASSERT_EQ(shares.size(), polygons.size());
+  ASSERT_EQ(widths.size(), polygons.size());
+  for (const double share : numbers(cells, "wrong_share right")) EXPECT_NEAR(share, 0, kNear);
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    const bool is_wrong = polygons[i] == 0 && of_lights[i] == 0;
+    EXPECT_NEAR(shares[i], is_wrong ? 1.9 / 4 : 0, kNear);
+    EXPECT_NEAR(widths[i], is_wrong ? 1.9 : 0, is_wrong ? 0.01 : kNear);
+  }
+  EXPECT_TRUE(cells.find_child_by_attribute("Name", "wrong_share right"));
+  EXPECT_FALSE(cells.find_child_by_attribute("Name", "wrong_share tired"));
+}
+
+TEST(Exports, ErrorsOfLightsThatWereNotJudgedAreMinusOne) {
+  const Classified all = classify(kScene);
+  const Claims claims = claims_of(all.scene, all.prepared, all.result, "one", false);
+  const std::vector<std::uint32_t> sun = {0};
+  Certificate certificate = certificate_of(all.scene, all.prepared, sun);
+  oracle::CertifyOptions options;
+  options.lights = sun;
+  auto report = oracle::certify(all.scene, all.prepared, claims, options);
+  ASSERT_TRUE(report);
+  certificate.runs.push_back(foreign_run("one", claims));
+  certificate.runs.back().report = std::move(*report);
+  const auto pieces = result_pieces(all.prepared, all.result);
+  ASSERT_TRUE(pieces);
+  const auto arrays = verdict_arrays(certificate, all.result, *pieces);
+  ASSERT_EQ(arrays.size(), 2u);
+  EXPECT_EQ(arrays[0].name, "wrong_share one");
+  EXPECT_EQ(arrays[1].name, "wrong_width one");
+  for (std::size_t i = 0; i < pieces->size(); ++i) {
+    const bool is_judged = (*pieces)[i].light == 0;
+    EXPECT_EQ(arrays[0].values[i] < 0, !is_judged);
+    EXPECT_EQ(arrays[1].values[i] < 0, !is_judged);
+  }
 }
 
 TEST(Exports, GeoJsonHoldsShadowsOnLevelGround) {

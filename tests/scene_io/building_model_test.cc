@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "gnomon/scene/groups.h"
+#include "gnomon/scene/prepare.h"
 #include "gnomon/scene/repair.h"
 #include "gnomon/scene/write.h"
 #include "scene_testing.h"
@@ -15,6 +16,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 // ------------------------------------------------------------------------------------------ HBJSON
 
@@ -102,7 +104,7 @@ TEST(HbJson, LooseThingsHaveTwoSides) {
   for (std::size_t i = 3; i < scene.polygons.size(); ++i) {
     EXPECT_TRUE(scene.is_two_sided(scene.polygons[i]));
   }
-  EXPECT_THAT(result.warnings.back(), "1 shade has a transmittance schedule and count as opaque");
+  EXPECT_THAT(result.warnings.back(), "1 shade with a transmittance schedule counts as opaque");
 }
 
 TEST(HbJson, ErrorsNameTheirPlace) {
@@ -190,6 +192,54 @@ TEST(GbXml, OpeningsAreHolesAndPolygons) {
   EXPECT_THAT(scene.extra, HasSubstr(R"("groups":{"hall":["w","o"],"ExteriorWall":["w"])"));
 }
 
+/// A wall of 10 by 10 with openings o0, o1, ...
+std::string wall_with(const std::vector<std::string>& openings) {
+  std::string text = "<Surface id=\"w\" surfaceType=\"ExteriorWall\">\n" +
+                     poly_loop("0,0,0;10,0,0;10,0,10;0,0,10");
+  for (std::size_t i = 0; i < openings.size(); ++i) {
+    text += "<Opening id=\"o" + std::to_string(i) + "\">" + poly_loop(openings[i]) + "</Opening>\n";
+  }
+  return gbxml(text + "</Surface>\n", "Meters");
+}
+
+/// As programs write them that round: a door whose sill is on the wall's edge, a window beside the
+/// wall's plane, one that reaches out of the wall, one over another.
+TEST(GbXml, OpeningsThatCannotBeHolesLieOnTheirSurface) {
+  const std::string door = "1,0.0000002,0;2,0.0000002,0;2,0.0000002,2;1,0.0000002,2";
+  const std::string window = "4,0.0000001,1;5,0.0000001,1;5,0.0000001,2;4,0.0000001,2";
+  const ReadResult bent = read_text(wall_with({door, window}), "a.xml");
+  ASSERT_EQ(bent.scene.polygons.size(), 3u);
+  ASSERT_EQ(bent.scene.polygons[0].holes.size(), 1u);
+  EXPECT_EQ(shown(bent.scene, bent.scene.polygons[0].holes[0]), loop_of(bent.scene, "o1"));
+  EXPECT_TRUE(prepare(bent.scene));
+  EXPECT_THAT(
+      bent.warnings,
+      ElementsAre(HasSubstr("1 of 2 openings not exactly in the plane of the surface, by up to "
+                            "1e-07 m: the surface around them"),
+                  HasSubstr("1 of 2 openings not cut out: they cross or touch the edge of their "
+                            "surface or one another, and lie on it, up to 2e-07 m before or "
+                            "behind it: 'gnomon convert --snap 1e-06 --parent' can put them")));
+  const std::string outside = "9,0,1;11,0,1;11,0,2;9,0,2";
+  const std::string first = "1,0,1;3,0,1;3,0,3;1,0,3", second = "2,0,2;4,0,2;4,0,4;2,0,4";
+  const ReadResult flat = read_text(wall_with({outside, first, second}), "a.xml");
+  ASSERT_EQ(flat.scene.polygons[0].holes.size(), 1u);
+  EXPECT_EQ(shown(flat.scene, flat.scene.polygons[0].holes[0]), loop_of(flat.scene, "o1"));
+  EXPECT_TRUE(prepare(flat.scene));
+  EXPECT_THAT(flat.warnings, ElementsAre(HasSubstr("2 of 3 openings not cut out")));
+  EXPECT_THAT(flat.warnings[0], Not(HasSubstr("--snap")));
+  // A door exactly on the edge is a notch.
+  const ReadResult exact = read_text(wall_with({"1,0,0;2,0,0;2,0,2;1,0,2"}), "a.xml");
+  EXPECT_EQ(exact.scene.polygons[0].holes.size(), 1u);
+  EXPECT_THAT(exact.warnings, IsEmpty());
+  // A wall that cannot be used is told of, whatever is in it.
+  std::string crossed = wall_with({first});
+  const std::string loop = poly_loop("0,0,0;10,0,0;10,0,10;0,0,10");
+  crossed.replace(crossed.find(loop), loop.size(), poly_loop("0,0,0;10,0,10;10,0,0;0,0,10"));
+  const ReadResult broken = read_text(crossed, "a.xml");
+  EXPECT_EQ(broken.scene.polygons[0].holes.size(), 1u);
+  EXPECT_FALSE(prepare(broken.scene));
+}
+
 TEST(GbXml, WithAPrefixAndWithoutTypes) {
   std::string text = gbxml(kWall);
   for (const char* name : {"gbXML", "Campus", "Surface", "Opening", "PolyLoop", "Coordinate",
@@ -224,12 +274,15 @@ TEST(GbXml, ErrorsNameTheirPlace) {
   EXPECT_EQ(error(gbxml("<Surface id=\"w\" surfaceType=\"Dome\"/>")), "4:2: a surfaceType 'Dome'");
   ReadOptions options;
   options.skip_bad = true;
-  const ReadResult result = read_text(
-      gbxml(kWall + "<Surface id=\"b\" surfaceType=\"Roof\">" + poly_loop("0,0,0") + "</Surface>"),
-      "a.xml", options);
+  const ReadResult result =
+      read_text(gbxml(kWall + "<Surface id=\"b\" surfaceType=\"Roof\">" + poly_loop("0,0,0") +
+                      "</Surface>" + "<Surface id=\"d\" surfaceType=\"Dome\">" +
+                      poly_loop("0,0,0;1,0,0;1,1,0") + "</Surface>"),
+                "a.xml", options);
   EXPECT_THAT(ids_of(result.scene), ElementsAre("w", "o"));
-  ASSERT_EQ(result.left_out.size(), 1u);
+  ASSERT_EQ(result.left_out.size(), 2u);
   EXPECT_EQ(result.left_out[0].id, "b");
+  EXPECT_EQ(result.left_out[1].id, "d");
 }
 
 }  // namespace

@@ -236,8 +236,7 @@ TEST(EnergyModel, WhatIsLeftOutIsSaid) {
       result.warnings,
       ElementsAre("4 interior surfaces left out: what does not face the outdoors neither casts nor "
                   "receives",
-                  "3 shading surfaces have a transmittance schedule (Leaves, Old) and count as "
-                  "opaque",
+                  "3 shading surfaces with a transmittance schedule (Leaves, Old) count as opaque",
                   HasSubstr("frames, dividers and reveals"), HasSubstr("MinimalShadowing")));
   EXPECT_EQ(result.scene.polygons.size(), 3u);
 }

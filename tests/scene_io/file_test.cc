@@ -44,6 +44,61 @@ class Files : public ::testing::Test {
   const test::TestDirectory directory_;
 };
 
+/// In UTF-16 with a byte order mark. `text` is ASCII.
+std::string in_utf16(const std::string& text, bool is_big_endian) {
+  std::string bytes = is_big_endian ? "\xFE\xFF" : "\xFF\xFE";
+  for (const char c : text) {
+    if (is_big_endian) bytes += '\0';
+    bytes += c;
+    if (!is_big_endian) bytes += '\0';
+  }
+  return bytes;
+}
+
+/// As Revit writes gbXML, and spreadsheets text.
+TEST_F(Files, TextsInUtf16AreRead) {
+  const std::string long_obj = std::string(200'000, '#') + "\n" + kObj;  // of several chunks
+  for (const bool is_big_endian : {false, true}) {
+    for (const auto& [name, text] : {std::pair("wide", kObj), std::pair("long.obj", long_obj),
+                                     std::pair("wide.json", full_json())}) {
+      const auto result = read_scene(put(name, in_utf16(text, is_big_endian)));
+      ASSERT_TRUE(result) << to_string(result.error());
+      expect_same_geometry(result->scene, scene_of(text, name));
+    }
+    // Places are those of the text.
+    const Error error =
+        error_of_file(put("wide.obj", in_utf16("v 0 0 0\nv 1 x 0\n", is_big_endian)));
+    EXPECT_THAT(to_string(error), HasSubstr("wide.obj:2:5: 'x' is not a number"));
+  }
+  // All lengths of UTF-8, and a character of two units.
+  const std::string names = std::string("o a\xC3\xA9\xE2\x82\xAC\xF0\x9D\x84\x9E\n") + kObj;
+  std::string wide = in_utf16("o a", false);
+  wide +=
+      std::string("\xE9\x00\xAC\x20\x34\xD8\x1E\xDD", 8) + in_utf16("\n" + kObj, false).substr(2);
+  const auto result = read_scene(put("names.obj", wide));
+  ASSERT_TRUE(result) << to_string(result.error());
+  EXPECT_EQ(result->scene.polygons[0].id, scene_of(names, "names.obj").polygons[0].id);
+}
+
+TEST_F(Files, BrokenUtf16IsAnErrorWithItsPlace) {
+  const std::string good = in_utf16("v 0 0 0\nv 1", false);
+  for (const std::string& bad :
+       {std::string("\x34\xD8"), std::string("\x34\xD8\x61\x00", 4), std::string("\x1E\xDD"),
+        std::string("\x61"), std::string("\x34\xD8\x1E")}) {
+    EXPECT_THAT(to_string(error_of_file(put("bad.obj", good + bad))),
+                HasSubstr("bad.obj:2:4: this is half of a character of UTF-16"));
+  }
+  // Neither is UTF-16 without a mark, nor UTF-32.
+  for (const std::string& other :
+       {in_utf16(kObj, true).substr(2), in_utf16(kObj, false).substr(2),
+        std::string("\xFF\xFE\0\0v\0\0\0", 8), std::string("\0\0\xFE\xFF\0\0\0v", 8)}) {
+    EXPECT_THAT(to_string(error_of_file(put("other.obj", other))),
+                HasSubstr("expected a file in UTF-8, or in UTF-16 with a byte order mark"));
+  }
+  EXPECT_THAT(to_string(error_of_file(put("empty.obj", "\xFF\xFE"))),
+              HasSubstr("the file is empty"));
+}
+
 TEST_F(Files, FormatByExtensionThenByContent) {
   for (const char* name : {"a.obj", "a.OBJ", "a", "a.txt"}) {
     EXPECT_TRUE(read_scene(put(name, kObj))) << name;

@@ -113,7 +113,7 @@ TEST(Radiance, WhatIsLeftOutIsToldOf) {
   EXPECT_THAT(result.warnings,
               ElementsAre(HasSubstr("2 commands are not run (genbox, gensky)"),
                           HasSubstr("1 surface of type sphere left out"),
-                          HasSubstr("1 polygon is of glass"), HasSubstr("1 polygon has a modifier"),
+                          HasSubstr("1 polygon of glass"), HasSubstr("1 polygon has a modifier"),
                           HasSubstr("1 polygon of void or antimatter left out")));
 }
 

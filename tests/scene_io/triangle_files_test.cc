@@ -90,6 +90,23 @@ TEST(Stl, AsciiIsText) {
               ElementsAre("the scene has no polygons"));
 }
 
+/// As some programs write them; others mix both.
+TEST(Stl, WordsInCapitals) {
+  std::string capitals = "solid one\n" + kFacet + "endsolid one\n";
+  for (char& c : capitals) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const std::string mixed =
+      "solid one\nfacet NORMAL 0 0 1\nOuter Loop\nvertex 0 0 0\nVERTEX 0.1 0 0\n"
+      "vertex 0 0.1 0\nENDLOOP\nEndFacet\nENDSOLID\n";
+  for (const std::string& text : {capitals, mixed}) {
+    for (const char* name : {"a.stl", "a"}) {
+      const ReadResult result = read_text(text, name);
+      EXPECT_THAT(result.warnings, IsEmpty());
+      EXPECT_EQ(loop_of(result.scene, "0"), "(0, 0, 0) (0.1, 0, 0) (0, 0.1, 0)");
+    }
+  }
+  EXPECT_EQ(error_of("SOLID a\nFACETS\n", "a.stl"), "2:1: found 'FACETS'");
+}
+
 TEST(Stl, ErrorsNameTheirPlace) {
   const auto error = [](const std::string& text) { return error_of(text, "a.stl"); };
   EXPECT_EQ(error("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 x\n"),

@@ -47,19 +47,60 @@ assert {"0", "3"} == set(arrays["class"])
 assert "1" in arrays["caster"]
 print("as XML", {name: len(values) for name, values in arrays.items()})
 PY
+# How far off single precision is, polygon by polygon, to be looked at where it is.
+"$gnomon" certify model.obj --up-axis y --sun=0.3,0.1,1 --kernel float --kernel double --json verdict.json \
+    --export errors.vtp > verdict.txt || true
+cat verdict.txt
 # Read as people do, where VTK is installed.
+reader=
 for python in python3 /usr/bin/python3; do
-  "$python" -c 'import vtk' 2> no.txt || continue
-  exec "$python" - <<'PY'
+  if "$python" -c 'import vtk' 2> no.txt; then reader=$python; break; fi
+done
+cat > wrong.py <<'PY'
+import json
+def told(run):
+    """The greatest share of each polygon side that certify tells of a run, by id."""
+    runs = json.load(open("verdict.json"))["runs"]
+    wrong = next(one for one in runs if one["kernel"] == run)["wrong"]
+    kinds = ("misclassified", "uncovered", "overlapping", "outside")
+    def upper(share):
+        fraction = share["fraction"]
+        return fraction[1] if isinstance(fraction, list) else fraction
+    return {side["polygon"]: max(upper(side[kind]) for kind in kinds) for side in wrong}
+def check(ids, polygons, shares, kernel):
+    assert len(polygons) == len(shares) > 0
+    expected = told(kernel)
+    for polygon, share in zip(polygons, shares):
+        assert share == expected.get(ids[polygon], 0), (kernel, ids[polygon], share, expected)
+    print("wrong by", kernel, {ids[polygon]: share for polygon, share in zip(polygons, shares)})
+PY
+python3 - <<'PY' || exit $?
+import xml.etree.ElementTree as xml
+from wrong import check, told
+assert told("float") and max(told("float").values()) > max([0, *told("double").values()])
+root = xml.parse("errors.vtp").getroot().find("PolyData")
+def texts(name):
+    array = next(one for one in root.find("FieldData") if one.get("Name") == name)
+    return bytes(map(int, array.text.split())).decode().split("\0")[:-1]
+assert texts("run_ids") == ["float", "double"] and texts("run_verdicts")[1] == "within tolerance"
+cells = {array.get("Name"): [float(word) for word in array.text.split()] for array in root.find("Piece/CellData")}
+for kernel in ("float", "double"):
+    check(texts("polygon_ids"), [int(at) for at in cells["polygon"]], cells["wrong_share " + kernel], kernel)
+PY
+[ -n "$reader" ] || exit 0
+"$reader" - <<'PY'
 import vtk
-reader = vtk.vtkXMLPolyDataReader()
-reader.SetFileName("model.vtp")
-reader.Update()
-data = reader.GetOutput()
+def read(name):
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(name)
+    reader.Update()
+    return reader.GetOutput()
+data = read("model.vtp")
 cells = data.GetCellData()
 assert data.GetNumberOfCells() == cells.GetArray("class").GetNumberOfTuples() >= 3
 names = data.GetFieldData().GetAbstractArray("polygon_ids")
-assert [names.GetValue(i) for i in range(names.GetNumberOfValues())] == ["yard/0", "roof/0"]
+ids = [names.GetValue(i) for i in range(names.GetNumberOfValues())]
+assert ids == ["yard/0", "roof/0"]
 sizes = vtk.vtkCellSizeFilter()
 sizes.SetInputData(data)
 sizes.Update()
@@ -70,5 +111,12 @@ for i in range(data.GetNumberOfCells()):
         area[cells.GetArray("class").GetValue(i)] += areas.GetValue(i)
 assert abs(area[0] - 8) < 1e-12 and abs(area[3] - 8) < 1e-12, area
 print("in VTK", area)
+from wrong import check
+cells = read("errors.vtp").GetCellData()
+def values(name):
+    array = cells.GetArray(name)
+    return [array.GetValue(i) for i in range(array.GetNumberOfTuples())]
+for kernel in ("float", "double"):
+    check(ids, values("polygon"), values("wrong_share " + kernel), kernel)
+    assert all(width >= 0 for width in values("wrong_width " + kernel))
 PY
-done

@@ -22,18 +22,15 @@
 
 namespace gnomon {
 
-/// Which side of each part faces a point or directional light: kOn where neither does. Exact.
-std::vector<Side> facing_sides(const PreparedScene& scene, const PreparedLight& light);
-
 /// An edge of the geometry, and the polygons that it bounds.
 struct OutlineEdge {
   EdgeId edge = 0;
   std::vector<std::uint32_t> polygons;  // indices into Scene::polygons, ascending
 };
 
-/// The edges of all polygons of which a side faces the light: for each polygon the contour of those
-/// of its parts that face. So edges between parts that a polygon was cut into are not among them,
-/// unless the polygon is not planar and folds back there. Ascending.
+/// The edges of all polygons of which a side faces the light (facing_sides.h): for each polygon the
+/// contour of those of its parts that face. So edges between parts that a polygon was cut into are
+/// not among them, unless the polygon is not planar and folds back there. Ascending.
 std::vector<OutlineEdge> outline_edges(const PreparedScene& scene, std::span<const Side> facing);
 
 /// A part of an edge, from the end of the part before it, or from the edge's first vertex (0).
