@@ -76,10 +76,13 @@ class SolidChecks {
     const BoxTree tree(boxes);
     std::vector<std::uint32_t> near;
     for (std::uint32_t face = 0; face < scene_.parts.size(); ++face) {
-      if (!is_solid(objects_[object_of_[face]])) continue;
+      const std::uint32_t own = object_of_[face];
+      if (!is_solid(objects_[own])) continue;
+      // Of a convex solid all is behind or on each of its planes, and meets them at its edges.
+      const bool is_convex = objects_[own].component.is_convex;
       near.clear();
       tree.for_each_that_meets(boxes[face], [&](std::uint32_t p) {
-        if (p != face) near.push_back(p);
+        if (p != face && !(is_convex && object_of_[p] == own)) near.push_back(p);
       });
       std::ranges::sort(near);  // so that the first error does not depend on the tree
       for (const std::uint32_t p : near) {
@@ -123,15 +126,16 @@ class SolidChecks {
   }
 
   Expected<void> check_light(const LightPoint& light) const {
-    if (light.directional) return {};
     DirectionVector point;
     for (std::size_t k = 0; k < 3; ++k) point[k] = 3 * light.grid[k];
     for (const TableObject& object : objects_) {
       if (!is_solid(object)) continue;
       const auto& parts = object.component.parts;
-      const bool is_on = lies_on(object, point);
-      const int room = sign_of_volume(scene_, parts) < 0 ? 1 : 0;
-      if (!is_on && winding_number(scene_, parts, point) + room <= 0) continue;
+      const bool is_room = sign_of_volume(scene_, parts) < 0;
+      // A sun is outside of every solid, which for a room is inside of its walls.
+      const bool is_on = !light.directional && lies_on(object, point);
+      const int winding = light.directional || is_on ? 0 : winding_number(scene_, parts, point);
+      if (!is_on && winding + (is_room ? 1 : 0) <= 0) continue;
       return fail(ErrorCode::kGeometry,
                   std::string("the light is ") + (is_on ? "on" : "inside of") +
                       " the solid of polygon " + name(parts.front()),
