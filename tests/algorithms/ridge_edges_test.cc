@@ -247,6 +247,15 @@ TEST(RidgeEdges, RefusesWhatHiddenFacesCannotTell) {
   room.box({0, 0, 0}, {9, 9, 9}, true).box({2, 2, 0}, {4, 4, 2}).lamp({5, 5, 8});
   EXPECT_EQ(refusal(room.take(), cube), "taken") << "its walls face inwards";
 
+  // Two edges of a solid are those of a tetrahedron that looks inwards, which makes one object.
+  fuzz::ScenePen turned = pen();
+  turned.polygon({{0, 0, 0}, {0, 2, 1}, {0, 2, 0}}).polygon({{0, 2, 0}, {0, 2, 1}, {2, 1, 2}});
+  turned.polygon({{0, 0, 0}, {0, 2, 0}, {2, 1, 2}, {1, 0, 0}});
+  turned.polygon({{0, 0, 0}, {1, 0, 0}, {2, 1, 2}, {0, 2, 1}});
+  turned.polygon({{0, 2, 1}, {0, 0, 0}, {1, 1, 1}}).polygon({{0, 2, 1}, {2, 1, 2}, {0, 0, 0}});
+  turned.polygon({{1, 1, 1}, {0, 0, 0}, {2, 1, 2}}).polygon({{0, 2, 1}, {1, 1, 1}, {2, 1, 2}});
+  EXPECT_THAT(refusal(turned.sun({0, 0, 1}).take(), cube), HasSubstr("turned inside out"));
+
   fuzz::ScenePen sunlit = pen();
   sunlit.box({0, 0, 0}, {9, 9, 9}, true).sun({0, 0, 1});
   EXPECT_THAT(refusal(sunlit.take(), cube), HasSubstr("the light is inside of the solid"));
