@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "gnomon/algorithms/angular_rows.h"
 
-#include <utility>
+#include <algorithm>
 #include <vector>
 
 #include "algorithms/angular_table/angular_table.h"
@@ -20,29 +20,22 @@ mpq_class value(const GridPlane& function, const RationalVector& x) {
   return sum;
 }
 
-/// Where three planes meet, if they do in one point.
-std::optional<RationalVector> meet(const GridPlane& a, const GridPlane& b, const GridPlane& c) {
-  const mpz_class det = dot(a.n, cross(b.n, c.n));
-  if (det == 0) return std::nullopt;
-  const DirectionVector bc = cross(b.n, c.n), ca = cross(c.n, a.n), ab = cross(a.n, b.n);
-  RationalVector x;
-  for (std::size_t k = 0; k < 3; ++k) {
-    x[k] = mpq_class(a.d * bc[k] + b.d * ca[k] + c.d * ab[k], det);
-    x[k].canonicalize();
-  }
-  return x;
+/// The direction (s, t) in integers.
+DirectionVector direction_of(const mpq_class& s, const mpq_class& t) {
+  return {s.get_num() * t.get_den(), t.get_num() * s.get_den(), s.get_den() * t.get_den()};
 }
 
-GridPlane support_plane(const PreparedScene& scene, std::uint32_t part) {
-  const SupportTriple& triple = scene.geometry.planes[scene.parts[part].plane];
-  const auto at = [&](VertexId v) {
-    const GridPositions& grid = scene.geometry.grid;
-    return DirectionVector{grid.at(v, 0), grid.at(v, 1), grid.at(v, 2)};
-  };
-  const DirectionVector a = at(triple.a);
-  GridPlane plane{cross(minus(at(triple.b), a), minus(at(triple.c), a)), 0};
-  plane.d = dot(plane.n, a);
-  return plane;
+/// 1 inside of the cone of a loop of directions, 0 on its border, -1 outside.
+int place_in(const std::vector<DirectionVector>& loop, const DirectionVector& direction) {
+  const int turn = sgn(dot(cross(loop[0], loop[1]), loop[2]));
+  int place = 1;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const DirectionVector& next = loop[i + 1 == loop.size() ? 0 : i + 1];
+    const int side = turn * sgn(dot(cross(loop[i], next), direction));
+    if (side < 0) return -1;
+    if (side == 0) place = 0;
+  }
+  return turn == 0 ? -1 : place;
 }
 
 }  // namespace
@@ -51,8 +44,12 @@ struct AngularRows::Data {
   const PreparedScene& scene;
   std::vector<TableOutline> outlines;  // by charts
 
-  std::optional<RationalVector> middle_in(const TableOutline& outline, std::uint32_t part,
-                                          const RationalVector& x) const;
+  /// The row that holds a place of the grid, if one does, and its column.
+  struct Place {
+    const TableChart* chart = nullptr;
+    mpq_class s, t, middle;
+  };
+  Place place_of(const RationalVector& x) const;
 };
 
 AngularRows::AngularRows(const PreparedScene& scene, const ImageFrame& frame,
@@ -70,36 +67,37 @@ AngularRows::AngularRows(const PreparedScene& scene, const ImageFrame& frame,
 AngularRows::~AngularRows() = default;
 AngularRows::AngularRows(AngularRows&&) noexcept = default;
 
-std::optional<RationalVector> AngularRows::Data::middle_in(const TableOutline& outline,
-                                                           std::uint32_t part,
-                                                           const RationalVector& x) const {
-  const TableChart& chart = outline.mesh.chart();
-  const mpq_class ahead = value(chart.ahead, x);
-  if (ahead <= 0 || outline.rows->count() == 0) return std::nullopt;
-  const mpq_class s = value(chart.across, x) / ahead, t = value(chart.upwards, x) / ahead;
-  if (chart.is_pyramid && (abs(s) > 1 || abs(t) > 1)) return std::nullopt;
-  const auto row = outline.rows->holding(t);
-  if (!row) return std::nullopt;
-  const auto middle =
-      meet(chart.column(s), chart.row(outline.rows->middle(*row)), support_plane(scene, part));
-  if (!middle || value(chart.ahead, *middle) <= 0) return std::nullopt;
-  return middle;
+AngularRows::Data::Place AngularRows::Data::place_of(const RationalVector& x) const {
+  for (const TableOutline& outline : outlines) {
+    const TableChart& chart = outline.mesh.chart();
+    const mpq_class ahead = value(chart.ahead, x);
+    if (ahead <= 0) continue;
+    const mpq_class s = value(chart.across, x) / ahead, t = value(chart.upwards, x) / ahead;
+    if (chart.is_pyramid && (abs(s) > 1 || abs(t) > 1)) continue;
+    if (const auto row = outline.rows->holding(t))
+      return {&chart, s, t, outline.rows->middle(*row)};
+  }
+  return {};
 }
 
-std::optional<RationalVector> AngularRows::middle(std::uint32_t part,
-                                                  const RationalVector& point) const {
+bool AngularRows::has_edge_near(const RationalVector& point) const {
   const Geometry& geometry = data_->scene.geometry;
   RationalVector x;
   for (std::size_t k = 0; k < 3; ++k) x[k] = (point[k] - geometry.origin[k]) / geometry.step;
-  for (const TableOutline& outline : data_->outlines) {
-    auto found = data_->middle_in(outline, part, x);
-    if (!found) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      (*found)[k] = geometry.origin[k] + geometry.step * (*found)[k];
+  const Data::Place place = data_->place_of(x);
+  if (place.chart == nullptr) return false;
+  const DirectionVector own = direction_of(place.s, place.t);
+  const DirectionVector middle = direction_of(place.s, place.middle);
+  return std::ranges::any_of(data_->scene.parts, [&](const Part& part) {
+    if (!part.casts) return false;
+    std::vector<DirectionVector> loop;
+    for (const VertexId v : data_->scene.loop(part)) {
+      const GridPositions& grid = geometry.grid;
+      loop.push_back(place.chart->of({grid.at(v, 0), grid.at(v, 1), grid.at(v, 2)}));
     }
-    return found;
-  }
-  return std::nullopt;
+    const int here = place_in(loop, own), there = place_in(loop, middle);
+    return here != there || here == 0;
+  });
 }
 
 }  // namespace gnomon

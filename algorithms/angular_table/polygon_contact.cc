@@ -191,6 +191,21 @@ int winding_number(const PreparedScene& scene, std::span<const std::uint32_t> pa
   }
 }
 
+WindingBeside winding_beside(const PreparedScene& scene, std::span<const std::uint32_t> parts,
+                             const Part& part) {
+  // The middle of its first three corners is inside of a convex part; the part itself, which holds
+  // the point, is no crossing.
+  const std::vector<DirectionVector> corners = corners_of(scene, part);
+  DirectionVector point;
+  for (std::size_t k = 0; k < 3; ++k) point[k] = corners[0][k] + corners[1][k] + corners[2][k];
+  const DirectionVector n = normal_of(scene, part);
+  for (long k = 1;; ++k) {
+    const DirectionVector along{1, k, mpz_class(k) * k};
+    const auto sum = crossings_of_ray(scene, parts, point, along);
+    if (sum) return {*sum, dot(n, along) > 0};
+  }
+}
+
 int sign_of_volume(const PreparedScene& scene, std::span<const std::uint32_t> parts) {
   mpz_class volume = 0;
   for (const std::uint32_t p : parts) {

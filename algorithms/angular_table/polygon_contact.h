@@ -28,6 +28,14 @@ bool is_on_part(const PreparedScene& scene, const Part& part, const DirectionVec
 int winding_number(const PreparedScene& scene, std::span<const std::uint32_t> parts,
                    const DirectionVector& point);
 
+/// The winding number right beside a part of them, before its front or behind it.
+struct WindingBeside {
+  int winding = 0;
+  bool in_front = false;
+};
+WindingBeside winding_beside(const PreparedScene& scene, std::span<const std::uint32_t> parts,
+                             const Part& part);
+
 /// Of the volume of a closed surface: positive if the fronts are outside.
 int sign_of_volume(const PreparedScene& scene, std::span<const std::uint32_t> parts);
 

@@ -2,6 +2,7 @@
 #include "algorithms/angular_table/solid_checks.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -76,10 +77,13 @@ class SolidChecks {
     const BoxTree tree(boxes);
     std::vector<std::uint32_t> near;
     for (std::uint32_t face = 0; face < scene_.parts.size(); ++face) {
-      if (!is_solid(objects_[object_of_[face]])) continue;
+      const std::uint32_t own = object_of_[face];
+      if (!is_solid(objects_[own])) continue;
+      // Of a convex solid all is behind or on each of its planes, and meets them at its edges.
+      const bool is_convex = objects_[own].component.is_convex;
       near.clear();
       tree.for_each_that_meets(boxes[face], [&](std::uint32_t p) {
-        if (p != face) near.push_back(p);
+        if (p != face && !(is_convex && object_of_[p] == own)) near.push_back(p);
       });
       std::ranges::sort(near);  // so that the first error does not depend on the tree
       for (const std::uint32_t p : near) {
@@ -122,16 +126,35 @@ class SolidChecks {
     return {};
   }
 
+  /// Behind every polygon of a solid is solid, and before it is none. Along edges of two polygons
+  /// the one has what the other has, so that one of each such patch is asked.
+  Expected<void> check_sides() const {
+    for (const TableObject& object : objects_) {
+      if (!is_solid(object)) continue;
+      const auto& parts = object.component.parts;
+      const int room = sign_of_volume(scene_, parts) < 0 ? 1 : 0;
+      for (const std::uint32_t p : first_of_patches(parts)) {
+        const WindingBeside beside = winding_beside(scene_, parts, scene_.parts[p]);
+        if (beside.winding + room == (beside.in_front ? 0 : 1)) continue;
+        return fail(ErrorCode::kGeometry,
+                    "polygon " + name(p) + " is turned inside out, or inside of its own solid",
+                    kInstead);
+      }
+    }
+    return {};
+  }
+
   Expected<void> check_light(const LightPoint& light) const {
-    if (light.directional) return {};
     DirectionVector point;
     for (std::size_t k = 0; k < 3; ++k) point[k] = 3 * light.grid[k];
     for (const TableObject& object : objects_) {
       if (!is_solid(object)) continue;
       const auto& parts = object.component.parts;
-      const bool is_on = lies_on(object, point);
-      const int room = sign_of_volume(scene_, parts) < 0 ? 1 : 0;
-      if (!is_on && winding_number(scene_, parts, point) + room <= 0) continue;
+      const bool is_room = sign_of_volume(scene_, parts) < 0;
+      // A sun is outside of every solid, which for a room is inside of its walls.
+      const bool is_on = !light.directional && lies_on(object, point);
+      const int winding = light.directional || is_on ? 0 : winding_number(scene_, parts, point);
+      if (!is_on && winding + (is_room ? 1 : 0) <= 0) continue;
       return fail(ErrorCode::kGeometry,
                   std::string("the light is ") + (is_on ? "on" : "inside of") +
                       " the solid of polygon " + name(parts.front()),
@@ -158,6 +181,37 @@ class SolidChecks {
     return fail(ErrorCode::kGeometry,
                 "polygon " + name(p) + " goes through polygon " + name(face) + " of a solid",
                 kInstead);
+  }
+
+  /// The first part of each set of parts that hang together along edges that two of them have.
+  std::vector<std::uint32_t> first_of_patches(const std::vector<std::uint32_t>& parts) const {
+    std::map<EdgeId, std::vector<std::uint32_t>> along;  // places in `parts`
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+      for (const PlaneRef edge : scene_.edges(scene_.parts[parts[i]])) {
+        along[edge.index()].push_back(i);
+      }
+    }
+    std::vector<std::uint32_t> firsts, waiting;
+    std::vector<bool> seen(parts.size(), false);
+    for (std::uint32_t first = 0; first < parts.size(); ++first) {
+      if (seen[first]) continue;
+      firsts.push_back(parts[first]);
+      seen[first] = true;
+      waiting.push_back(first);
+      while (!waiting.empty()) {
+        const std::uint32_t i = waiting.back();
+        waiting.pop_back();
+        for (const PlaneRef edge : scene_.edges(scene_.parts[parts[i]])) {
+          const std::vector<std::uint32_t>& both = along[edge.index()];
+          for (const std::uint32_t j : both) {
+            if (both.size() != 2 || seen[j]) continue;
+            seen[j] = true;
+            waiting.push_back(j);
+          }
+        }
+      }
+    }
+    return firsts;
   }
 
   /// A part of the other object that is inside of this one's solid.
@@ -193,6 +247,7 @@ Expected<void> check_solids(const PreparedScene& scene, const Scene* names,
   const SolidChecks checks(scene, names, objects);
   if (auto closed = checks.check_closed(); !closed) return closed;
   if (auto apart = checks.check_contacts(); !apart) return apart;
+  if (auto sides = checks.check_sides(); !sides) return sides;
   return checks.check_insides();
 }
 

@@ -17,8 +17,9 @@
 namespace gnomon {
 
 /// Objects are closed, all of their polygons cast and have one side, no polygon of one is back to
-/// back on another of it, and no polygon goes through another's face into a solid or lies inside of
-/// one. `names` may be null. Errors: kGeometry; names the polygons and the edge.
+/// back on another of it or turned inside out, and no polygon goes through another's face into a
+/// solid or lies inside of one. `names` may be null. Errors: kGeometry; names the polygons and the
+/// edge.
 Expected<void> check_solids(const PreparedScene& scene, const Scene* names,
                             const std::vector<TableObject>& objects);
 

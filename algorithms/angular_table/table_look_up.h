@@ -33,7 +33,6 @@ class TableLookUp {
               std::size_t l)
       : scene_(scene), task_(task), tables_(tables), light_(l), lit_(task.frame.width) {
     for (const AngularTable& table : tables.tables()) planes_.emplace_back(table.rows().count());
-    standing_.resize(scene.scene().parts.size());
   }
 
   /// Sets the light's bit of the samples that it reaches. Requires: the seen side faces the light.
@@ -171,9 +170,7 @@ class TableLookUp {
   }
 
   Standing standing(std::uint32_t object) {
-    std::vector<Standing>& of_part = standing_[at_.part];
-    if (of_part.empty()) of_part.resize(tables_.objects().size(), Standing::kUnknown);
-    Standing& own = of_part[object];
+    Standing& own = standing_[std::uint64_t{at_.part} << 32 | object];
     if (own != Standing::kUnknown) return own;
     bool in_front = true, behind = true;
     for (const VertexId v : tables_.objects()[object].vertices) {
@@ -326,9 +323,9 @@ class TableLookUp {
   const PixelTask& task_;
   const LightTables& tables_;
   std::size_t light_;
-  std::vector<PlanesOf> planes_;                 // by tables
-  std::vector<std::vector<Standing>> standing_;  // by parts and objects
-  std::vector<std::uint8_t> lit_;                // of the samples of a span
+  std::vector<PlanesOf> planes_;                          // by tables
+  std::unordered_map<std::uint64_t, Standing> standing_;  // by part and object
+  std::vector<std::uint8_t> lit_;                         // of the samples of a span
   std::vector<std::uint32_t> found_;
   std::vector<std::int32_t> sums_;
   Place at_;

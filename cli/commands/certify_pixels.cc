@@ -146,7 +146,7 @@ class PictureRun {
   }
 
   Expected<void> judge(report::JudgedPicture picture, const PreparedView& view,
-                       const PixelClaims& claims, oracle::PointTaken stands_for = {}) {
+                       const PixelClaims& claims, oracle::NearBorder near_border = {}) {
     picture.camera = camera_text(claims.camera, loaded_.scene);
     picture.width = claims.camera.width;
     picture.height = claims.camera.height;
@@ -154,7 +154,7 @@ class PictureRun {
     oracle::ImageOptions image_options;
     image_options.clearance = options_.clearance;
     image_options.interrupted = &interrupted();
-    image_options.stands_for = std::move(stands_for);
+    image_options.near_border = std::move(near_border);
     progress_.set_label("judging " + picture.name);
     image_options.progress = progress_.callback();
     auto report = oracle::judge_pixels(view, claims, image_options);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fuzz/check/judged_scene.h"
+#include "fuzz/check/pictures.h"
 #include "fuzz/corpus/corpus.h"
 #include "fuzz/findings/finding_picture.h"
 #include "fuzz/process/command.h"
@@ -125,6 +126,10 @@ class EvidenceSearch {
   }
 
   void run_subject() {
+    if (makes_pictures(*subject_)) {
+      evidence_.no_candidate = "a method of pictures makes no fragments that could be shown";
+      return;
+    }
     if (!subject_->foreign()) {
       ShadowOptions options = shadow_options(*subject_);
       options.output.exact_fractions = false;

@@ -46,7 +46,7 @@ class PixelJudge {
 
  private:
   struct Counts {
-    std::uint64_t judged = 0, boundary = 0, moved = 0, wrong = 0, wrong_polygon = 0;
+    std::uint64_t judged = 0, boundary = 0, moved = 0, wrong = 0, wrong_polygon = 0, by_rows = 0;
     std::vector<std::uint64_t> wrong_of_light;
     std::vector<WrongSample> samples;  // the wrong ones
   };
@@ -121,16 +121,19 @@ class PixelJudge {
       counts.samples.push_back(wrong);
       return;
     }
+    bool by_rows = true;
     for (std::size_t l = 0; l < lit_.size(); ++l) {
       if ((differing >> l & 1) == 0) continue;
       ++counts.wrong_of_light[l];
       wrong.light = claims_.lights[l];
       wrong.claimed_lit = (claims_.lit_by[s] >> l & 1) != 0;
       if (truth.casters[l]) wrong.caster = view_.scene().parts[*truth.casters[l]].polygon;
-      wrong.by_rows = is_right_where_it_looks(l, seen, ray, wrong.claimed_lit);
+      wrong.by_rows = is_near_border(l, seen, ray);
+      by_rows = by_rows && wrong.by_rows;
       if (!wrong.by_rows) wrong.clearance = clearance_of_light(l, seen, ray);
       counts.samples.push_back(wrong);
     }
+    if (by_rows) ++counts.by_rows;
   }
 
   bool is_right_polygon(const Seen& seen, std::uint32_t claimed) const {
@@ -162,15 +165,9 @@ class PixelJudge {
     return decide(view_.scene(), *lights_[l], seen.part, point).clearance;
   }
 
-  /// On a border the candidate may say either.
-  bool is_right_where_it_looks(std::size_t l, const Seen& seen, const SampleRay& ray,
-                               bool claimed_lit) {
-    if (!options_.stands_for || !lit_[l]->faces(seen.part)) return false;
-    const auto point = options_.stands_for(claims_.lights[l], seen.part,
-                                           seen_point(view_, seen_.plane(seen.part), ray));
-    if (!point) return false;
-    const Visibility there = lit_[l]->at_point(seen.part, *point).visibility;
-    return there == Visibility::kBoundary || (there == Visibility::kLit) == claimed_lit;
+  bool is_near_border(std::size_t l, const Seen& seen, const SampleRay& ray) const {
+    return options_.near_border &&
+           options_.near_border(claims_.lights[l], seen_point(view_, seen_.plane(seen.part), ray));
   }
 
   void add(Counts counts) {
@@ -180,6 +177,7 @@ class PixelJudge {
     report_.moved += counts.moved;
     report_.wrong += counts.wrong;
     report_.wrong_polygon += counts.wrong_polygon;
+    report_.by_rows += counts.by_rows;
     for (std::size_t l = 0; l < counts.wrong_of_light.size(); ++l) {
       report_.wrong_of_light[l] += counts.wrong_of_light[l];
     }
@@ -191,9 +189,10 @@ class PixelJudge {
   }
   /// The worst is that of the largest clearance; of equals the first of the picture.
   void add(const WrongSample& wrong) {
-    ++(wrong.by_rows                                              ? report_.by_rows
-       : wrong.clearance && *wrong.clearance < options_.clearance ? report_.ill_conditioned
+    if (!wrong.by_rows) {
+      ++(wrong.clearance && *wrong.clearance < options_.clearance ? report_.ill_conditioned
                                                                   : plain_);
+    }
     const auto key = [](const WrongSample& w) {
       return std::tuple(w.by_rows, -w.clearance.value_or(-1), w.j, w.i, w.light.value_or(0));
     };

@@ -31,10 +31,6 @@ class LitSamples {
   /// At the point of a part that a ray sees; kShadow where the side that is seen does not face the
   /// light. Thread-safe.
   PointVisibility at(std::uint32_t part, const SampleRay& ray);
-  /// At any point of a part's plane, with all casters. Thread-safe.
-  PointVisibility at_point(std::uint32_t part, const RationalPoint& point) const {
-    return exact_.at(part, point);
-  }
 
  private:
   struct Caster {

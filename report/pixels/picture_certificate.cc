@@ -83,7 +83,7 @@ void add_notes(const Scene& scene, const JudgedPicture& picture, TextTable& tabl
   if (report.by_rows > 0) {
     table.add_note(grouped(report.by_rows) + " of the wrong " +
                    (report.by_rows == 1 ? "is" : "are") +
-                   " within half a row of a border: right in the middle of the row");
+                   " within half a row of an edge of the table");
   }
   if (report.step > 1) {
     table.add_note(

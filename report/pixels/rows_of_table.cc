@@ -8,7 +8,7 @@
 
 namespace gnomon::report {
 
-oracle::PointTaken rows_of_table(const PreparedView& view, const MethodSelection& method) {
+oracle::NearBorder rows_of_table(const PreparedView& view, const MethodSelection& method) {
   if (method.id != MethodId::kRidgeEdges || method.values.rows == MethodOptionValues::kExactRows) {
     return {};
   }
@@ -18,8 +18,8 @@ oracle::PointTaken rows_of_table(const PreparedView& view, const MethodSelection
     if (light.has_area()) continue;
     rows->emplace(light.light, AngularRows(view.scene, view.frame, method.values, l));
   }
-  return [rows](std::uint32_t light, std::uint32_t part, const RationalPoint& point) {
-    return rows->at(light).middle(part, point);
+  return [rows](std::uint32_t light, const RationalPoint& point) {
+    return rows->at(light).has_edge_near(point);
   };
 }
 

@@ -9,9 +9,9 @@
 
 namespace gnomon::report {
 
-/// Of ridge-edges with rows: the middle of the row for each point. Nothing of other methods. Keeps
+/// Of ridge-edges with rows: whether an edge is within half a row. Nothing of other methods. Keeps
 /// a reference to the view.
-oracle::PointTaken rows_of_table(const PreparedView& view, const MethodSelection& method);
+oracle::NearBorder rows_of_table(const PreparedView& view, const MethodSelection& method);
 
 }  // namespace gnomon::report
 

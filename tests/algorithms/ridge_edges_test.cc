@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -45,7 +46,8 @@ oracle::ImageReport judged(const PreparedView& view, const ExactCamera& camera,
                            const std::string& method, const Pixels& pixels) {
   oracle::ImageOptions exact;
   exact.moves_ties = true;
-  exact.stands_for = report::rows_of_table(view, parse_method(method, Domain::kImageSpace).value());
+  exact.near_border =
+      report::rows_of_table(view, parse_method(method, Domain::kImageSpace).value());
   auto report =
       oracle::judge_pixels(view, report::pixel_claims_of(pixels, view.scene, camera), exact);
   EXPECT_TRUE(report) << to_string(report.error());
@@ -184,7 +186,7 @@ std::uint64_t differing(const Pixels& a, const Pixels& b) {
 
 /// Discretisation is told apart, is all that is wrong, and falls like 1 / N.
 TEST(RidgeEdges, WhatRowsGetWrongFallsWithTheirNumber) {
-  for (const char* kind : {"block-on-block", "holed", "coil2"}) {
+  for (const char* kind : {"block-on-block", "holed", "letter"}) {
     const Look look = look_down(solid_over_slab(kind), 300);
     const Pixels exact = pixels_of(look.view, options_of("ridge-edges:rows=exact,hemisphere=cube"));
     EXPECT_EQ(judged(look.view, look.camera, "ridge-edges:rows=exact", exact).wrong, 0u) << kind;
@@ -204,7 +206,7 @@ TEST(RidgeEdges, WhatRowsGetWrongFallsWithTheirNumber) {
     }
     const double exponent = (n * sxy - sx * sy) / (n * sxx - sx * sx);
     EXPECT_NEAR(exponent, -1, 0.25) << kind;
-    RecordProperty(std::string(kind) + "_exponent", std::to_string(exponent));
+    std::cout << kind << ": wrong like N^" << exponent << '\n';
   }
 }
 
@@ -244,6 +246,19 @@ TEST(RidgeEdges, RefusesWhatHiddenFacesCannotTell) {
   fuzz::ScenePen room = pen();
   room.box({0, 0, 0}, {9, 9, 9}, true).box({2, 2, 0}, {4, 4, 2}).lamp({5, 5, 8});
   EXPECT_EQ(refusal(room.take(), cube), "taken") << "its walls face inwards";
+
+  // Two edges of a solid are those of a tetrahedron that looks inwards, which makes one object.
+  fuzz::ScenePen turned = pen();
+  turned.polygon({{0, 0, 0}, {0, 2, 1}, {0, 2, 0}}).polygon({{0, 2, 0}, {0, 2, 1}, {2, 1, 2}});
+  turned.polygon({{0, 0, 0}, {0, 2, 0}, {2, 1, 2}, {1, 0, 0}});
+  turned.polygon({{0, 0, 0}, {1, 0, 0}, {2, 1, 2}, {0, 2, 1}});
+  turned.polygon({{0, 2, 1}, {0, 0, 0}, {1, 1, 1}}).polygon({{0, 2, 1}, {2, 1, 2}, {0, 0, 0}});
+  turned.polygon({{1, 1, 1}, {0, 0, 0}, {2, 1, 2}}).polygon({{0, 2, 1}, {1, 1, 1}, {2, 1, 2}});
+  EXPECT_THAT(refusal(turned.sun({0, 0, 1}).take(), cube), HasSubstr("turned inside out"));
+
+  fuzz::ScenePen sunlit = pen();
+  sunlit.box({0, 0, 0}, {9, 9, 9}, true).sun({0, 0, 1});
+  EXPECT_THAT(refusal(sunlit.take(), cube), HasSubstr("the light is inside of the solid"));
 
   fuzz::ScenePen lamp_inside = pen();
   lamp_inside.box({0, 0, 0}, {6, 6, 6}).lamp({3, 3, 3});
@@ -310,15 +325,17 @@ TEST(RidgeEdges, OneHemisphereIsEnoughWhereTheLightSeesEverything) {
 
 /// Whatever is drawn is looked up, so that far polygons first are the worst case.
 TEST(RidgeEdges, FarPolygonsFirstAreLookedUpInVain) {
-  const Look look = look_down(solid_over_slab("letter"), 200);
+  const Scene scene = generate("cubes", {{"n", 60}}).value();
+  const PreparedScene prepared = prepare(scene).value();
+  const PreparedView view =
+      prepare_view(scene, fuzz::seven_eyes(prepared, 200, 1).back().camera).value();
   const auto run = [&](const std::string& order) {
-    return pixels_of(look.view, options_of("ridge-edges:hemisphere=cube,order=" + order));
+    return pixels_of(view, options_of("ridge-edges:hemisphere=cube,order=" + order));
   };
   const Pixels far = run("far"), near = run("near"), file = run("file");
   EXPECT_EQ(far.lit_by, near.lit_by);
   EXPECT_EQ(far.lit_by, file.lit_by);
   EXPECT_GT(far.work[Counter::kLookUps], near.work[Counter::kLookUps]);
-  EXPECT_GE(far.work[Counter::kLookUps], file.work[Counter::kLookUps]);
   EXPECT_GE(file.work[Counter::kLookUps], near.work[Counter::kLookUps]);
 }
 

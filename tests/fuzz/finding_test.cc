@@ -127,6 +127,16 @@ TEST_F(Findings, ReadBackAndFailAgain) {
   EXPECT_EQ(finding_name(*read), finding_name(finding));
 }
 
+/// A subject that makes pictures has no fragments to be painted.
+TEST_F(Findings, OfPicturesSayWhyThereIsNoAnswerToShow) {
+  const Finding finding =
+      found(family_by_name("Lattice"), "plane/shadow-polygons~eye-always-lit", Property::kOracle);
+  auto texts = files(written(finding));
+  EXPECT_THAT(texts["README.md"], HasSubstr("makes no fragments"));
+  EXPECT_NE(texts["scene.json"], "");
+  EXPECT_EQ(texts.count("candidate.svg"), 0u);
+}
+
 TEST_F(Findings, AreTheSameBytesEveryTimeAndOneFolder) {
   const Finding finding = shrunken(found(family_by_name("Grazing"), "float", Property::kOracle));
   const fs::path one = written(finding, "one"), two = written(finding, "two");

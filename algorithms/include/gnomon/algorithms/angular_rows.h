@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Where the method ridge-edges looks: with a table of N rows a point is taken for one in the middle
-// of its row, seen from the light. For who judges its pictures, and tells what the rows cost from
-// what is wrong.
+// What the rows of the method ridge-edges cannot tell apart: with a table of N rows a point is taken
+// for one in the middle of its row, seen from the light. Where no edge lies between the two the
+// table is right. For who judges its pictures, and tells what rows cost from what is wrong.
 #ifndef GNOMON_ALGORITHMS_ANGULAR_ROWS_H
 #define GNOMON_ALGORITHMS_ANGULAR_ROWS_H
 
@@ -10,7 +10,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "gnomon/algorithms/method_options.h"
 #include "gnomon/kernel/error.h"
@@ -29,11 +28,10 @@ class AngularRows {
   ~AngularRows();
   AngularRows(AngularRows&&) noexcept;
 
-  /// The point of the part's plane in the same column and the middle of the row that holds `point`,
-  /// scene units, exactly; none if there are no rows, none of them holds it, or the plane does not
-  /// reach there. Thread-safe.
-  std::optional<std::array<mpq_class, 3>> middle(std::uint32_t part,
-                                                 const std::array<mpq_class, 3>& point) const;
+  /// Whether, as the light sees it, an edge of a polygon that casts lies between the point, scene
+  /// units, and the middle of its row: within half a row of it, in the same column. Exact; false if
+  /// there are no rows or none holds the point. Thread-safe. Cost: all polygons.
+  bool has_edge_near(const std::array<mpq_class, 3>& point) const;
 
  private:
   struct Data;

@@ -26,10 +26,9 @@
 
 namespace gnomon::oracle {
 
-/// Which point a candidate takes for a point of a part under a light (index into Scene::lights);
-/// none where it takes the point itself.
-using PointTaken = std::function<std::optional<RationalPoint>(
-    std::uint32_t light, std::uint32_t part, const RationalPoint& point)>;
+/// Whether a point that a sample sees is so near to a border of shadow, under a light (index into
+/// Scene::lights), that a candidate of some resolution cannot tell the two sides apart.
+using NearBorder = std::function<bool(std::uint32_t light, const RationalPoint& point)>;
 
 struct ImageOptions {
   double clearance = 0;  // scene units; wrong samples below it are ill-conditioned
@@ -40,9 +39,9 @@ struct ImageOptions {
   /// them.
   bool moves_ties = false;
   double most_boundary = 0.02;  // of the samples judged, for a verdict
-  /// Of a candidate that takes points for others of the same plane. A claim that is wrong for the
-  /// sample and right there is told apart (ImageReport::by_rows).
-  PointTaken stands_for;
+  /// Of a candidate of rows: a wrong sample that this holds for is told apart
+  /// (ImageReport::by_rows). Called by several threads.
+  NearBorder near_border;
   std::function<void(double)> progress;            // 0..1; called from one thread at a time
   const std::atomic<bool>* interrupted = nullptr;  // checked between rows
 };
@@ -57,7 +56,7 @@ struct WrongSample {
   bool claimed_lit = false;             // of that light
   std::optional<std::uint32_t> caster;  // polygon that decides, if one does
   std::optional<double> clearance;      // scene units: how far one vertex must move to change it
-  bool by_rows = false;                 // right for the point that stands for the sample
+  bool by_rows = false;                 // ImageOptions::near_border
 };
 
 struct ImageReport {
@@ -72,8 +71,7 @@ struct ImageReport {
   std::uint64_t wrong = 0, wrong_polygon = 0;  // samples
   std::vector<std::uint64_t> wrong_of_light;   // samples, by the claims' lights
   std::uint64_t ill_conditioned = 0;           // of the wrong ones
-  std::uint64_t by_rows = 0;                   // of the wrong claims: right nearby, where the
-                                               // candidate looks (ImageOptions::stands_for)
+  std::uint64_t by_rows = 0;                   // of the wrong ones: ImageOptions::near_border
   std::optional<WrongSample> worst;            // of the largest clearance
   bool interrupted = false;
 
