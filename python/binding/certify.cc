@@ -13,23 +13,12 @@ namespace gnomon::python {
 
 namespace {
 
-/// Above so many parts success is proven by borders, as the command does it.
-constexpr std::size_t kSmallScene = 200;
-
 Expected<Judgement> judge(const LoadedScene& loaded, const std::vector<std::uint32_t>& lights,
                           const Claims& claims, const Limits& limits,
                           const std::atomic<bool>& stop) {
   report::Certificate certificate = report::certificate_of(loaded.scene, loaded.prepared, lights);
-  oracle::CertifyOptions options;
-  options.tolerance = limits.tolerance.value_or(options.tolerance);
-  options.share_tolerance = limits.tolerance;
-  options.width = limits.width;
-  options.strict = limits.strict;
-  options.clearance = limits.clearance;
-  options.subset = limits.subset;
+  oracle::CertifyOptions options = report::certify_options(limits, loaded.prepared, lights);
   options.threads = limits.jobs;
-  options.borders = loaded.prepared.parts.size() > kSmallScene;
-  options.lights = lights;
   options.interrupted = &stop;
   auto verdict = oracle::certify(loaded.scene, loaded.prepared, claims, options);
   if (!verdict) return tl::unexpected(std::move(verdict.error()));
