@@ -6,6 +6,7 @@
 
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/result/read_claims.h"
+#include "python/binding/run_options.h"
 #include "report/certificate/certificate.h"
 #include "report/text/text_sink.h"
 
@@ -18,7 +19,7 @@ Expected<Judgement> judge(const LoadedScene& loaded, const std::vector<std::uint
                           const std::atomic<bool>& stop) {
   report::Certificate certificate = report::certificate_of(loaded.scene, loaded.prepared, lights);
   oracle::CertifyOptions options = report::certify_options(limits, loaded.prepared, lights);
-  options.threads = limits.jobs;
+  options.threads = usable_jobs(limits.jobs);
   options.interrupted = &stop;
   auto verdict = oracle::certify(loaded.scene, loaded.prepared, claims, options);
   if (!verdict) return tl::unexpected(std::move(verdict.error()));
