@@ -23,8 +23,16 @@ endforeach()
 add_custom_target(gnomon_completion ALL DEPENDS ${gnomon_completion_files})
 install(FILES "${gnomon_completions}/gnomon.bash" RENAME gnomon COMPONENT command
         DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
-install(FILES "${gnomon_completions}/gnomon.zsh" RENAME _gnomon COMPONENT command
-        DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions")
+# Where zsh looks depends on the prefix, which is known when it is installed: Debian's packages have a folder
+# of their own below /usr, and whatever else is installed has the one that all of zsh's versions know.
+install(CODE "
+  set(folder site-functions)
+  if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\")
+    set(folder vendor-completions)
+  endif()
+  file(INSTALL DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/zsh/\${folder}\" TYPE FILE
+       RENAME _gnomon FILES \"${gnomon_completions}/gnomon.zsh\")"
+  COMPONENT command)
 install(FILES "${gnomon_completions}/gnomon.fish" COMPONENT command
         DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
 

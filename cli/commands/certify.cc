@@ -34,6 +34,7 @@
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/result/read_claims.h"
 #include "report/certificate/certificate.h"
+#include "report/certificate/judging_limits.h"
 #include "report/sides/claims_of.h"
 #include "report/text/number_text.h"
 
@@ -51,19 +52,14 @@ bool is_of_image_space(const std::string& algorithm) {
   return method_by_name(name, Domain::kImageSpace).has_value();
 }
 
-struct CertifyCommandOptions {
+struct CertifyCommandOptions : report::JudgingLimits {
   SceneOptions scene;
   std::vector<std::string> kernels;
   std::string algorithm{kAutomaticName};
   std::vector<std::string> candidates;
-  std::optional<double> tolerance;
-  std::optional<double> width;
   double thickness = kDefaultThickness;
-  double clearance = 0;
-  std::optional<std::uint64_t> leaks;
   std::optional<std::uint32_t> flips;
-  bool strict = false, subset = false, explain = false, times = false, measure = false;
-  bool combined = false;
+  bool explain = false, times = false, combined = false;
   ReportOptions report;
   std::string json;
   std::vector<std::string> exports;
@@ -238,16 +234,8 @@ class CertifyRun {
   /// `explained`: the run to explain, unless it is right.
   Expected<void> judge(report::JudgedRun run, Claims candidate,
                        const std::optional<ShadowOptions>& explained = std::nullopt) {
-    oracle::CertifyOptions certify_options;
-    certify_options.tolerance = options_.tolerance.value_or(certify_options.tolerance);
-    certify_options.share_tolerance = options_.tolerance;
-    certify_options.width = options_.width;
-    certify_options.strict = options_.strict;
-    certify_options.clearance = options_.clearance;
-    certify_options.subset = options_.subset;
-    certify_options.leaks = options_.leaks;
-    certify_options.borders = !options_.measure && loaded_.prepared.parts.size() > kSmallScene;
-    certify_options.lights = loaded_.lights;
+    oracle::CertifyOptions certify_options =
+        report::certify_options(options_, loaded_.prepared, loaded_.lights);
     if (!options_.report.directory.empty()) certify_options.most_regions = kShownRegions;
     certify_options.progress = progress_.callback();
     certify_options.interrupted = &interrupted();
@@ -586,7 +574,7 @@ void add_certify_command(CLI::App& app, Action& action) {
   command.add_flag("--strict", options->strict, "Tolerance and width 0: identical or failed");
   command.add_flag(
       "--measure", options->measure,
-      "Measure all error, on scenes of more than " + std::to_string(kSmallScene) +
+      "Measure all error, on scenes of more than " + std::to_string(report::kSmallScene) +
           " parts too, where else\nsuccess is proven by borders and small error bounded");
   command
       .add_option("--clearance", options->clearance,

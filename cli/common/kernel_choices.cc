@@ -7,6 +7,7 @@
 
 #include "cli/common/commands.h"
 #include "gnomon/algorithms/shadows.h"
+#include "report/certificate/judging_limits.h"
 
 namespace gnomon::cli {
 
@@ -46,7 +47,7 @@ Expected<std::vector<KernelChoice>> chosen_kernels(const std::vector<std::string
                               {.kernel = KernelId::kDouble, .identity = true},
                               {.kernel = KernelId::kLongDouble},
                               {.kernel = KernelId::kEpick}});
-  if (all || parts <= kSmallScene) {
+  if (all || parts <= report::kSmallScene) {
     kernels.push_back({.kernel = KernelId::kEpeck});
     kernels.push_back({.kernel = KernelId::kRational});
   }

@@ -14,10 +14,6 @@
 
 namespace gnomon::cli {
 
-/// Up to so many parts the slow exact kernels run without being asked for, and every error is
-/// measured.
-inline constexpr std::size_t kSmallScene = 200;
-
 /// --kernel of a command that runs several, into `names`.
 CLI::Option* add_kernels_option(CLI::App& command, std::vector<std::string>& names);
 

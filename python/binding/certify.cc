@@ -6,6 +6,7 @@
 
 #include "gnomon/oracle/verdict.h"
 #include "gnomon/result/read_claims.h"
+#include "python/binding/run_options.h"
 #include "report/certificate/certificate.h"
 #include "report/text/text_sink.h"
 
@@ -13,23 +14,12 @@ namespace gnomon::python {
 
 namespace {
 
-/// Above so many parts success is proven by borders, as the command does it.
-constexpr std::size_t kSmallScene = 200;
-
 Expected<Judgement> judge(const LoadedScene& loaded, const std::vector<std::uint32_t>& lights,
                           const Claims& claims, const Limits& limits,
                           const std::atomic<bool>& stop) {
   report::Certificate certificate = report::certificate_of(loaded.scene, loaded.prepared, lights);
-  oracle::CertifyOptions options;
-  options.tolerance = limits.tolerance.value_or(options.tolerance);
-  options.share_tolerance = limits.tolerance;
-  options.width = limits.width;
-  options.strict = limits.strict;
-  options.clearance = limits.clearance;
-  options.subset = limits.subset;
-  options.threads = limits.jobs;
-  options.borders = loaded.prepared.parts.size() > kSmallScene;
-  options.lights = lights;
+  oracle::CertifyOptions options = report::certify_options(limits, loaded.prepared, lights);
+  options.threads = usable_jobs(limits.jobs);
   options.interrupted = &stop;
   auto verdict = oracle::certify(loaded.scene, loaded.prepared, claims, options);
   if (!verdict) return tl::unexpected(std::move(verdict.error()));

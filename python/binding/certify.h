@@ -4,19 +4,16 @@
 #define GNOMON_PYTHON_BINDING_CERTIFY_H
 
 #include <atomic>
-#include <optional>
 #include <string>
 
 #include "gnomon/kernel/error.h"
 #include "python/binding/loaded_scene.h"
 #include "python/binding/shadows.h"
+#include "report/certificate/judging_limits.h"
 
 namespace gnomon::python {
 
-struct Limits {
-  std::optional<double> tolerance, width;
-  double clearance = 0;
-  bool strict = false, subset = false;
+struct Limits : report::JudgingLimits {
   unsigned jobs = 0;
 };
 

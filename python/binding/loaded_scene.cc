@@ -11,6 +11,7 @@
 #include "gnomon/scene/light_arguments.h"
 #include "gnomon/scene/prepare_control.h"
 #include "gnomon/scene/validate.h"
+#include "python/binding/run_options.h"
 #include "report/facts/intent_text.h"
 #include "report/facts/scene_warnings.h"
 #include "report/text/number_text.h"
@@ -48,7 +49,7 @@ Expected<PreparedScene> prepare_by(const Scene& scene, unsigned jobs,
                                    const std::atomic<bool>& stop) {
   const PrepareControl control{&stop, {}};
   if (jobs == 0) return prepare(scene, control);
-  tbb::task_arena arena(static_cast<int>(jobs));
+  tbb::task_arena arena(static_cast<int>(usable_jobs(jobs)));
   return arena.execute([&] { return prepare(scene, control); });
 }
 

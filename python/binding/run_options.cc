@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "python/binding/run_options.h"
 
+#include <tbb/info.h>
+
+#include <algorithm>
 #include <utility>
 
 #include "gnomon/algorithms/method.h"
@@ -9,6 +12,10 @@
 
 namespace gnomon::python {
 
+unsigned usable_jobs(unsigned jobs) {
+  return std::min(jobs, static_cast<unsigned>(tbb::info::default_concurrency()));
+}
+
 Expected<ShadowOptions> shadow_options(const RunNames& names, const std::atomic<bool>& stop) {
   auto kernel = parse_kernel_choice(names.kernel);
   if (!kernel) return tl::unexpected(std::move(kernel.error()));
@@ -16,7 +23,7 @@ Expected<ShadowOptions> shadow_options(const RunNames& names, const std::atomic<
   options.kernel.id = kernel->kernel;
   options.kernel.identity = kernel->identity;
   if (kernel->thin) options.kernel.thickness = 0;
-  options.tuning.jobs = names.jobs;
+  options.tuning.jobs = usable_jobs(names.jobs);
   options.control.interrupted = &stop;
   // Left alone, compute_shadows() takes the method that is best for what is asked.
   if (names.algorithm == "auto") return options;

@@ -16,6 +16,9 @@ struct RunNames {
   unsigned jobs = 0;
 };
 
+/// At most one thread for each processor: TBB has no more, and says so on standard error.
+unsigned usable_jobs(unsigned jobs);
+
 /// Errors: kUsage, with the names that there are.
 Expected<ShadowOptions> shadow_options(const RunNames& names, const std::atomic<bool>& stop);
 

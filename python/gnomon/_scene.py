@@ -22,12 +22,25 @@ Numbers = Literal["double", "decimal"]
 Sides = Literal["front", "all"]
 
 
+def _checked_jobs(jobs: int) -> int:
+    if not 0 <= jobs <= 1024:
+        raise Error(f"jobs: {jobs}; expected 0 to 1024", expected="0 to 1024")
+    return jobs
+
+
 def _names_of_run(kernel: str, algorithm: str, jobs: int) -> _native.RunNames:
-    if jobs < 0:
-        raise Error(f"jobs: {jobs}; expected 0 or more", expected="0 or more")
     names = _native.RunNames()
-    names.kernel, names.algorithm, names.jobs = kernel, algorithm, jobs
+    names.kernel, names.algorithm, names.jobs = kernel, algorithm, _checked_jobs(jobs)
     return names
+
+
+def _name_of(path: str | os.PathLike[str], what: str) -> str:
+    """A path as the native module takes it: text without a NUL."""
+    name = os.fsdecode(path)
+    if "\0" in name or any("\ud800" <= c <= "\udfff" for c in name):
+        raise Error(f"{what}: {name!r} holds a NUL, or bytes that are no UTF-8; expected a name in UTF-8",
+                    code="file", expected="a name in UTF-8")
+    return name
 
 
 def _asked_lights(lights: Iterable[str] | None, suns: npt.ArrayLike | None,
@@ -153,7 +166,7 @@ class Scene:
                 Vectors of few decimals, as suns() gives them, are faster and the same as the
                 command's as "decimal".
             kernel, algorithm: as of the command. plane, rational and epeck are exact.
-            jobs: threads; 0: one a processor.
+            jobs: threads, at most one a processor; 0: that many.
 
         Returns:
             (n_suns, n_polygons) float64 in 0..1; not a number where a polygon has no area. 0 where
@@ -224,9 +237,11 @@ class Scene:
         import xarray
 
         asked = _native.AskedSuns()
+        if at is not None and (isinstance(at, str) or len(at) != 2):
+            raise Error(f"at: {at!r}; expected (latitude, longitude)", expected="(latitude, longitude)")
         asked.at = "" if at is None else f"{float(at[0])!r},{float(at[1])!r}"
         asked.tz = "" if tz is None else str(tz)
-        asked.epw = "" if epw is None else os.fspath(epw)
+        asked.epw = "" if epw is None else _name_of(epw, "epw")
         asked.elevation, asked.north = elevation, north
         asked.year, asked.first, asked.last, asked.step = year, from_, to, step
         asked.sun_at, asked.sun_model, asked.average_days = sun_at, sun_model, average_days
@@ -282,7 +297,7 @@ class Scene:
         """
         limits = _native.Limits()
         limits.tolerance, limits.width, limits.clearance = tolerance, width, clearance
-        limits.strict, limits.subset, limits.jobs = strict, subset, jobs
+        limits.strict, limits.subset, limits.jobs = strict, subset, _checked_jobs(jobs)
         if isinstance(candidate, Shadows):
             if not candidate._native.has_fragments:
                 raise Error("shadows without fragments cannot be judged; expected "
@@ -298,6 +313,9 @@ class Scene:
                     text = file.read()
             except OSError as error:
                 raise Error(f"{name}: {error.strerror}", code="file", file=name) from error
+            except UnicodeDecodeError as error:
+                raise Error(f"{name}: byte {error.start} is not valid UTF-8; expected a file in UTF-8",
+                            code="syntax", file=name, expected="a file in UTF-8") from error
         elif isinstance(candidate, dict):
             import json
 
@@ -355,7 +373,7 @@ def read(path: str | os.PathLike[str], *, numbers: Numbers | None = None, two_si
     Warns (SceneWarning) in the command's words. Errors: file, syntax, format, number, index, id,
     geometry, limit, each with the place in the file.
     """
-    return Scene(_native.read(os.fspath(path), numbers or "", two_sided, skip_bad, lod, keep_axes))
+    return Scene(_native.read(_name_of(path, "path"), numbers or "", two_sided, skip_bad, lod, keep_axes))
 
 
 def suns(latitude: float, longitude: float, times: Any, *, elevation: float = 0, north: float = 0,
@@ -376,7 +394,7 @@ def suns(latitude: float, longitude: float, times: Any, *, elevation: float = 0,
         six decimals, which is within 0.00005 degrees and what `gnomon year` does. At night z is
         negative or 0: below the horizon nothing shades the sun but the Earth, which no scene has.
 
-    Errors: usage (no such place or model, a year before 1960 or after 2500).
+    Errors: usage (no such place or model, a year before 1961 or after 2500).
     """
     found = _native.suns_at(float(latitude), float(longitude), _arrays.seconds(times),
                             float(elevation), float(north), model, refraction)

@@ -131,6 +131,30 @@ TEST_F(ReportOf, AYearHasItsHours) {
   EXPECT_THAT(result.out, HasSubstr("24 rows"));
 }
 
+TEST_F(ReportOf, ErrorsOfRunsAreExportedForVtk) {
+  const std::string file = directory_.file("errors.vtp");
+  const std::vector<std::string> certify = {
+      "certify", example("table-chair.json"), "--kernel", "float", "--kernel", "plane", "--export"};
+  const auto exported = [&](const std::string& to, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> arguments = certify;
+    arguments.push_back(to);
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_gnomon(arguments);
+  };
+  exported(file);
+  EXPECT_THAT(read_text(file), AllOf(HasSubstr("Name=\"wrong_share float\""),
+                                     HasSubstr("Name=\"wrong_width plane\"")));
+  for (const std::string name : {"errors.glb", "errors"}) {
+    const RunResult other = exported(directory_.file(name));
+    EXPECT_EQ(other.status, 2);
+    EXPECT_THAT(other.err, HasSubstr("expected .vtp"));
+    EXPECT_FALSE(std::filesystem::exists(directory_.file(name)));
+  }
+  const RunResult picture = exported(file, {"--eye", "9,-7,6", "--algorithm", "zbuffer"});
+  EXPECT_EQ(picture.status, 2);
+  EXPECT_THAT(picture.err, HasSubstr("--export says nothing of pictures"));
+}
+
 TEST_F(ReportOf, ADirectoryThatCannotBeMadeIsSaid) {
   const std::string file = directory_.file("taken");
   write_text(file, "");

@@ -141,3 +141,47 @@ def test_a_good_scene_warns_of_nothing(examples):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         gnomon.read(examples / "courtyard.json")
+
+
+@pytest.mark.parametrize("name", ["a\0b.json", "a\udcff.json", b"a\xff.json"])
+def test_names_that_no_file_has(name):
+    with pytest.raises(gnomon.Error, match="expected a name in UTF-8") as caught:
+        gnomon.read(name)
+    assert caught.value.code == "file"
+
+
+def test_paths_of_any_kind(examples):
+    for path in (str(examples / "figure-6.json"), bytes(examples / "figure-6.json")):
+        assert gnomon.read(path).polygons
+
+
+@pytest.mark.parametrize("jobs", [-1, 1025, 10**12])
+def test_jobs_out_of_range(plate, jobs):
+    for call in (lambda: plate.sunlit([0, 0, 1], jobs=jobs),
+                 lambda: plate.certify([[0.99, 1]], suns=[0, 0, 1], jobs=jobs)):
+        with pytest.raises(gnomon.Error, match="expected 0 to 1024"):
+            call()
+
+
+def test_more_jobs_than_processors_say_nothing(plate, capfd):
+    for jobs in (1, 3, 1024):
+        assert plate.sunlit([0, 0, 1], jobs=jobs).tolist() == [[0.99, 1.0]]
+        assert plate.shadows(suns=[[0, 0, 1]], jobs=jobs).shares().tolist() == [[0.99, 1.0]]
+        assert plate.certify([[0.99, 1]], suns=[[0, 0, 1]], jobs=jobs)
+    told = capfd.readouterr()
+    assert told.out == told.err == ""
+
+
+def test_a_place_that_is_none(plate):
+    pytest.importorskip("xarray")
+    for at in ("33,-111", (33,), (1, 2, 3)):
+        with pytest.raises(gnomon.Error, match="latitude, longitude"):
+            plate.year(at=at, tz=0)
+
+
+def test_a_result_that_is_no_text(plate, tmp_path):
+    file = tmp_path / "result.json"
+    file.write_bytes(b"{\xff")
+    with pytest.raises(gnomon.Error, match="byte 1 is not valid UTF-8") as caught:
+        plate.certify(file, suns=[[0, 0, 1]])
+    assert caught.value.file == str(file)
