@@ -37,6 +37,15 @@ struct SideResult {
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<mpq_class, 3>> exact_points;
   std::vector<std::vector<std::uint32_t>> caster_sets;  // of the fragments
+
+  /// Leaves classes and shares alone.
+  void drop_fragments() {
+    part.fragment_count = 0;
+    fragments.clear();
+    points.clear();
+    exact_points.clear();
+    caster_sets.clear();
+  }
 };
 
 /// A side without fragments: all of it is in shadow for that reason.

@@ -90,7 +90,7 @@ constexpr std::array kObjectMethods = {
            .name = "contour",
            .summary = "edges seen from the light, classes and shares alone",
            .source = "Gnomon; hidden lines as Appel 1967 has them, boundary integrals",
-           .lights = {.point = true},
+           .lights = {.point = true, .area = true},
            .threads = true,
            .names_casters = false,
            .makes_fragments = false,

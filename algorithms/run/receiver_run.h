@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/area_contour/receiver_shares.h"
 #include "algorithms/partition/fragment_sink.h"
 #include "algorithms/partition/rules.h"
 #include "algorithms/partition/run_options.h"
@@ -38,12 +39,14 @@
 
 namespace gnomon {
 
-/// What a thread needs for one receiver after another, by either algorithm.
+/// What a thread needs for one receiver after another, by any of the algorithms.
 template <VolumeSpaceModel Space>
 struct ReceiverRunWorkspace : ReceiverWorkspace<Space> {
   using ReceiverWorkspace<Space>::ReceiverWorkspace;
 
   std::unique_ptr<VolumeTreeWorkspace<Space>> trees;  // once a light has trees
+  area_contour::ContourOf<Space> contour;
+  std::uint64_t open = 0;  // sides that the contour has left open
 };
 
 template <VolumeSpaceModel Space>
@@ -117,8 +120,13 @@ class ReceiverRun {
   void run_pieces(std::uint32_t light, double from, double to, ShadowResult& outcome);
   using Trees = PenumbraAndUmbra<Space>;
   bool has_trees(const LightInSpace<Space>& light) const {
-    return light.has_area() ? options_.method.area != MethodId::kReceiver
+    const MethodId area = options_.method.area;
+    return light.has_area() ? area == MethodId::kMerged || area == MethodId::kPieces
                             : options_.method.point == MethodId::kMerged;
+  }
+  /// Whether classes and shares of a light are all that is wanted, and no trees are.
+  bool by_contour(const LightInSpace<Space>& light) const {
+    return light.has_area() && options_.method.area == MethodId::kContour;
   }
   using Order = InterleavedOrder<Space>;
   bool is_interleaved() const { return options_.method.options.interleaved; }
@@ -140,6 +148,10 @@ class ReceiverRun {
   std::vector<SideResult> run_part(Workspace& workspace, const LightInSpace<Space>& light,
                                    const Trees* trees, const FilteredSides<Vertex>& filtered,
                                    std::uint32_t part);
+  /// What the contour tells of a side that was prepared; none: it is to be cut. `whole`: the part's
+  /// own loop.
+  std::optional<SideResult> contour_side(Workspace& workspace, const LightInSpace<Space>& light,
+                                         std::uint32_t part, Side side, const Loop& whole) const;
   /// Readies the trees for all sides that see the light and that they take; these sides are told to
   /// `filtered`. False if stopped.
   bool begin_trees(const LightInSpace<Space>& light, Trees& trees, FilteredSides<Vertex>& filtered);
@@ -165,7 +177,8 @@ class ReceiverRun {
   Space space_;
   CasterTree tree_;
   SolidCasters solids_;
-  std::optional<std::vector<BspNode>> order_;  // nodes of a scene BSP of all parts
+  std::optional<area_contour::LightVolumes> volumes_;  // of the light at hand, by contour
+  std::optional<std::vector<BspNode>> order_;          // nodes of a scene BSP of all parts
   std::atomic<std::uint64_t> pieces_ = 0;
   std::atomic<bool> stopped_ = false, no_ieee_ = false;
   StageCounts stages_;
@@ -266,8 +279,14 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
       continue;
     }
     const bool is_filtered = filtered.has(index, side);
-    const Trees* taken = is_filtered ? nullptr : prepare_side(workspace, light, trees, index, side);
     const Loop whole = part_loop(workspace.space, scene_, index, workspace.whole);
+    if (by_contour(light)) {
+      if (auto found = contour_side(workspace, light, index, side, whole)) {
+        sides.push_back(*std::move(found));
+        continue;
+      }
+    }
+    const Trees* taken = is_filtered ? nullptr : prepare_side(workspace, light, trees, index, side);
     sink.begin(index, side, light.has_area());
     const auto add = [&](const PieceClass& state, const Loop& loop) {
       sink.add(state, loop);
@@ -286,11 +305,35 @@ std::vector<SideResult> ReceiverRun<Space>::run_part(Workspace& workspace,
                                           : light.faces_hiding(workspace, piece, solid);
     });
     sides.push_back(sink.finish(workspace.space, whole));
+    if (by_contour(light)) sides.back().drop_fragments();
   }
   if (sides.empty())
     sides.push_back(
         dark_side(index, Side::kFront, reason, light.has_area(), options_.output.exact_fractions));
   return sides;
+}
+
+template <VolumeSpaceModel Space>
+std::optional<SideResult> ReceiverRun<Space>::contour_side(Workspace& workspace,
+                                                           const LightInSpace<Space>& light,
+                                                           std::uint32_t index, Side side,
+                                                           const Loop& whole) const {
+  std::optional<area_contour::Shares> shares;
+  if constexpr (area_contour::HasPlaneDoubles<Space>) {
+    if (volumes_) {
+      shares = workspace.contour.find(workspace, light, *volumes_, index, side, whole);
+    }
+  }
+  if (!shares) {
+    ++workspace.open;
+    return std::nullopt;
+  }
+  SideResult result;
+  result.part.part = index;
+  result.part.side = side;
+  result.part.lit = shares->lit;
+  result.area = {shares->penumbra, shares->umbra};
+  return result;
 }
 
 template <VolumeSpaceModel Space>
@@ -372,6 +415,12 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
     if (!done) return result;
     from = middle;
   }
+  volumes_.reset();
+  if constexpr (area_contour::HasPlaneDoubles<Space>) {
+    if (by_contour(light) && !options_.output.exact_fractions) {
+      volumes_.emplace(area_contour::light_volumes(space_, light_geometry_, tree_, light));
+    }
+  }
   std::vector<std::vector<SideResult>> parts(scene_.parts.size());
   // The largest first: their work may be most of all, and what is started last is waited for.
   std::vector<std::uint32_t> order(scene_.parts.size());
@@ -383,16 +432,19 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return size[a] > size[b]; });
-  std::atomic<std::uint64_t> cells = 0, vanished = 0;
+  std::atomic<std::uint64_t> cells = 0, vanished = 0, open = 0;
   for_each(order.size(), from, to, [&](Workspace& workspace, std::size_t i) {
     const std::uint64_t cells_before = workspace.cutter.cells(),
                         vanished_before = workspace.cutter.vanished();
     const std::uint64_t filtered_before = workspace.trees ? workspace.trees->filter.vanished() : 0;
+    const std::uint64_t open_before = workspace.open;
     parts[order[i]] = run_part(workspace, light, merged ? &*merged : nullptr, filtered, order[i]);
     if (workspace.trees) vanished += workspace.trees->filter.vanished() - filtered_before;
     cells += workspace.cutter.cells() - cells_before;
     vanished += workspace.cutter.vanished() - vanished_before;
+    open += workspace.open - open_before;
   });
+  if (by_contour(light)) result.work[Counter::kOpenPolygons] = open;
   result.tree_nodes = cells + (merged ? merged->node_count() : 0);
   result.dropped_slivers += vanished + (merged ? merged->findings() : 0);
   if (stopped_) return result;

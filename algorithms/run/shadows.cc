@@ -35,9 +35,12 @@ struct MethodRun {
 };
 
 /// A method that takes area lights works receiver by receiver in three dimensions, and so do its
-/// point lights; the others work in the space of one light.
+/// point lights, but for contour, which sees those from the light; the others work in the space of
+/// one light.
 bool is_by_receiver(LightType light, const ShadowOptions& options) {
-  return method_info(method_of(light, options, false)).lights.area;
+  const MethodId method = method_of(light, options, false);
+  return light == LightType::kArea ||
+         (method != MethodId::kContour && method_info(method).lights.area);
 }
 
 /// One run for each way to shadows, light space first. Who takes lights one by one takes them in
@@ -157,8 +160,9 @@ class Computation {
       };
     }
     const double start = cpu_seconds();
-    const MethodId method =
-        run.by_receiver ? options_.method.area : method_of_type(LightType::kPoint);
+    MethodId method = run.by_receiver ? options_.method.area : method_of_type(LightType::kPoint);
+    // What contour leaves open is for the same run to cut.
+    if (run.by_receiver && method == MethodId::kContour) method = MethodId::kReceiver;
     Expected<ShadowResult> result =
         lookup_(method, options_.kernel.id)({scene_, own_, rules_, run.lights, combined});
     if (result && run.by_receiver) result->shadow_seconds = cpu_seconds() - start;

@@ -74,6 +74,7 @@ class LightInSpace {
   LightInSpace(Space& space, const LightGeometry& scene, const CasterTree& tree,
                std::uint32_t light, const Rules& rules, const SolidCasters* solids = nullptr)
       : scene_(*scene.scene),
+        number_(light),
         light_(&scene.scene->lights[light]),
         tree_(&tree),
         rules_(rules),
@@ -94,7 +95,11 @@ class LightInSpace {
   /// The same for a piece of an area light, a convex loop on its plane that support planes cut out.
   LightInSpace(Space& space, const LightGeometry& scene, const CasterTree& tree,
                std::uint32_t light, const Rules& rules, const Loop& piece)
-      : scene_(*scene.scene), light_(&scene.scene->lights[light]), tree_(&tree), rules_(rules) {
+      : scene_(*scene.scene),
+        number_(light),
+        light_(&scene.scene->lights[light]),
+        tree_(&tree),
+        rules_(rules) {
     const LightFace& face = scene.faces[light];
     for (const VertexId vertex : face.loop) {
       box_.add(grid_fraction(scene.geometry.grid, vertex));
@@ -140,6 +145,13 @@ class LightInSpace {
   /// Of the region that it shines in, inside in front; none: everywhere.
   std::span<const PlaneRef> region() const { return light_->region; }
   const VolumeStore& volumes() const { return store_; }
+  /// The store of the volumes that prepare() has found.
+  const VolumeStore& store(const Workspace& workspace) const {
+    return workspace.own.size() > 0 ? workspace.own : store_;
+  }
+  const PreparedScene& scene() const { return scene_; }
+  /// Index into PreparedScene::lights.
+  std::uint32_t number() const { return number_; }
   /// The volumes of a part's sides, by index: two for a two-sided part whose plane cuts the light.
   std::pair<std::uint32_t, std::uint32_t> volumes_of(std::uint32_t part) const {
     return {first_volume_[part], first_volume_[part + 1]};
@@ -225,6 +237,7 @@ class LightInSpace {
   }
 
   const PreparedScene& scene_;
+  std::uint32_t number_ = 0;
   const PreparedLight* light_;
   const CasterTree* tree_;
   Rules rules_;
@@ -547,7 +560,7 @@ bool LightInSpace<Space>::clip_to_region(Workspace& workspace, const Loop& piece
 template <VolumeSpaceModel Space>
 template <class Emit>
 bool LightInSpace<Space>::cut(Workspace& workspace, const Loop& piece, const Emit& emit) const {
-  const VolumeStore& store = workspace.own.size() > 0 ? workspace.own : store_;
+  const VolumeStore& store = this->store(workspace);
   if (!has_area()) {
     return clip_to_region(workspace, piece, emit, [&](const Loop& inside) {
       return workspace.cutter.cut(inside, store, workspace.volumes, in_shadow(), emit);

@@ -53,6 +53,8 @@ class VolumePlanes {
     const Plane& plane = plane_at(ref.index());
     return {plane.n, plane.d, ref};
   }
+  /// What a plane was made from. Requires: not the name of an input edge.
+  const VolumePlaneSource& source_of(PlaneRef ref) const { return plane_at(ref.index()).source; }
 
  protected:
   explicit VolumePlanes(const Geometry& geometry);

@@ -73,6 +73,43 @@ std::string check_bounds(const Case& scene, const ShadowResult& exact, ShadowOpt
   return {};
 }
 
+/// What contour tells of a class: all, none, or some of a side.
+bool tells(const Interval& told, const mpq_class& exact) {
+  if (exact == 0 || exact == 1) return told.lower == exact && told.upper == exact;
+  return told.lower < told.upper && holds(told, exact);
+}
+
+/// Classes and shares by contour: every class is told for certain, and bounds hold.
+std::string check_contour(const Case& scene, const ShadowResult& exact, ShadowOptions options) {
+  options.output.exact_fractions = options.output.exact_points = options.output.points = false;
+  options.method.area = MethodId::kContour;
+  const Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);
+  if (!result) return to_string(result.error());
+  for (std::size_t l = 0; l < exact.lights.size(); ++l) {
+    const LightResult &truth = exact.lights[l], &told = result->lights[l];
+    if (!scene.is_area(truth.light)) continue;
+    if (truth.parts.size() != told.parts.size() || !told.fragments.empty()) {
+      return result->algorithm + ": other sides, or fragments";
+    }
+    for (std::size_t i = 0; i < truth.parts.size(); ++i) {
+      const PartResult& part = told.parts[i];
+      const ExactFractions& own = truth.exact_fractions[i];
+      const AreaFractions& bound = told.area_fractions[i];
+      const bool same = part.part == truth.parts[i].part && part.side == truth.parts[i].side &&
+                        part.reason == truth.parts[i].reason;
+      if (!same || !tells(part.lit, own.lit) || !tells(bound.penumbra, own.penumbra) ||
+          !tells(bound.umbra, own.umbra)) {
+        return fmt::format("{}: lit {} in [{}, {}], penumbra {} in [{}, {}], umbra {} in [{}, {}]",
+                           place_of(scene, *result, truth.light, part), own.lit.get_str(),
+                           part.lit.lower, part.lit.upper, own.penumbra.get_str(),
+                           bound.penumbra.lower, bound.penumbra.upper, own.umbra.get_str(),
+                           bound.umbra.lower, bound.umbra.upper);
+      }
+    }
+  }
+  return {};
+}
+
 std::string compare_results(const Case& scene, const ShadowResult& a, const ShadowResult& b) {
   if (a.lights.size() != b.lights.size()) return "not the same lights";
   for (std::size_t l = 0; l < a.lights.size(); ++l) {
@@ -182,7 +219,8 @@ std::string check_combined(const Case& scene, ShadowOptions options) {
   return judged ? compare_with_oracle(scene, *result) : std::string();
 }
 
-/// A way to the shadows of a scene, and how much is asked of it besides its fractions.
+/// A way to the shadows of a scene, and how much is asked of it besides its fractions. `bounds`:
+/// from doubles alone, and by contour.
 struct Variant {
   ShadowOptions options;
   bool oracle = false, combined = false, bounds = false;
@@ -230,6 +268,7 @@ std::string check_area_exact(const Case& scene) {
     if (wrong.empty() && !is_first) wrong = compare_results(scene, first, *result);
     if (wrong.empty() && variant.oracle) wrong = compare_with_oracle(scene, *result);
     if (wrong.empty() && variant.bounds) wrong = check_bounds(scene, *result, variant.options);
+    if (wrong.empty() && variant.bounds) wrong = check_contour(scene, *result, variant.options);
     if (wrong.empty() && variant.combined) wrong = check_combined(scene, variant.options);
     if (!wrong.empty()) return wrong;
     if (is_first) first = std::move(*result);

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// The shares of one side of a receiver under an area light, from the outlines of the volumes that
+// reach it: lit is what the union of penumbras leaves, umbra is the union of umbras, and penumbra
+// is the rest. No piece is made.
+//
+// Which volumes miss the receiver or hold all of it is decided exactly, by the sides of its corners
+// against planes of volumes. What the others cover is found in doubles with bounds
+// (outline_union.h). Where these leave a class open, or much of a share, nothing is said, and the
+// receiver is to be cut exactly (shadow_volumes/receiver_cutter.h).
+//
+// Guarantee: a class that is told is the definition's, and shares are certified. The doubles are
+// those of kernel `plane`; on other kernels nothing is ever said.
+#ifndef GNOMON_ALGORITHMS_AREA_CONTOUR_RECEIVER_SHARES_H
+#define GNOMON_ALGORITHMS_AREA_CONTOUR_RECEIVER_SHARES_H
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "algorithms/area_contour/lines_in_space.h"
+#include "algorithms/area_contour/outline_union.h"
+#include "algorithms/area_contour/receiver_chart.h"
+#include "algorithms/area_contour/share_classes.h"
+#include "algorithms/area_contour/volume_search.h"
+#include "algorithms/partition/import_export.h"
+#include "algorithms/shadow_volumes/light_in_space.h"
+#include "kernel/concept/kernel_concept.h"
+#include "kernel/implicit/filter_bounds.h"
+#include "kernel/implicit/plane_provenance.h"
+
+namespace gnomon::area_contour {
+
+/// A space whose planes have doubles with proven bounds, and tell what they were made from.
+template <class Space>
+concept HasPlaneDoubles = requires(const Space& space, PlaneRef plane) {
+  space.load(plane).n;
+  space.source_of(plane);
+};
+
+template <class Space>
+PlaneDoubles doubles_of(const Space& space, PlaneRef plane) {
+  const auto loaded = space.load(plane);
+  return {loaded.n, loaded.d, plane, nullptr};
+}
+
+/// The volumes of a light for the search.
+template <VolumeSpaceModel Space>
+LightVolumes light_volumes(const Space& space, const LightGeometry& geometry,
+                           const CasterTree& tree, const LightInSpace<Space>& light) {
+  const PreparedScene& scene = light.scene();
+  std::vector<Box> boxes;
+  boxes.reserve(scene.parts.size());
+  for (std::uint32_t part = 0; part < scene.parts.size(); ++part) boxes.push_back(tree.box(part));
+  Box box;
+  std::vector<Point3> corners;
+  double bound = 0;
+  for (const VertexId vertex : geometry.faces[light.number()].loop) {
+    corners.push_back(grid_fraction(geometry.geometry.grid, vertex));
+    box.add(corners.back());
+    bound = static_cast<double>(space.input_vertex(vertex).bound);  // all have the same
+  }
+  LightVolumes result(std::move(boxes), box, std::move(corners), bound);
+  std::vector<PlaneDoubles> penumbra, umbra;
+  const VolumeStore& store = light.volumes();
+  for (std::uint32_t i = 0; i < store.size(); ++i) {
+    penumbra.clear();
+    umbra.clear();
+    for (const PlaneRef plane : store.penumbra(store[i])) {
+      penumbra.push_back(doubles_of(space, plane));
+    }
+    for (const PlaneRef plane : store.umbra(store[i])) umbra.push_back(doubles_of(space, plane));
+    const std::uint32_t part = store[i].caster;
+    result.add(i, part, scene.parts[part].plane, penumbra, umbra);
+  }
+  result.finish();
+  return result;
+}
+
+/// Of one thread and one light.
+template <VolumeSpaceModel Space>
+class ReceiverShares {
+ public:
+  using Vertex = typename Space::Vertex;
+  using Loop = LoopView<Vertex>;
+  using Workspace = ReceiverWorkspace<Space>;
+
+  /// The shares of a side that sees the light. None: they are open. `whole`: the part's own loop.
+  std::optional<Shares> find(Workspace& workspace, const LightInSpace<Space>& light,
+                             const LightVolumes& volumes, std::uint32_t part, Side side,
+                             const Loop& whole);
+
+ private:
+  enum class Relation : std::uint8_t { kOutside, kInside, kCrossing, kOpen };
+  enum class Border : std::uint8_t { kOpen, kClosed };
+  enum class Verdict : std::uint8_t { kGoesOn, kAllUmbra, kOpen };
+
+  bool make_chart(const Space& space, const Loop& whole);
+  std::optional<Shares> find_whole(Workspace& workspace, const LightInSpace<Space>& light,
+                                   const LightVolumes& volumes, PlaneRef receiving);
+  std::optional<Shares> find_cut(Workspace& workspace, const LightInSpace<Space>& light,
+                                 std::uint32_t part, Side side);
+  bool blocks(Workspace& workspace, PlaneRef receiving, const PreparedScene& scene,
+              std::uint32_t caster);
+  Verdict add_volume(Space& space, const VolumeStore& store, const VolumeToCut& cut);
+  std::optional<Shares> shares();
+  Relation relate(Space& space, std::span<const PlaneRef> planes, Border border);
+  static LineName name_of(const Space& space, PlaneRef plane);
+
+  PlaneRef support_;
+  std::vector<Corner<Vertex>> corners_;  // in the chart's order
+  SearchedReceiver searched_;
+  ReceiverChart chart_;
+  VolumeSearch search_;
+  bool all_penumbra_ = false;
+  std::vector<OutlineLine> lines_;
+  OutlineUnion penumbras_, umbras_;
+};
+
+template <VolumeSpaceModel Space>
+bool ReceiverShares<Space>::make_chart(const Space& space, const Loop& whole) {
+  double bound = 0;
+  searched_.corners.clear();
+  for (const Vertex& vertex : whole.vertices) {
+    searched_.corners.push_back(vertex.x);
+    bound = std::max(bound, static_cast<double>(vertex.bound));
+  }
+  if (!chart_.make(space.load(support_).n, searched_.corners,
+                   VolumeBounds::input(space.geometry().grid.bits()), bound)) {
+    return false;
+  }
+  corners_.clear();
+  for (std::uint32_t i = 0; i < whole.size(); ++i) {
+    corners_.push_back(whole.corner(chart_.reversed && i > 0 ? whole.size() - i : i));
+  }
+  return true;
+}
+
+template <VolumeSpaceModel Space>
+LineName ReceiverShares<Space>::name_of(const Space& space, PlaneRef plane) {
+  if (plane.index() < space.edges().planes) return names::of_support(plane.index());
+  const VolumePlaneSource& source = space.source_of(plane);
+  if (source.is_explicit()) return names::of_added(plane.index());
+  LineName points = source.vertices;
+  std::ranges::sort(points);
+  return points;
+}
+
+/// Leaves the lines that cross the receiver in lines_.
+template <VolumeSpaceModel Space>
+typename ReceiverShares<Space>::Relation ReceiverShares<Space>::relate(
+    Space& space, std::span<const PlaneRef> planes, Border border) {
+  lines_.clear();
+  bool is_open = false;
+  for (const PlaneRef plane : planes) {
+    const auto loaded = space.load(plane);
+    CornerMask before = 0, behind = 0;
+    for (std::uint32_t k = 0; k < corners_.size(); ++k) {
+      const Side side = space.side_of_plane(loaded, corners_[k]);
+      before |= static_cast<CornerMask>(side == Side::kFront) << k;
+      behind |= static_cast<CornerMask>(side == Side::kBack) << k;
+    }
+    if (before == 0) {
+      if (behind == 0 && border == Border::kClosed) continue;
+      return Relation::kOutside;
+    }
+    if (behind == 0 || is_open) continue;
+    PlaneDoubles doubles{loaded.n, loaded.d, plane, nullptr};
+    Point3 point;
+    if (plane.index() >= space.edges().planes && !space.source_of(plane).is_explicit()) {
+      point = space.input_vertex(space.source_of(plane).vertices[0]).x;
+      doubles.point = &point;
+    }
+    is_open = !chart_.add_line(doubles, before, behind, lines_);
+    if (!is_open) lines_.back().name = name_of(space, plane);
+  }
+  if (is_open) return Relation::kOpen;
+  return lines_.empty() ? Relation::kInside : Relation::kCrossing;
+}
+
+template <VolumeSpaceModel Space>
+typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_volume(Space& space,
+                                                                          const VolumeStore& store,
+                                                                          const VolumeToCut& cut) {
+  const ShadowVolume& volume = store[cut.volume];
+  if (!all_penumbra_) {
+    const Relation relation = relate(space, store.penumbra(volume), Border::kOpen);
+    if (relation == Relation::kOutside) return Verdict::kGoesOn;
+    if (relation == Relation::kOpen) return Verdict::kOpen;
+    all_penumbra_ = relation == Relation::kInside;
+    if (!all_penumbra_) penumbras_.add(lines_);
+  }
+  if (!cut.umbra || volume.umbra_count == 0) return Verdict::kGoesOn;
+  const Relation relation = relate(space, store.umbra(volume), Border::kClosed);
+  if (relation == Relation::kOpen) return Verdict::kOpen;
+  if (relation == Relation::kInside) return Verdict::kAllUmbra;
+  if (relation == Relation::kCrossing) umbras_.add(lines_);
+  return Verdict::kGoesOn;
+}
+
+template <VolumeSpaceModel Space>
+std::optional<Shares> ReceiverShares<Space>::shares() {
+  const auto share = [](OutlineUnion& outlines) -> std::optional<UnionShare> {
+    if (outlines.size() == 0) return std::nullopt;
+    return outlines.share();
+  };
+  return shares_of(all_penumbra_ ? std::nullopt : share(penumbras_), all_penumbra_, share(umbras_));
+}
+
+/// Whether a caster is partly in front of the receiver.
+template <VolumeSpaceModel Space>
+bool ReceiverShares<Space>::blocks(Workspace& workspace, PlaneRef receiving,
+                                   const PreparedScene& scene, std::uint32_t caster) {
+  const Loop loop = part_loop(workspace.space, scene, caster, workspace.caster);
+  for (std::uint32_t i = 0; i < loop.size(); ++i) {
+    if (workspace.space.side_of_plane(receiving, loop.corner(i)) == Side::kFront) return true;
+  }
+  return false;
+}
+
+/// Of a light that the receiver's plane does not cut.
+template <VolumeSpaceModel Space>
+std::optional<Shares> ReceiverShares<Space>::find_whole(Workspace& workspace,
+                                                        const LightInSpace<Space>& light,
+                                                        const LightVolumes& volumes,
+                                                        PlaneRef receiving) {
+  const VolumeSearch::Outcome outcome = search_.find(volumes, searched_);
+  if (outcome == VolumeSearch::Outcome::kAllUmbra) return kAllUmbra;
+  all_penumbra_ = outcome == VolumeSearch::Outcome::kAllPenumbra;
+  for (const FoundVolume& found : search_.found()) {
+    if (!blocks(workspace, receiving, light.scene(), found.part)) continue;
+    const Verdict verdict =
+        add_volume(workspace.space, light.volumes(), {found.number, found.umbra});
+    if (verdict == Verdict::kOpen) return std::nullopt;
+    if (verdict == Verdict::kAllUmbra) return kAllUmbra;
+  }
+  return shares();
+}
+
+/// Of a light that it cuts: by the volumes of the part in front.
+template <VolumeSpaceModel Space>
+std::optional<Shares> ReceiverShares<Space>::find_cut(Workspace& workspace,
+                                                      const LightInSpace<Space>& light,
+                                                      std::uint32_t part, Side side) {
+  light.prepare(workspace, part, side);
+  const VolumeStore& store = light.store(workspace);
+  for (const VolumeToCut& cut : workspace.volumes) {
+    const Verdict verdict = add_volume(workspace.space, store, cut);
+    if (verdict == Verdict::kOpen) return std::nullopt;
+    if (verdict == Verdict::kAllUmbra) return kAllUmbra;
+  }
+  return shares();
+}
+
+template <VolumeSpaceModel Space>
+std::optional<Shares> ReceiverShares<Space>::find(Workspace& workspace,
+                                                  const LightInSpace<Space>& light,
+                                                  const LightVolumes& volumes, std::uint32_t part,
+                                                  Side side, const Loop& whole) {
+  Space& space = workspace.space;
+  if (whole.size() > kMostCorners ||
+      workspace.record.decide(space, light.plane(), whole) != Placement::kFront) {
+    return std::nullopt;
+  }
+  const PlaneRef receiving = plane_of_side(light.scene().parts[part], side);
+  support_ = PlaneRef(receiving.index(), false);
+  if (!make_chart(space, whole)) return std::nullopt;
+  searched_.part = part;
+  searched_.support = receiving.index();
+  LinesInSpace<Space> exact(space, whole, corners_, chart_);
+  penumbras_.begin(chart_, exact);
+  umbras_.begin(chart_, exact);
+  all_penumbra_ = false;
+  const auto shape = light.shape();
+  const Placement placement = workspace.record.decide(space, receiving, shape.loop);
+  if (placement == Placement::kSpanning) return find_cut(workspace, light, part, side);
+  return find_whole(workspace, light, volumes, receiving);
+}
+
+/// ReceiverShares where the space has what it needs, else nothing.
+struct NoContour {};
+template <class Space>
+struct ContourChoice {
+  using Type = NoContour;
+};
+template <HasPlaneDoubles Space>
+struct ContourChoice<Space> {
+  using Type = ReceiverShares<Space>;
+};
+template <class Space>
+using ContourOf = typename ContourChoice<Space>::Type;
+
+}  // namespace gnomon::area_contour
+
+#endif  // GNOMON_ALGORITHMS_AREA_CONTOUR_RECEIVER_SHARES_H

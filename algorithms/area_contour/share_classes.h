@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// From the unions of penumbras and of umbras to classes and shares of a receiver; and the names of
+// lines by which places are known to be one.
+#ifndef GNOMON_ALGORITHMS_AREA_CONTOUR_SHARE_CLASSES_H
+#define GNOMON_ALGORITHMS_AREA_CONTOUR_SHARE_CLASSES_H
+
+#include <cstdint>
+#include <optional>
+
+#include "algorithms/area_contour/outline_union.h"
+#include "algorithms/area_contour/receiver_chart.h"
+#include "gnomon/algorithms/shadow_result.h"
+
+namespace gnomon::area_contour {
+
+/// Certified shares of one side of a receiver; what is exactly 0 or 1 is.
+struct Shares {
+  Interval lit, penumbra, umbra;
+};
+inline constexpr Shares kAllUmbra{{0, 0}, {0, 0}, {1, 1}};
+
+/// `penumbra`, `umbra`: of the unions; none: no volume of the kind reaches the receiver.
+/// `all_penumbra`: one penumbra holds all of it. None: the bounds leave a class open, or much of a
+/// share.
+std::optional<Shares> shares_of(const std::optional<UnionShare>& penumbra, bool all_penumbra,
+                                const std::optional<UnionShare>& umbra);
+
+/// What lines of a receiver's chart are known by, but for planes through three input vertices:
+/// those are known by the three.
+namespace names {
+/// The line in which the receiver meets a support plane.
+inline constexpr LineName of_support(std::uint32_t plane) {
+  return {plane, 0xffffffffu, 0xffffffffu};
+}
+/// The line of an added plane that is not known otherwise.
+inline constexpr LineName of_added(std::uint32_t plane) {
+  return {plane, 0xfffffffdu, 0xfffffffdu};
+}
+}  // namespace names
+
+}  // namespace gnomon::area_contour
+
+#endif  // GNOMON_ALGORITHMS_AREA_CONTOUR_SHARE_CLASSES_H

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Finds the volumes of one area light that may reach a receiver: a walk of a bounding-volume
+// hierarchy down the shaft between receiver and light, and volumes against the receiver's box and
+// corners, four planes at a time.
+//
+// Guarantee: a volume that is not found certainly misses the receiver; what is said to be all in
+// penumbra or umbra certainly is, by one caster. All else is for exact arithmetic to decide. What
+// is found depends on the receiver alone: casters that covered the last receivers are tried first,
+// but would be found without.
+#ifndef GNOMON_ALGORITHMS_AREA_CONTOUR_VOLUME_SEARCH_H
+#define GNOMON_ALGORITHMS_AREA_CONTOUR_VOLUME_SEARCH_H
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/area_contour/receiver_chart.h"
+#include "algorithms/partition/box.h"
+#include "algorithms/partition/box_tree.h"
+#include "algorithms/shadow_volumes/caster_tree.h"
+
+namespace gnomon::area_contour {
+
+/// Four planes n . x - d; what fills up the last block is positive everywhere.
+struct alignas(32) PlaneBlock {
+  double n[3][4] = {}, d[4] = {-1, -1, -1, -1};
+};
+
+/// A volume as the search sees it.
+struct SearchedVolume {
+  std::uint32_t number = 0;  // in the light's store
+  std::uint32_t part = 0, support = 0;
+  std::uint32_t first = 0;                              // block of the penumbra; the umbra's follow
+  std::uint32_t penumbra_blocks = 0, umbra_blocks = 0;  // 0: no umbra
+};
+
+/// The volumes of one light.
+class LightVolumes {
+ public:
+  /// `boxes`: of all parts, and of the light, in fractions of the grid's extent. `bound`: of the
+  /// error of a plane's value at a corner.
+  LightVolumes(std::vector<Box> boxes, const Box& light, std::vector<Point3> light_corners,
+               double bound);
+  /// Adds a volume; planes are turned so that it is in front of them. In any order.
+  void add(std::uint32_t number, std::uint32_t part, std::uint32_t support,
+           std::span<const PlaneDoubles> penumbra, std::span<const PlaneDoubles> umbra);
+  /// Sorts what was added into a hierarchy.
+  void finish();
+
+  const Box& light() const { return light_; }
+  const Box& box(std::uint32_t part) const { return boxes_[part]; }
+
+ private:
+  friend class VolumeSearch;
+  void put(std::span<const PlaneDoubles> planes);
+
+  std::vector<Box> boxes_;
+  Box light_;
+  std::vector<Point3> light_corners_;
+  double bound_ = 0;
+  std::vector<SearchedVolume> volumes_;  // in the order of the tree's members
+  std::vector<PlaneBlock> blocks_;
+  BoxTree tree_;
+  std::vector<double> largest_;  // of each node: the longest diagonal of a caster's box below it
+};
+
+struct SearchedReceiver {
+  std::uint32_t part = 0, support = 0;
+  std::vector<Point3> corners;
+};
+
+/// What may reach a receiver.
+struct FoundVolume {
+  std::uint32_t number = 0, part = 0;
+  bool umbra = false;  // that of the volume may, too
+};
+
+/// Of one thread.
+class VolumeSearch {
+ public:
+  enum class Outcome : std::uint8_t { kSome, kAllPenumbra, kAllUmbra };
+
+  /// Leaves in found() what may reach the receiver. kAllUmbra: one caster's umbra holds all of it.
+  /// kAllPenumbra: one caster's penumbra does, and only volumes whose umbra may reach it are found.
+  Outcome find(const LightVolumes& light, const SearchedReceiver& receiver);
+  std::span<const FoundVolume> found() const { return found_; }
+
+ private:
+  static constexpr std::size_t kHints = 8, kMostBlocking = 8;
+  enum class Relation : std::uint8_t { kOutside, kInside, kOpen };
+  struct Shaft;
+  struct Hints {
+    std::array<std::uint32_t, kHints> places{};
+    std::size_t count = 0, next = 0;
+    void add(std::uint32_t place);
+  };
+
+  Relation relate(std::span<const PlaneBlock> planes) const;
+  bool misses_box(std::span<const PlaneBlock> planes) const;
+  std::span<const PlaneBlock> penumbra(const SearchedVolume& volume) const;
+  std::span<const PlaneBlock> umbra(const SearchedVolume& volume) const;
+  bool is_own(const SearchedVolume& volume) const {
+    return volume.part == receiver_->part || volume.support == receiver_->support;
+  }
+  bool may_have_umbra(const SearchedVolume& volume);
+  const UmbraReach& reach();
+  bool try_to_cover(std::uint32_t place);
+  bool try_hints();
+  bool try_blocking();
+  bool test(std::uint32_t place);
+  bool walk();
+
+  const LightVolumes* light_ = nullptr;
+  const SearchedReceiver* receiver_ = nullptr;
+  Box box_;
+  Point3 middle_{}, half_{};
+  bool has_reach_ = false, all_penumbra_ = false;
+  UmbraReach reach_;
+  std::vector<FoundVolume> found_;
+  Hints penumbra_hints_, umbra_hints_;
+};
+
+}  // namespace gnomon::area_contour
+
+#endif  // GNOMON_ALGORITHMS_AREA_CONTOUR_VOLUME_SEARCH_H
