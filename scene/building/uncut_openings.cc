@@ -48,6 +48,7 @@ class LonePolygon {
 
 Expected<std::vector<std::size_t>> unusable_holes(const Scene& scene, const Polygon& polygon) {
   std::vector<std::size_t> unusable;
+  if (polygon.holes.empty()) return unusable;
   LonePolygon whole(scene, polygon);
   for (const std::vector<VertexId>& hole : polygon.holes) whole.add_hole(hole);
   auto usable = whole.is_usable();
