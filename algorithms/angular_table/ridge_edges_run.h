@@ -9,8 +9,9 @@
 #ifndef GNOMON_ALGORITHMS_ANGULAR_TABLE_RIDGE_EDGES_RUN_H
 #define GNOMON_ALGORITHMS_ANGULAR_TABLE_RIDGE_EDGES_RUN_H
 
+#include <time.h>
+
 #include <algorithm>
-#include <chrono>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -40,11 +41,11 @@ class RidgeEdgesRun {
     const PixelSink::Row out = task_.sink.row(row);
     visible_.draw_row(row, out.part, work_, [&](std::uint32_t part, Span span) {
       std::fill(out.lit_by.begin() + span.begin, out.lit_by.begin() + span.end, 0);
-      const auto start = Clock::now();
+      const double start = thread_seconds();
       for (std::size_t l = 0; l < look_ups_.size(); ++l) {
         if (scene_.seen_side_faces(part, l)) look_ups_[l].light(part, span, row, out.lit_by, work_);
       }
-      seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+      seconds_ += thread_seconds() - start;
     });
     for_each_run(out.part,
                  [&](std::uint32_t, Span run) { work_[Counter::kSamples] += run.size(); });
@@ -55,7 +56,12 @@ class RidgeEdgesRun {
   std::uint64_t covered() const { return visible_.covered(); }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  /// CPU time of this thread.
+  static double thread_seconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
 
   const PixelTask& task_;
   ImageScene<Space> scene_;

@@ -59,6 +59,9 @@ TableRows::TableRows(const TableMesh& mesh, std::span<const std::uint32_t> used,
       ranks_[vertex] = static_cast<std::uint32_t>(place - values_.begin());
     }
     for (const mpq_class& value : values_) near_values_.push_back(value.get_d());
+    for (std::uint32_t k = 0; k < count_; ++k) {
+      middles_.emplace_back((values_[k] + values_[k + 1]) / 2);
+    }
     return;
   }
   mpq_class least = t_of(used.front()), greatest = least;
@@ -84,6 +87,9 @@ void TableRows::make_slices(const TableMesh& mesh, std::span<const std::uint32_t
   low_ = times_two_to(mpq_class(low), -exponent);
   step_ = times_two_to(mpq_class(high - low), -exponent) / count_;
   for (std::uint32_t k = 0; k <= count_; ++k) near_values_.push_back(border(k).get_d());
+  for (std::uint32_t k = 0; k < count_; ++k) {
+    middles_.emplace_back(low_ + step_ * mpq_class(2 * k + 1, 2));
+  }
   for (const std::uint32_t vertex : used) {
     // Rows k with low + (k + 1/2) step < t.
     const DirectionVector& y = mesh.vertices()[vertex].direction;
@@ -94,11 +100,6 @@ void TableRows::make_slices(const TableMesh& mesh, std::span<const std::uint32_t
                      : below > count_ ? count_
                                       : static_cast<std::uint32_t>(below.get_ui());
   }
-}
-
-mpq_class TableRows::middle(std::uint32_t row) const {
-  if (is_exact_) return (values_[row] + values_[row + 1]) / 2;
-  return low_ + step_ * mpq_class(2 * row + 1, 2);
 }
 
 mpq_class TableRows::border(std::uint32_t k) const {

@@ -28,7 +28,7 @@ class TableRows {
   /// How many rows a vertex that counts is above.
   std::uint32_t rank(std::uint32_t vertex) const { return ranks_[vertex]; }
   /// Which t stands for a row: the middle of its slice.
-  mpq_class middle(std::uint32_t row) const;
+  const mpq_class& middle(std::uint32_t row) const { return middles_[row]; }
   /// Where slice k begins and slice k - 1 ends, k up to count().
   mpq_class border(std::uint32_t k) const;
   /// The slice that holds t.
@@ -44,6 +44,7 @@ class TableRows {
   std::uint32_t count_ = 0;
   std::vector<std::uint32_t> ranks_;  // by vertices of the mesh
   mpq_class low_, step_;              // of slices
+  std::vector<mpq_class> middles_;    // by rows
   std::vector<mpq_class> values_;     // of slabs, ascending
   std::vector<double> near_values_;
 };

@@ -27,10 +27,18 @@ class EpickImageArithmetic {
 
   Vector vertex(VertexId v) const { return geometry_->positions[v]; }
   Vector point(const LightPoint& light) const { return light.nearest; }
+  /// Of rational numbers on the grid, or of doubles.
   Vector position(const std::array<mpq_class, 3>& grid) const {
     Vector result;
     for (std::size_t k = 0; k < 3; ++k) {
       result[k] = mpq_class(geometry_->origin[k] + geometry_->step * grid[k]).get_d();
+    }
+    return result;
+  }
+  Vector position(const std::array<double, 3>& grid) const {
+    Vector result;
+    for (std::size_t k = 0; k < 3; ++k) {
+      result[k] = geometry_->origin[k].get_d() + geometry_->step.get_d() * grid[k];
     }
     return result;
   }

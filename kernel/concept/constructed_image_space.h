@@ -7,7 +7,8 @@
 // The arithmetic A has: Number, Vector (three of them), Plane (with members n and d, the value at x
 // being n . x - d), kExact, and
 //  - vertex(id), point(light): positions, or the direction of a directional light;
-//  - position(x): a point of the grid by rational coordinates; number(integer);
+//  - position(x): a point of the grid by rational coordinates, of rounded kernels by doubles, too;
+//    number(integer);
 //  - plane_through(a, b, c), normal (b - a) x (c - a), and plane_along(a, direction, c), normal
 //    direction x (c - a);
 //  - side(plane, x), with the plane's thickness if it has one; along(plane, d), the sign of n . d;
@@ -39,6 +40,7 @@ class ConstructedImageSpace {
       : arithmetic_(geometry, options),
         frame_(frame),
         grid_bits_(geometry.grid.bits()),
+        grid_is_near_(doubles_hold(geometry)),
         eye_(arithmetic_.point(frame.eye)) {
     right_ = vector(frame.right);
     up_ = vector(frame.up);
@@ -64,10 +66,15 @@ class ConstructedImageSpace {
                                      : arithmetic_.plane_through(from.point, second, first)));
   }
   PlaneRef add_grid_plane(const GridPlane& plane) {
-    const auto [a, b, c] = points_of(plane, grid_bits_);
-    return PlaneRef(
-        add(planes_, arithmetic_.plane_through(arithmetic_.position(a), arithmetic_.position(b),
-                                               arithmetic_.position(c))));
+    const auto through = [&](const auto& points) {
+      return PlaneRef(add(planes_, arithmetic_.plane_through(arithmetic_.position(points[0]),
+                                                             arithmetic_.position(points[1]),
+                                                             arithmetic_.position(points[2]))));
+    };
+    if constexpr (!kExact) {
+      if (grid_is_near_) return through(near_points_of(plane, grid_bits_));
+    }
+    return through(points_of(plane, grid_bits_));
   }
   /// Requires: one of the two is no directional light.
   RayPlaneRef add_ray_plane(ImagePoint from, ImagePoint to) {
@@ -190,6 +197,7 @@ class ConstructedImageSpace {
   A arithmetic_;
   ImageFrame frame_;
   unsigned grid_bits_;
+  bool grid_is_near_;  // doubles hold what is as large as the grid, in its units and the scene's
   Vector eye_, right_, up_;
   std::vector<PlaneOf> planes_, ray_planes_;
   std::vector<LightOf> lights_;

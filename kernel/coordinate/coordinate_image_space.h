@@ -40,14 +40,21 @@ class CoordinateImageArithmetic {
     }
     return result;
   }
-  Vector position(const std::array<mpq_class, 3>& grid) const {
+  /// Of rational numbers on the grid, or of doubles.
+  template <class Coordinate>
+  Vector position(const std::array<Coordinate, 3>& grid) const {
     Vector result;
     for (std::size_t k = 0; k < 3; ++k) {
-      const mpq_class x = geometry_->origin[k] + geometry_->step * grid[k];
-      if constexpr (kExact) {
-        result[k] = x;
+      if constexpr (std::is_same_v<Coordinate, double>) {
+        result[k] =
+            static_cast<T>(geometry_->origin[k].get_d() + geometry_->step.get_d() * grid[k]);
       } else {
-        result[k] = static_cast<T>(x.get_d());
+        const mpq_class x = geometry_->origin[k] + geometry_->step * grid[k];
+        if constexpr (kExact) {
+          result[k] = x;
+        } else {
+          result[k] = static_cast<T>(x.get_d());
+        }
       }
     }
     return result;
