@@ -9,9 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <map>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -20,92 +17,25 @@
 #include "gnomon/algorithms/components.h"
 #include "scene/base/random.h"
 #include "scene/base/vectors.h"
+#include "solid_cells.h"
 
 namespace gnomon {
 namespace {
 
 using test::Case;
+using test::Cell;
+using test::Cells;
+using test::doubled_area;
+using test::lamp;
+using test::random_cells;
+using test::random_map;
+using test::same;
+using test::shadow_of;
+using test::steep_light;
+using test::sun;
+using test::Whole;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-using Cell = std::array<int, 3>;
-using Whole = std::array<std::int64_t, 3>;
-using Map = std::function<Whole(const Whole&)>;
-
-Position at(const Whole& p) {
-  return {Number(static_cast<double>(p[0])), Number(static_cast<double>(p[1])),
-          Number(static_cast<double>(p[2]))};
-}
-
-/// The surface of a set of cells of a lattice, a square for each face between a cell of the set and
-/// one outside, all looking outwards; moved by `map`, which keeps faces planar and orientation.
-class Cells {
- public:
-  void add(const Cell& cell) { cells_[cell] = true; }
-  void add_box(const Cell& from, const Cell& to) {
-    for (int x = from[0]; x < to[0]; ++x) {
-      for (int y = from[1]; y < to[1]; ++y) {
-        for (int z = from[2]; z < to[2]; ++z) add({x, y, z});
-      }
-    }
-  }
-  void remove(const Cell& cell) { cells_.erase(cell); }
-  bool has(const Cell& cell) const { return cells_.contains(cell); }
-  const std::map<Cell, bool>& all() const { return cells_; }
-
-  Scene surface(const Map& map) const {
-    Scene scene;
-    std::map<Whole, VertexId> vertices;
-    const auto vertex = [&](const Whole& corner) {
-      const auto [place, is_new] =
-          vertices.try_emplace(corner, static_cast<VertexId>(scene.vertices.size()));
-      if (is_new) scene.vertices.push_back(at(map(corner)));
-      return place->second;
-    };
-    for (const auto& [cell, present] : cells_) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const int side : {0, 1}) {
-          Cell beyond = cell;
-          beyond[axis] += side == 1 ? 1 : -1;
-          if (has(beyond)) continue;
-          const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-          Polygon polygon;
-          polygon.id = std::to_string(scene.polygons.size());
-          for (const auto& [du, dv] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
-            Whole corner{cell[0], cell[1], cell[2]};
-            corner[axis] += side;
-            corner[u] += du;
-            corner[v] += dv;
-            polygon.loop.push_back(vertex(corner));
-          }
-          if (side == 0) std::ranges::reverse(polygon.loop);
-          scene.polygons.push_back(std::move(polygon));
-        }
-      }
-    }
-    return scene;
-  }
-
- private:
-  std::map<Cell, bool> cells_;
-};
-
-Whole same(const Whole& p) { return p; }
-
-Light sun(const Whole& to_light) {
-  Light light;
-  light.id = "light";
-  light.type = LightType::kDirectional;
-  light.position = at(to_light);
-  return light;
-}
-
-Light lamp(const Whole& place) {
-  Light light;
-  light.id = "light";
-  light.position = at(place);
-  return light;
-}
 
 std::vector<RidgeLoops> loops_of(const Case& scene,
                                  OpenComponents open = OpenComponents::kRefused) {
@@ -127,24 +57,6 @@ std::size_t count(const RidgeLoops& loops, LoopKind kind) {
 }
 std::size_t count(const RidgeLoops& loops, RidgeKind kind) {
   return static_cast<std::size_t>(std::ranges::count(loops.edges, kind, &RidgeEdge::kind));
-}
-
-/// Twice the signed area of directions where their third coordinate is 1. Requires: it is positive.
-mpq_class doubled_area(const std::vector<std::array<mpz_class, 3>>& rays) {
-  mpq_class sum = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const auto &a = rays[i], &b = rays[i + 1 == rays.size() ? 0 : i + 1];
-    mpq_class term(a[0] * b[1] - a[1] * b[0], a[2] * b[2]);
-    term.canonicalize();
-    sum += term;
-  }
-  return sum;
-}
-
-mpq_class doubled_area(const RidgeLoops& loops, const RidgeLoop& loop) {
-  std::vector<std::array<mpz_class, 3>> rays;
-  for (const LoopStep& step : loop.steps) rays.push_back(loops.rays[step.ray]);
-  return doubled_area(rays);
 }
 
 struct Areas {
@@ -359,34 +271,6 @@ TEST(RidgeLoops, AreaLightsAreRefused) {
   EXPECT_THAT(to_string(refused.error()), HasSubstr("'panel' has an area"));
 }
 
-/// Cells that hang together, some in a row, some around holes.
-Cells random_cells(Random& random) {
-  Cells cells;
-  Cell at{0, 0, 0};
-  const auto count = random.between(2, 24);
-  for (std::int64_t i = 0; i < count; ++i) {
-    cells.add(at);
-    const auto axis = static_cast<std::size_t>(random.below(3));
-    at[axis] = std::clamp(at[axis] + (random.chance(1, 2) ? 1 : -1), -2, 2);
-  }
-  return cells;
-}
-
-/// An affine map with integer entries and a positive determinant: the identity times 8, sheared.
-Map random_map(Random& random, bool generic) {
-  std::array<std::int64_t, 9> m{8, 0, 0, 0, 8, 0, 0, 0, 8};
-  if (generic) {
-    for (std::int64_t& entry : m) entry += random.between(-2, 2);
-  }
-  return [m](const Whole& p) {
-    Whole q{};
-    for (std::size_t r = 0; r < 3; ++r) {
-      for (std::size_t c = 0; c < 3; ++c) q[r] += m[3 * r + c] * p[c];
-    }
-    return q;
-  };
-}
-
 class RidgeLoopsOfSolids : public testing::TestWithParam<bool> {};
 
 TEST_P(RidgeLoopsOfSolids, AreasAreThoseOfPolygonsAndShadows) {
@@ -395,11 +279,7 @@ TEST_P(RidgeLoopsOfSolids, AreasAreThoseOfPolygonsAndShadows) {
     Random random(seed);
     const Cells cells = random_cells(random);
     Scene scene = cells.surface(random_map(random, GetParam()));
-    const bool directional = random.chance(1, 2);
-    // Steep, so that the shadow stays near and the chart is that of the floor.
-    const Whole across{random.between(-6, 6), random.between(-6, 6), random.between(7, 12)};
-    const Whole place{random.between(-40, 40), random.between(-40, 40), random.between(60, 90)};
-    scene.lights = {directional ? sun(across) : lamp(place)};
+    scene.lights = {steep_light(random)};
     const auto solid = Case::make(scene);
     ASSERT_TRUE(solid);
     const auto loops = loops_of(*solid);
@@ -415,29 +295,7 @@ TEST_P(RidgeLoopsOfSolids, AreasAreThoseOfPolygonsAndShadows) {
       EXPECT_LE(own.pairs, own.all_pairs());
     }
     if (loops.size() == 1) {
-      // The shadow on a floor far enough below, in the chart of the light.
-      constexpr double kHalf = 1 << 16, kBelow = -64;
-      Scene with_floor = scene;
-      const auto first = static_cast<VertexId>(with_floor.vertices.size());
-      for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
-        with_floor.vertices.push_back({Number(x * kHalf), Number(y * kHalf), Number(kBelow)});
-      }
-      Polygon floor;
-      floor.id = "floor";
-      floor.loop = {first, first + 1, first + 2, first + 3};
-      with_floor.polygons.push_back(floor);
-      const auto floored = Case::make(with_floor);
-      ASSERT_TRUE(floored);
-      const mpq_class lit =
-          test::lit_fraction_of(*floored, test::options_for(KernelId::kPlane), "light", "floor");
-      const mpq_class shadow = (1 - lit) * mpq_class(4 * kHalf * kHalf);
-      // From the chart to the floor: a sun's is across z, times its height, in steps of the grid; a
-      // lamp's directions are cut at height 1.
-      const mpq_class step = solid->prepared().geometry.step;
-      const auto& light = solid->prepared().lights[0].point;
-      const mpq_class scale = directional ? mpq_class(step / light.grid[2])
-                                          : mpq_class(static_cast<double>(place[2]) - kBelow);
-      EXPECT_EQ(areas.shadow / 2 * scale * scale, shadow) << "seed " << seed;
+      EXPECT_EQ(areas.shadow, shadow_of(scene)) << "seed " << seed;
     }
     if (HasFailure()) break;
   }
