@@ -5,6 +5,7 @@
 // edge that is seen.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "algorithms/area_contour/outline_union.h"
@@ -12,8 +13,9 @@
 namespace gnomon::area_contour {
 namespace {
 
-/// Cells with more outlines are halved if that keeps some apart.
-constexpr std::uint32_t kLeaf = 24;
+/// Cells with more outlines are halved if that keeps some apart, in the middle of some of their
+/// ends.
+constexpr std::uint32_t kLeaf = 64, kAsked = 64;
 constexpr int kDeepest = 40, kMostInVain = 4;
 /// Of the receiver's size: cells do not meet where outlines end.
 constexpr double kAside = 0.7351e-7;
@@ -42,32 +44,38 @@ bool OutlineUnion::is_held(const Cell& cell) const {
   return false;
 }
 
-/// Puts an edge, or its two parts, where it lies of a line across an axis.
-void OutlineUnion::divide(const Edge& edge, int axis, double at, std::vector<Edge>& low,
-                          std::vector<Edge>& high) const {
-  const OutlineLine& line = lines_[edge.line];
+/// Puts a part of an edge, or two of it, where it lies of a line across an axis.
+void OutlineUnion::divide(const Part& part, int axis, double at) {
+  const OutlineLine& line = lines_[edges_[part.edge].line];
   const double origin = -line.c * (axis == 0 ? line.a : line.b);
   const double slope = axis == 0 ? line.b : -line.a;
-  const double from = origin + slope * edge.stretch.low.outer;
-  const double to = origin + slope * edge.stretch.high.outer;
+  const double from = origin + slope * part.from, to = origin + slope * part.to;
   if (from <= at && to <= at) {
-    low.push_back(edge);
+    low_edges_.push_back(part);
   } else if (from >= at && to >= at) {
-    high.push_back(edge);
+    high_edges_.push_back(part);
   } else {
-    const double place =
-        std::clamp((at - origin) / slope, edge.stretch.low.outer, edge.stretch.high.outer);
-    Edge first = edge, last = edge;
-    first.stretch.high = {std::min(edge.stretch.high.inner, place), place, kNoLine};
-    last.stretch.low = {std::max(edge.stretch.low.inner, place), place, kNoLine};
-    if (edge.stretch.high.inner < place) first.stretch.high.line = edge.stretch.high.line;
-    if (edge.stretch.low.inner > place) last.stretch.low.line = edge.stretch.low.line;
-    for (Edge* part : {&first, &last}) {
-      part->box = box_of(line, part->stretch.low.outer, part->stretch.high.outer);
-    }
-    (slope > 0 ? low : high).push_back(first);
-    (slope > 0 ? high : low).push_back(last);
+    const double place = std::clamp((at - origin) / slope, part.from, part.to);
+    (slope > 0 ? low_edges_ : high_edges_).push_back({part.edge, part.from, place});
+    (slope > 0 ? high_edges_ : low_edges_).push_back({part.edge, place, part.to});
   }
+}
+
+/// The edge, ended where cells meet.
+OutlineUnion::Edge OutlineUnion::edge_of(const Part& part) const {
+  Edge edge = edges_[part.edge];
+  Stretch& stretch = edge.stretch;
+  const bool begins = part.from > stretch.low.outer, ends = part.to < stretch.high.outer;
+  if (begins) {
+    if (stretch.low.inner <= part.from) stretch.low = {part.from, part.from};
+    stretch.low.outer = part.from;
+  }
+  if (ends) {
+    if (stretch.high.inner >= part.to) stretch.high = {part.to, part.to};
+    stretch.high.outer = part.to;
+  }
+  if (begins || ends) edge.box = box_of(lines_[edge.line], part.from, part.to);
+  return edge;
 }
 
 /// Halves the cell between the ends of its outlines' boxes, across its longer side. False if that
@@ -77,7 +85,8 @@ bool OutlineUnion::halve(const Cell& cell, std::vector<Cell>& cells) {
                height = cell.box.high[1] - cell.box.low[1];
   const int axis = width >= height ? 0 : 1;
   ends_.clear();
-  for (std::uint32_t i = cell.first_outline; i < cell.end_outline; ++i) {
+  const std::uint32_t every = 1 + (cell.end_outline - cell.first_outline) / kAsked;
+  for (std::uint32_t i = cell.first_outline; i < cell.end_outline; i += every) {
     const Box& box = outlines_[cell_outlines_[i]].box;
     for (const double end : {box.low[axis], box.high[axis]}) {
       if (end > cell.box.low[axis] && end < cell.box.high[axis]) ends_.push_back(end);
@@ -91,7 +100,7 @@ bool OutlineUnion::halve(const Cell& cell, std::vector<Cell>& cells) {
   low_edges_.clear();
   high_edges_.clear();
   for (std::uint32_t i = cell.first_edge; i < cell.end_edge; ++i) {
-    divide(cell_edges_[i], axis, at, low_edges_, high_edges_);
+    divide(cell_edges_[i], axis, at);
   }
   high_outlines_.clear();
   Cell low = cell, high = cell;
@@ -131,13 +140,24 @@ void OutlineUnion::add_cells() {
   const auto count = static_cast<std::uint32_t>(outlines_.size());
   cell_outlines_.resize(count);
   std::iota(cell_outlines_.begin(), cell_outlines_.end(), 0u);
+  // The largest first, since they hide most.
+  sizes_.clear();
+  for (const Outline& outline : outlines_) {
+    const Box& box = outline.box;
+    sizes_.push_back((box.high[0] - box.low[0]) * (box.high[1] - box.low[1]));
+  }
+  std::ranges::stable_sort(cell_outlines_, std::greater{},
+                           [&](std::uint32_t outline) { return sizes_[outline]; });
   if (count <= kLeaf) {
     for (const Edge& edge : edges_) add_edge(edge, cell_outlines_);
     return;
   }
   margin_ = 4 * slack_;
   for (const OutlineLine& line : lines_) margin_ = std::max(margin_, 4 * slack_ + line.error);
-  cell_edges_ = edges_;
+  cell_edges_.clear();
+  for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+    cell_edges_.push_back({i, edges_[i].stretch.low.outer, edges_[i].stretch.high.outer});
+  }
   Cell whole{outlines_[0].box, 0, count, 0, static_cast<std::uint32_t>(edges_.size())};
   for (const Outline& outline : outlines_) {
     for (int k = 0; k < 2; ++k) {
@@ -159,7 +179,7 @@ void OutlineUnion::add_cells() {
     const std::span<const std::uint32_t> others{cell_outlines_.data() + cell.first_outline,
                                                 cell.end_outline - cell.first_outline};
     for (std::uint32_t i = cell.first_edge; i < cell.end_edge; ++i) {
-      add_edge(cell_edges_[i], others);
+      add_edge(edge_of(cell_edges_[i]), others);
     }
   }
 }

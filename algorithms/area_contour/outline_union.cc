@@ -14,7 +14,21 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnit = Ball::kUnit;
 
 /// A choice, not a bound.
-constexpr double kSharpenAbove = 0x1p-36;
+constexpr double kSharpenAbove = 0x1p-24;
+
+/// The border of the covered part, as a walk that must come back to where it began: whoever has
+/// lost a piece of it does not. Of the union that this thread is at.
+struct Walk {
+  double x = 0, y = 0, error = 0;
+  void add(double dx, double dy, double middle, double radius) {
+    x += dx * middle;
+    y += dy * middle;
+    const double length = std::fabs(dx) + std::fabs(dy);
+    error += length * radius + 4 * kUnit * (length * middle + std::fabs(x) + std::fabs(y));
+  }
+  bool is_closed() const { return std::fabs(x) <= error && std::fabs(y) <= error; }
+};
+thread_local Walk walk;
 
 bool has(CornerMask mask, std::uint32_t corner) { return (mask >> corner & 1) != 0; }
 
@@ -437,33 +451,50 @@ void OutlineUnion::add_borders() {
     // What is covered of the border is the union's border.
     add_integral(p[0] * q[1] - p[1] * q[0], height_error,
                  {std::max(0.0, 1 - rest.perhaps), 1 - rest.certain});
+    const double middle = 1 - (rest.certain + rest.perhaps) / 2;
+    walk.add(q[0] - p[0], q[1] - p[1], middle, std::fabs(rest.perhaps - rest.certain) / 2);
+    walk.error += 4 * receiver.error;
   }
+}
+
+/// Whether another outline certainly holds all of an edge; else notes what it holds of it.
+bool OutlineUnion::hides(const Edge& edge, std::uint32_t other) {
+  if (other == edge.outline || !edge.box.meets(outlines_[other].box)) return false;
+  Stretch stretch;
+  if (!cover(edge, other, stretch)) return false;
+  if (stretch.certainly_is() && stretch.low.inner <= edge.stretch.low.outer &&
+      stretch.high.inner >= edge.stretch.high.outer) {
+    last_hider_ = other;
+    return true;
+  }
+  covers_.push_back(stretch);
+  return false;
 }
 
 /// Adds what other outlines leave of an edge.
 void OutlineUnion::add_edge(const Edge& edge, std::span<const std::uint32_t> others) {
+  if (hides(edge, last_hider_)) return;
   covers_.clear();
   for (const std::uint32_t other : others) {
-    if (other == edge.outline || !edge.box.meets(outlines_[other].box)) continue;
-    Stretch stretch;
-    if (!cover(edge, other, stretch)) continue;
-    if (stretch.certainly_is() && stretch.low.inner <= edge.stretch.low.outer &&
-        stretch.high.inner >= edge.stretch.high.outer) {
-      return;
-    }
-    covers_.push_back(stretch);
+    if (hides(edge, other)) return;
   }
   const Lengths rest = rest_of({edge.line, 0}, edge.stretch);
   if (!(rest.perhaps > 0)) return;
   some_left_ = true;
   const OutlineLine& line = lines_[edge.line];
   add_integral(line.c, line.error + slack_, rest);
+  // The line's direction is off by its error over the receiver's size, at most.
+  const double turned = 4 * (line.error + slack_) / receiver_->reach;
+  walk.add(line.b, -line.a, (rest.certain + rest.perhaps) / 2,
+           (rest.perhaps - rest.certain) / 2 + turned * rest.perhaps);
 }
 
 UnionShare OutlineUnion::integrate() {
   const ReceiverChart& receiver = *receiver_;
   sum_ = error_ = 0;
   some_left_ = false;
+  walk = {};
+  last_hider_ = 0;
   add_cells();
   add_borders();
   double area = 0;
@@ -481,7 +512,10 @@ UnionShare OutlineUnion::integrate() {
   result.error = least > 0 ? (error_ + std::fabs(result.covered) * area_error) / least +
                                  8 * kUnit * std::fabs(result.covered)
                            : kInfinity;
-  if (!(result.error < kInfinity)) result.error = kInfinity;
+  if (!(result.error < kInfinity) || !walk.is_closed()) {
+    result.error = kInfinity;
+    result.hidden = false;
+  }
   return result;
 }
 

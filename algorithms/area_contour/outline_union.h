@@ -104,6 +104,11 @@ class OutlineUnion {
     Stretch stretch;
     Box box;
   };
+  /// Of an edge what lies in a cell, between two places.
+  struct Part {
+    std::uint32_t edge = 0;
+    double from = 0, to = 0;
+  };
   struct Lengths {
     double certain = 0, perhaps = 0;
   };
@@ -124,6 +129,7 @@ class OutlineUnion {
   bool trim(std::uint32_t own, std::uint32_t by, Trim& trim) const;
   bool cut_by_own(const Outline& outline, std::uint32_t line, Stretch& stretch);
   bool cover(const Edge& edge, std::uint32_t other, Stretch& stretch) const;
+  bool hides(const Edge& edge, std::uint32_t other);
   bool cover_border(std::uint32_t corner, const Outline& outline, Stretch& stretch) const;
   bool is_one(std::uint32_t a, std::uint32_t b) const;
   bool has_gap(const Carrier& carrier, const End& before, const End& after, bool is_end) const;
@@ -139,8 +145,8 @@ class OutlineUnion {
   void add_cells();
   bool is_held(const Cell& cell) const;
   bool halve(const Cell& cell, std::vector<Cell>& cells);
-  void divide(const Edge& edge, int axis, double at, std::vector<Edge>& low,
-              std::vector<Edge>& high) const;
+  void divide(const Part& part, int axis, double at);
+  Edge edge_of(const Part& part) const;
   Box box_of(const OutlineLine& line, double from, double to) const;
 
   const ReceiverChart* receiver_ = nullptr;
@@ -151,8 +157,9 @@ class OutlineUnion {
   std::vector<Edge> edges_;
   std::vector<Stretch> covers_;  // of the edge at hand
   std::vector<std::uint32_t> cell_outlines_, high_outlines_;
-  std::vector<Edge> cell_edges_, low_edges_, high_edges_;
-  std::vector<double> ends_;
+  std::vector<Part> cell_edges_, low_edges_, high_edges_;
+  std::vector<double> ends_, sizes_;
+  std::uint32_t last_hider_ = 0;  // the outline that hid the last edge that was hidden
   std::vector<Gap> certain_gaps_, perhaps_gaps_;  // of the stretch at hand
   bool is_sharp_ = false;
   double sum_ = 0, error_ = 0;  // twice the covered area

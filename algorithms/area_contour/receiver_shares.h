@@ -64,19 +64,20 @@ LightVolumes light_volumes(const Space& space, const LightGeometry& geometry,
     bound = static_cast<double>(space.input_vertex(vertex).bound);  // all have the same
   }
   LightVolumes result(std::move(boxes), box, std::move(corners), bound);
-  std::vector<PlaneDoubles> penumbra, umbra;
   const VolumeStore& store = light.volumes();
   for (std::uint32_t i = 0; i < store.size(); ++i) {
-    penumbra.clear();
-    umbra.clear();
-    for (const PlaneRef plane : store.penumbra(store[i])) {
-      penumbra.push_back(doubles_of(space, plane));
-    }
-    for (const PlaneRef plane : store.umbra(store[i])) umbra.push_back(doubles_of(space, plane));
     const std::uint32_t part = store[i].caster;
-    result.add(i, part, scene.parts[part].plane, penumbra, umbra);
+    result.add(i, part, scene.parts[part].plane, store[i].penumbra_count, store[i].umbra_count);
   }
-  result.finish();
+  std::vector<PlaneDoubles> planes;
+  result.finish([&](std::uint32_t volume, bool umbra) -> std::span<const PlaneDoubles> {
+    planes.clear();
+    const ShadowVolume& own = store[volume];
+    for (const PlaneRef plane : umbra ? store.umbra(own) : store.penumbra(own)) {
+      planes.push_back(doubles_of(space, plane));
+    }
+    return planes;
+  });
   return result;
 }
 
@@ -261,10 +262,7 @@ std::optional<Shares> ReceiverShares<Space>::find(Workspace& workspace,
                                                   const LightVolumes& volumes, std::uint32_t part,
                                                   Side side, const Loop& whole) {
   Space& space = workspace.space;
-  if (whole.size() > kMostCorners ||
-      workspace.record.decide(space, light.plane(), whole) != Placement::kFront) {
-    return std::nullopt;
-  }
+  if (whole.size() > kMostCorners) return std::nullopt;
   const PlaneRef receiving = plane_of_side(light.scene().parts[part], side);
   support_ = PlaneRef(receiving.index(), false);
   if (!make_chart(space, whole)) return std::nullopt;
@@ -274,6 +272,14 @@ std::optional<Shares> ReceiverShares<Space>::find(Workspace& workspace,
   penumbras_.begin(chart_, exact);
   umbras_.begin(chart_, exact);
   all_penumbra_ = false;
+  // What is behind the light gets nothing, as if it were in every umbra.
+  const PlaneRef behind = -light.plane();
+  const Relation relation = relate(space, {&behind, 1}, Border::kClosed);
+  if (relation == Relation::kOpen) return std::nullopt;
+  if (relation == Relation::kCrossing) {
+    penumbras_.add(lines_);
+    umbras_.add(lines_);
+  }
   const auto shape = light.shape();
   const Placement placement = workspace.record.decide(space, receiving, shape.loop);
   if (placement == Placement::kSpanning) return find_cut(workspace, light, part, side);

@@ -16,6 +16,14 @@ typedef long Bits __attribute__((vector_size(32), may_alias));
 inline bool any(const Bits& bits) { return (bits[0] | bits[1] | bits[2] | bits[3]) != 0; }
 inline bool all(const Bits& bits) { return (bits[0] & bits[1] & bits[2] & bits[3]) != 0; }
 
+// Functions that are compiled for AVX2, too; the loader chooses. Neither level fuses a product with
+// a sum, so that both give the same bits.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define GNOMON_FOR_AVX2 __attribute__((target_clones("avx2", "default")))
+#else
+#define GNOMON_FOR_AVX2
+#endif
+
 inline const Doubles& row(const double* values) {
   return *reinterpret_cast<const Doubles*>(values);
 }
@@ -28,7 +36,33 @@ double diagonal_of(const Box& box) {
 // least kShortest apart is off by less than 2^-50 / kShortest anywhere.
 constexpr double kMargin = 1e-12, kShortest = 1e-3;
 
+/// The bits of a number below 2^10, two places apart.
+std::uint32_t spread(std::uint32_t bits) {
+  std::uint32_t result = 0;
+  for (std::uint32_t k = 0; k < 10; ++k) result |= (bits >> k & 1) << 3 * k;
+  return result;
+}
+
 }  // namespace
+
+/// By the Morton codes of their boxes' middles.
+void sort_by_space(const CasterTree& tree, std::vector<std::uint32_t>& parts) {
+  constexpr std::size_t kFirst = 64;
+  if (parts.size() <= kFirst) return;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> codes;
+  codes.reserve(parts.size() - kFirst);
+  for (std::size_t i = kFirst; i < parts.size(); ++i) {
+    const Box& box = tree.box(parts[i]);
+    std::uint32_t code = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double middle = (box.low[k] + box.high[k]) / 2;
+      code |= spread(static_cast<std::uint32_t>(std::clamp(middle, 0.0, 1.0) * 1023)) << k;
+    }
+    codes.emplace_back(code, parts[i]);
+  }
+  std::ranges::sort(codes);
+  for (std::size_t i = 0; i < codes.size(); ++i) parts[kFirst + i] = codes[i].second;
+}
 
 LightVolumes::LightVolumes(std::vector<Box> boxes, const Box& light,
                            std::vector<Point3> light_corners, double bound)
@@ -48,43 +82,34 @@ void LightVolumes::put(std::span<const PlaneDoubles> planes) {
 }
 
 void LightVolumes::add(std::uint32_t number, std::uint32_t part, std::uint32_t support,
-                       std::span<const PlaneDoubles> penumbra,
-                       std::span<const PlaneDoubles> umbra) {
-  const auto blocks_of = [](std::span<const PlaneDoubles> planes) {
-    return static_cast<std::uint32_t>((planes.size() + 3) / 4);
+                       std::size_t penumbra, std::size_t umbra) {
+  const auto blocks_of = [](std::size_t planes) {
+    return static_cast<std::uint32_t>((planes + 3) / 4);
   };
-  volumes_.push_back({number, part, support, static_cast<std::uint32_t>(blocks_.size()),
-                      blocks_of(penumbra), blocks_of(umbra)});
-  put(penumbra);
-  put(umbra);
+  volumes_.push_back({number, part, support, 0, blocks_of(penumbra), blocks_of(umbra)});
 }
 
-void LightVolumes::finish() {
+/// Volumes in the order in which the walk comes to them.
+void LightVolumes::sort() {
   std::vector<Box> boxes;
   boxes.reserve(volumes_.size());
-  for (const SearchedVolume& volume : volumes_) boxes.push_back(boxes_[volume.part]);
+  std::size_t blocks = 0;
+  for (const SearchedVolume& volume : volumes_) {
+    boxes.push_back(boxes_[volume.part]);
+    blocks += volume.penumbra_blocks + volume.umbra_blocks;
+  }
+  blocks_.reserve(blocks);
   std::vector<std::uint32_t> members(volumes_.size());
   std::iota(members.begin(), members.end(), 0u);
   tree_ = BoxTree(std::move(boxes), std::move(members));
-  // Volumes and planes in the order in which the walk comes to them.
-  std::vector<SearchedVolume> volumes;
-  std::vector<PlaneBlock> blocks;
-  volumes.reserve(volumes_.size());
-  blocks.reserve(blocks_.size());
   const std::span<const BoxTree::Node> nodes = tree_.nodes();
-  largest_.assign(nodes.size(), 0);
+  std::vector<SearchedVolume> volumes;
+  volumes.reserve(volumes_.size());
   if (!nodes.empty()) {
-    const std::span<const std::uint32_t> order = tree_.members(nodes[0]);
-    for (const std::uint32_t member : order) {
-      SearchedVolume volume = volumes_[member];
-      const auto first = blocks_.begin() + volume.first;
-      volume.first = static_cast<std::uint32_t>(blocks.size());
-      blocks.insert(blocks.end(), first, first + volume.penumbra_blocks + volume.umbra_blocks);
-      volumes.push_back(volume);
-    }
+    for (const std::uint32_t member : tree_.members(nodes[0])) volumes.push_back(volumes_[member]);
   }
   volumes_ = std::move(volumes);
-  blocks_ = std::move(blocks);
+  largest_.assign(nodes.size(), 0);
   for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parents
     if (nodes[i].right != 0) {
       largest_[i] = std::max(largest_[i + 1], largest_[nodes[i].right]);
@@ -177,7 +202,7 @@ std::span<const PlaneBlock> VolumeSearch::umbra(const SearchedVolume& volume) co
 }
 
 /// Whether the receiver's box is behind a plane, and so its corners, whose values are bounded.
-bool VolumeSearch::misses_box(std::span<const PlaneBlock> planes) const {
+GNOMON_FOR_AVX2 bool VolumeSearch::misses_box(std::span<const PlaneBlock> planes) const {
   for (const PlaneBlock& block : planes) {
     const Doubles &x = row(block.n[0]), &y = row(block.n[1]), &z = row(block.n[2]);
     const Doubles value = x * middle_[0] + y * middle_[1] + z * middle_[2] - row(block.d) +
@@ -189,7 +214,8 @@ bool VolumeSearch::misses_box(std::span<const PlaneBlock> planes) const {
   return false;
 }
 
-VolumeSearch::Relation VolumeSearch::relate(std::span<const PlaneBlock> planes) const {
+GNOMON_FOR_AVX2 VolumeSearch::Relation VolumeSearch::relate(
+    std::span<const PlaneBlock> planes) const {
   const double bound = light_->bound_;
   bool inside = true;
   for (const PlaneBlock& block : planes) {
@@ -214,9 +240,8 @@ const UmbraReach& VolumeSearch::reach() {
   return reach_;
 }
 
-bool VolumeSearch::may_have_umbra(const SearchedVolume& volume) {
-  return volume.umbra_blocks != 0 && !misses_box(umbra(volume)) &&
-         reach().may_reach(light_->box(volume.part));
+bool VolumeSearch::may_have_umbra(const SearchedVolume& volume) const {
+  return volume.umbra_blocks != 0 && !misses_box(umbra(volume));
 }
 
 /// Whether a volume's umbra holds the receiver. Notes if its penumbra does.
@@ -242,7 +267,7 @@ bool VolumeSearch::try_hints() {
 
 /// Casters before the middle of the light are most likely to have all of the receiver in their
 /// penumbra; then only umbras remain to be looked for, which reach less far.
-bool VolumeSearch::try_blocking() {
+GNOMON_FOR_AVX2 bool VolumeSearch::try_blocking() {
   Box from, to;
   from.add(middle_);
   Point3 middle{};
@@ -254,6 +279,7 @@ bool VolumeSearch::try_blocking() {
   std::size_t tried = 0;
   std::vector<std::uint32_t> none;
   bool found = false;
+  ++blocking_tried_;
   const auto goes_on = [&] { return !found && !all_penumbra_ && tried < kMostBlocking; };
   light_->tree_.find(
       [&](const BoxTree::Node& node, std::uint32_t) {
@@ -267,7 +293,15 @@ bool VolumeSearch::try_blocking() {
         return false;
       },
       [](std::uint32_t) { return false; }, none);
+  if (all_penumbra_) ++blocking_found_;
   return found;
+}
+
+/// Only where that has been found often: else it costs more than it saves.
+bool VolumeSearch::is_worth_blocking() {
+  constexpr std::uint32_t kSample = 64, kAgain = 16;
+  if (blocking_tried_ < kSample || blocking_found_ * 8 > blocking_tried_) return true;
+  return (++blocking_left_out_ % kAgain) == 0;
 }
 
 /// Puts a volume down if it may reach the receiver. True if its umbra holds all of it.
@@ -287,13 +321,13 @@ bool VolumeSearch::test(std::uint32_t place) {
       umbra_hints_.add(place);
       return true;
     }
-    umbra_may = own == Relation::kOpen;
+    umbra_may = own == Relation::kOpen && reach().may_reach(light_->box(volume.part));
   }
   if (!all_penumbra_ || umbra_may) found_.push_back({volume.number, volume.part, umbra_may});
   return false;
 }
 
-bool VolumeSearch::walk() {
+GNOMON_FOR_AVX2 bool VolumeSearch::walk() {
   const Shaft shaft(box_, light_->light_);
   std::vector<std::uint32_t> none;
   bool found = false;
@@ -323,7 +357,9 @@ VolumeSearch::Outcome VolumeSearch::find(const LightVolumes& light,
   }
   has_reach_ = all_penumbra_ = false;
   found_.clear();
-  if (try_hints() || (!all_penumbra_ && try_blocking()) || walk()) return Outcome::kAllUmbra;
+  if (try_hints() || (!all_penumbra_ && is_worth_blocking() && try_blocking()) || walk()) {
+    return Outcome::kAllUmbra;
+  }
   if (!all_penumbra_) return Outcome::kSome;
   std::erase_if(found_, [](const FoundVolume& volume) { return !volume.umbra; });
   return Outcome::kAllPenumbra;

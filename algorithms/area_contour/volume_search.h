@@ -43,17 +43,27 @@ class LightVolumes {
   /// error of a plane's value at a corner.
   LightVolumes(std::vector<Box> boxes, const Box& light, std::vector<Point3> light_corners,
                double bound);
-  /// Adds a volume; planes are turned so that it is in front of them. In any order.
-  void add(std::uint32_t number, std::uint32_t part, std::uint32_t support,
-           std::span<const PlaneDoubles> penumbra, std::span<const PlaneDoubles> umbra);
-  /// Sorts what was added into a hierarchy.
-  void finish();
+  /// Adds a volume of so many planes. In any order.
+  void add(std::uint32_t number, std::uint32_t part, std::uint32_t support, std::size_t penumbra,
+           std::size_t umbra);
+  /// Sorts what was added into a hierarchy. `planes(number, umbra)`: those of a volume's penumbra
+  /// or umbra as a span of PlaneDoubles, turned so that it is in front of them.
+  template <class Planes>
+  void finish(const Planes& planes) {
+    sort();
+    for (SearchedVolume& volume : volumes_) {
+      volume.first = static_cast<std::uint32_t>(blocks_.size());
+      put(planes(volume.number, false));
+      put(planes(volume.number, true));
+    }
+  }
 
   const Box& light() const { return light_; }
   const Box& box(std::uint32_t part) const { return boxes_[part]; }
 
  private:
   friend class VolumeSearch;
+  void sort();
   void put(std::span<const PlaneDoubles> planes);
 
   std::vector<Box> boxes_;
@@ -77,7 +87,11 @@ struct FoundVolume {
   bool umbra = false;  // that of the volume may, too
 };
 
-/// Of one thread.
+/// Sorts parts, but for the first few, so that neighbours in space follow one another: what holds
+/// one receiver is likely to hold the next, and lies in the caches.
+void sort_by_space(const CasterTree& tree, std::vector<std::uint32_t>& parts);
+
+/// Of one thread and one light.
 class VolumeSearch {
  public:
   enum class Outcome : std::uint8_t { kSome, kAllPenumbra, kAllUmbra };
@@ -104,11 +118,12 @@ class VolumeSearch {
   bool is_own(const SearchedVolume& volume) const {
     return volume.part == receiver_->part || volume.support == receiver_->support;
   }
-  bool may_have_umbra(const SearchedVolume& volume);
+  bool may_have_umbra(const SearchedVolume& volume) const;
   const UmbraReach& reach();
   bool try_to_cover(std::uint32_t place);
   bool try_hints();
   bool try_blocking();
+  bool is_worth_blocking();
   bool test(std::uint32_t place);
   bool walk();
 
@@ -120,6 +135,7 @@ class VolumeSearch {
   UmbraReach reach_;
   std::vector<FoundVolume> found_;
   Hints penumbra_hints_, umbra_hints_;
+  std::uint32_t blocking_tried_ = 0, blocking_found_ = 0, blocking_left_out_ = 0;
 };
 
 }  // namespace gnomon::area_contour

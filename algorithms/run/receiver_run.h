@@ -432,6 +432,7 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return size[a] > size[b]; });
+  if (by_contour(light)) area_contour::sort_by_space(tree_, order);
   std::atomic<std::uint64_t> cells = 0, vanished = 0, open = 0;
   for_each(order.size(), from, to, [&](Workspace& workspace, std::size_t i) {
     const std::uint64_t cells_before = workspace.cutter.cells(),

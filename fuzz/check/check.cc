@@ -213,7 +213,8 @@ class SceneCheck {
       for (const LightResult& light : result->lights) report_.fragments += light.fragment_total;
     }
     const bool is_first = subject.exact() && first_exact_ == nullptr;
-    const bool fragments = method_info(subject.algorithm).makes_fragments;
+    const bool fragments = method_info(subject.algorithm).makes_fragments &&
+                           method_info(subject.area_algorithm).makes_fragments;
     if (!fragments && subject.exact()) check_bounds(*result, options, name, subject.mistake);
     if (is_first) {
       first_exact_ = &subject;
@@ -280,18 +281,29 @@ class SceneCheck {
       const LightResult& light = exact.lights[l];
       if (method_info(light.method).makes_fragments) continue;
       for (std::size_t i = 0; i < light.parts.size(); ++i) {
-        const mpq_class& lit = light.exact_fractions[i].lit;
-        const Interval& bounds = result->lights[l].parts[i].lit;
-        const bool holds = mpq_class(bounds.lower) <= lit && lit <= mpq_class(bounds.upper);
-        const bool classes = (bounds.lower == 1) == (lit == 1) && (bounds.upper == 0) == (lit == 0);
-        if (holds && classes) continue;
-        return add({Property::kOracle, name, holds ? "class" : "bounds",
-                    scene_.lights[prepared_->lights[light.light].light].id,
-                    scene_.polygons[prepared_->parts[light.parts[i].part].polygon].id,
-                    fmt::format("lit {} found in [{:.17g}, {:.17g}]", text_for_people(lit),
-                                bounds.lower, bounds.upper)});
+        const ExactFractions& own = light.exact_fractions[i];
+        const LightResult& found = result->lights[l];
+        if (!check_share(light, i, name, "lit", own.lit, found.parts[i].lit)) return;
+        if (found.area_fractions.empty()) continue;
+        const AreaFractions& area = found.area_fractions[i];
+        if (!check_share(light, i, name, "penumbra", own.penumbra, area.penumbra) ||
+            !check_share(light, i, name, "umbra", own.umbra, area.umbra)) {
+          return;
+        }
       }
     }
+  }
+  bool check_share(const LightResult& light, std::size_t side, const std::string& name,
+                   const char* state, const mpq_class& exact, const Interval& bounds) {
+    const bool holds = mpq_class(bounds.lower) <= exact && exact <= mpq_class(bounds.upper);
+    const bool classes = (bounds.lower == 1) == (exact == 1) && (bounds.upper == 0) == (exact == 0);
+    if (holds && classes) return true;
+    add({Property::kOracle, name, holds ? "class" : "bounds",
+         scene_.lights[prepared_->lights[light.light].light].id,
+         scene_.polygons[prepared_->parts[light.parts[side].part].polygon].id,
+         fmt::format("{} {} found in [{:.17g}, {:.17g}]", state, text_for_people(exact),
+                     bounds.lower, bounds.upper)});
+    return false;
   }
 
   /// By somebody else, which says nothing of the program: the signal that ends a job comes once.

@@ -132,7 +132,10 @@ class PointChecker {
   PointCheck run(const ClaimedPolygon* candidate, std::uint32_t count, std::uint64_t seed) {
     if (terms_.shares_alone && candidate) {
       // Points tell nothing of a share, but of a side that is said to have one class.
-      if (!candidate->share.whole) return {};
+      // Under an area light what is all dark has two classes.
+      if (!candidate->share.whole || (area_ && *candidate->share.whole != LightState::kLit)) {
+        return {};
+      }
       whole_ = candidate->share.whole;
     }
     std::uint64_t state = seed ^ (std::uint64_t{entry_.polygon} << 32) ^ light_;

@@ -36,6 +36,24 @@ Enclosure distance(const ClaimedShare& claimed, const AreaShare& lit) {
 
 Enclosure largest(Enclosure a, Enclosure b) { return b.upper > a.upper ? b : a; }
 
+std::optional<mpq_class> sum_of(const std::optional<mpq_class>& a,
+                                const std::optional<mpq_class>& b) {
+  if (!a || !b) return a ? a : b;
+  return mpq_class(*a + *b);
+}
+
+/// What is not lit under an area light.
+AreaShare dark_share(const TrueFractions& truth) {
+  AreaShare dark{truth.penumbra.fraction + truth.umbra.fraction,
+                 truth.penumbra.area + truth.umbra.area,
+                 {},
+                 truth.penumbra.zero && truth.umbra.zero};
+  if (truth.penumbra.exact && truth.umbra.exact) {
+    dark.exact = mpq_class(*truth.penumbra.exact + *truth.umbra.exact);
+  }
+  return dark;
+}
+
 }  // namespace
 
 ShareError share_error(const ClaimedPolygon& claimed, const AreaShare& lit,
@@ -45,8 +63,9 @@ ShareError share_error(const ClaimedPolygon& claimed, const AreaShare& lit,
   if (shadow.zero) error.truth = LightState::kLit;
   if (lit.zero) error.truth = LightState::kShadow;
   Enclosure wrong = distance(claimed.share, lit);
-  for (const auto& [own, truth] :
-       {std::pair{&claimed.lit_fraction, &lit}, {&claimed.shadow_fraction, &shadow}}) {
+  const std::optional<mpq_class> dark =
+      sum_of(claimed.shadow_fraction, sum_of(claimed.penumbra_fraction, claimed.umbra_fraction));
+  for (const auto& [own, truth] : {std::pair{&claimed.lit_fraction, &lit}, {&dark, &shadow}}) {
     if (*own && truth->exact) {
       wrong = largest(wrong, enclose(abs(mpq_class(**own - *truth->exact))));
     }
@@ -137,7 +156,8 @@ PolygonComparison compare_shares(const ExactAnswer& answer, std::uint32_t light,
   const SideShares truth = true_shares(answer, light, entry, candidate.lit_fraction.has_value());
   result.lit = truth.lit;
   result.shadow = truth.shadow;
-  const ShareError error = share_error(candidate, result.lit, result.shadow);
+  const ShareError error =
+      share_error(candidate, truth.lit, answer.is_area(light) ? dark_share(truth) : truth.shadow);
   result.misclassified = result.judged_misclassified = error.wrong;
   if (error.wrong.zero) return result;
   result.regions = 1;

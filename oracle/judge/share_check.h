@@ -19,7 +19,7 @@ struct ShareError {
   std::string text;                        // one sentence; empty if nothing is wrong
 };
 
-/// Requires: the light is a point or directional light.
+/// `shadow`: all that is not lit.
 ShareError share_error(const ClaimedPolygon& claimed, const AreaShare& lit,
                        const AreaShare& shadow);
 

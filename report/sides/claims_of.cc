@@ -80,13 +80,13 @@ void add_part(const Scene& scene, const PreparedScene& prepared, const LightResu
 ClaimedShare share_of_side(const ClassifiedSide& side) {
   ClaimedShare share{side.lit.lower, side.lit.upper, {}};
   // Sums of several parts are rounded: what all of a side is, its parts say.
-  const auto all = [&](LightState state) {
-    return std::ranges::all_of(side.parts, [&](const PartSide& part) {
-      return gnomon::report::share_of(part, state).lower == 1;
-    });
+  const auto lit = [](const PartSide& part) {
+    return gnomon::report::share_of(part, LightState::kLit);
   };
-  if (all(LightState::kLit)) share.whole = LightState::kLit;
-  if (all(LightState::kShadow)) share.whole = LightState::kShadow;
+  const auto is_lit = [&](const PartSide& part) { return lit(part).lower == 1; };
+  const auto is_dark = [&](const PartSide& part) { return lit(part).upper == 0; };
+  if (std::ranges::all_of(side.parts, is_lit)) share.whole = LightState::kLit;
+  if (std::ranges::all_of(side.parts, is_dark)) share.whole = LightState::kShadow;
   return share;
 }
 

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Unions of convex outlines on a square, with all ties that a small lattice has: edges on one line
+// that look the same way or away from each other, outlines that are given twice, corners on edges.
+// The area is held against inclusion and exclusion of exact clipped polygons.
+#include "algorithms/area_contour/outline_union.h"
+
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace gnomon::area_contour {
+namespace {
+
+constexpr int kSide = 8;  // of the receiver, a square in the lattice
+
+/// a x + b y + c >= 0 in integers.
+struct HalfPlane {
+  int a, b, c;
+};
+using Convex = std::vector<HalfPlane>;
+using Point = std::array<mpq_class, 2>;
+
+mpq_class value(const HalfPlane& line, const Point& p) {
+  return line.a * p[0] + line.b * p[1] + line.c;
+}
+
+std::vector<Point> square() { return {{0, 0}, {kSide, 0}, {kSide, kSide}, {0, kSide}}; }
+
+std::vector<Point> clip(const std::vector<Point>& loop, const HalfPlane& line) {
+  std::vector<Point> kept;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Point &p = loop[i], &q = loop[(i + 1) % loop.size()];
+    const mpq_class at_p = value(line, p), at_q = value(line, q);
+    if (at_p >= 0) kept.push_back(p);
+    if (sgn(at_p) * sgn(at_q) < 0) {
+      const mpq_class t = at_p / (at_p - at_q);
+      kept.push_back({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+    }
+  }
+  return kept;
+}
+
+mpq_class area(const std::vector<Point>& loop) {
+  mpq_class twice = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Point &p = loop[i], &q = loop[(i + 1) % loop.size()];
+    twice += p[0] * q[1] - p[1] * q[0];
+  }
+  return twice / 2;
+}
+
+mpq_class covered(const std::vector<Convex>& outlines) {
+  mpq_class sum = 0;
+  for (unsigned set = 1; set < 1u << outlines.size(); ++set) {
+    std::vector<Point> loop = square();
+    int count = 0;
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+      if ((set >> i & 1) == 0) continue;
+      ++count;
+      for (const HalfPlane& line : outlines[i]) loop = clip(loop, line);
+    }
+    sum += count % 2 == 1 ? area(loop) : mpq_class(-area(loop));
+  }
+  return sum / (kSide * kSide);
+}
+
+/// Lines are numbered by their planes here.
+class Lattice final : public ExactLines {
+ public:
+  std::vector<HalfPlane> lines;
+
+  bool is_same(const OutlineLine& a, const OutlineLine& b) override {
+    const HalfPlane &p = of(a), &q = of(b);
+    return p.a * q.b == p.b * q.a && p.a * q.c == p.c * q.a && p.b * q.c == p.c * q.b;
+  }
+  Side side_of_meet(const OutlineLine& line, const OutlineLine& a, const OutlineLine& b) override {
+    return side(of(line), meet(of(a), of(b)));
+  }
+  Side side_at_border(const OutlineLine& line, const OutlineLine& a,
+                      std::uint32_t corner) override {
+    constexpr HalfPlane kBorder[] = {{0, 1, 0}, {-1, 0, kSide}, {0, -1, kSide}, {1, 0, 0}};
+    return side(of(line), meet(of(a), kBorder[corner]));
+  }
+  Ball place_on(const OutlineLine& line, const OutlineLine& by) override {
+    const Point p = meet(of(line), of(by));
+    const double place = line.b * p[0].get_d() - line.a * p[1].get_d();
+    return {place, 0x1p-48};
+  }
+
+ private:
+  const HalfPlane& of(const OutlineLine& line) const { return lines[line.plane.index()]; }
+  static Point meet(const HalfPlane& p, const HalfPlane& q) {
+    const mpq_class det = p.a * q.b - p.b * q.a;
+    return {(p.b * q.c - p.c * q.b) / det, (p.c * q.a - p.a * q.c) / det};
+  }
+  static Side side(const HalfPlane& line, const Point& p) {
+    const int sign = sgn(value(line, p));
+    return sign > 0 ? Side::kFront : sign < 0 ? Side::kBack : Side::kOn;
+  }
+};
+
+ReceiverChart chart() {
+  ReceiverChart result;
+  result.corners = {{0, 0}, {kSide, 0}, {kSide, kSide}, {0, kSide}};
+  result.reach = kSide * 1.5;
+  return result;
+}
+
+/// What a union says, or nothing where some outline holds all of the square.
+void check(const std::vector<Convex>& outlines, const mpq_class& truth, const std::string& what) {
+  const ReceiverChart receiver = chart();
+  Lattice exact;
+  OutlineUnion outline_union;
+  outline_union.begin(receiver, exact);
+  for (const Convex& outline : outlines) {
+    std::vector<OutlineLine> lines;
+    bool is_outside = false;
+    for (const HalfPlane& half : outline) {
+      OutlineLine line;
+      const double length = std::hypot(half.a, half.b);
+      line.a = half.a / length;
+      line.b = half.b / length;
+      line.c = half.c / length;
+      line.error = 0x1p-45;
+      const auto number = static_cast<std::uint32_t>(exact.lines.size());
+      line.plane = PlaneRef(number);
+      line.name = {number, 0, 0};
+      exact.lines.push_back(half);
+      const std::vector<Point> corners = square();
+      for (std::uint32_t k = 0; k < 4; ++k) {
+        const int sign = sgn(value(half, corners[k]));
+        line.before |= static_cast<CornerMask>(sign > 0) << k;
+        line.behind |= static_cast<CornerMask>(sign < 0) << k;
+      }
+      is_outside = is_outside || line.before == 0;
+      if (line.before != 0 && line.behind != 0) lines.push_back(line);
+    }
+    if (is_outside) continue;
+    if (lines.empty()) return;
+    outline_union.add(lines);
+  }
+  if (outline_union.size() == 0) {
+    EXPECT_EQ(truth, 0) << what;
+    return;
+  }
+  const UnionShare share = outline_union.share();
+  EXPECT_LT(share.error, 1e-9) << what;
+  EXPECT_LE(std::fabs(share.covered - truth.get_d()), share.error) << what;
+  EXPECT_EQ(share.hidden, truth == 1) << what;
+}
+
+void check(const std::vector<Convex>& outlines, const std::string& what) {
+  check(outlines, covered(outlines), what);
+}
+
+Convex box(int left, int low, int right, int high) {
+  return {{1, 0, -left}, {-1, 0, right}, {0, 1, -low}, {0, -1, high}};
+}
+
+TEST(OutlineUnion, EdgesOfNeighboursCancel) {
+  check({box(1, 1, 3, 3), box(3, 1, 5, 3)}, "side by side");
+  check({box(1, 1, 3, 4), box(3, 2, 5, 6)}, "half side by side");
+  check({box(0, 0, 4, 8), box(4, 0, 8, 8)}, "all of it in two halves");
+  check({box(0, 0, 4, 8), box(4, 0, 8, 4), box(4, 4, 8, 8)}, "with a T-junction");
+}
+
+TEST(OutlineUnion, OneEdgeOfSeveralActs) {
+  check({box(1, 1, 5, 5), box(1, 1, 5, 5)}, "twice");
+  check({box(1, 1, 5, 5), box(1, 2, 4, 7), box(1, 3, 6, 4)}, "on one line");
+  check({box(1, 1, 5, 5), box(1, 1, 5, 5), box(5, 1, 7, 5)}, "twice beside one");
+}
+
+/// Many outlines of few lines, so that nearly every edge has others on its line.
+TEST(OutlineUnion, LatticeOfOutlines) {
+  std::mt19937 random(7);
+  const auto upto = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int round = 0; round < 4000; ++round) {
+    std::vector<Convex> outlines(2 + static_cast<std::size_t>(upto(5)));
+    for (Convex& outline : outlines) {
+      const int left = upto(6), low = upto(6);
+      outline = box(left, low, left + 1 + upto(4), low + 1 + upto(4));
+      for (int cuts = upto(3); cuts > 0; --cuts) {
+        const int a = upto(2) == 0 ? 1 : -1, b = upto(2) == 0 ? 1 : -1;
+        outline.push_back({a, b, -(a * (left + upto(3)) + b * (low + upto(3)))});
+      }
+    }
+    check(outlines, "round " + std::to_string(round));
+    if (HasFailure()) return;
+  }
+}
+
+/// So many that the square is halved into cells.
+TEST(OutlineUnion, ManyBoxes) {
+  std::mt19937 random(8);
+  const auto upto = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int round = 0; round < 300; ++round) {
+    std::vector<Convex> outlines;
+    std::array<std::array<bool, kSide>, kSide> squares{};
+    for (int i = 25 + upto(40); i > 0; --i) {
+      const int left = upto(kSide), low = upto(kSide);
+      const int right = std::min(kSide, left + 1 + upto(2)),
+                high = std::min(kSide, low + 1 + upto(2));
+      outlines.push_back(box(left, low, right, high));
+      for (int x = left; x < right; ++x) {
+        for (int y = low; y < high; ++y) {
+          squares[static_cast<std::size_t>(x)][static_cast<std::size_t>(y)] = true;
+        }
+      }
+    }
+    int count = 0;
+    for (const auto& column : squares) count += static_cast<int>(std::ranges::count(column, true));
+    mpq_class truth(count, kSide * kSide);
+    truth.canonicalize();
+    check(outlines, truth, "round " + std::to_string(round));
+    if (HasFailure()) return;
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::area_contour
