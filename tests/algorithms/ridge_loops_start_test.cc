@@ -100,5 +100,16 @@ TEST(RidgeLoopsStart, StartInsideIsFoundByEveryHuntAndShrinks) {
   EXPECT_LE(sizes.front(), 4u);
 }
 
+TEST(RidgeLoopsStart, StartInsideShowsOnThreeCells) {
+  // The smallest that a hunt was shrunk to: the loop of its first visible ridge edge is the shadow
+  // of one cell on another.
+  Cells cells;
+  for (const Cell& cell : {Cell{0, -2, 0}, {0, -1, -1}, {0, -1, 0}}) cells.add(cell);
+  const auto sheared = [](const test::Whole& p) {
+    return test::Whole{6 * p[0] + p[1] + 2 * p[2], -p[0] + 7 * p[1] - p[2], 2 * p[1] + 9 * p[2]};
+  };
+  EXPECT_TRUE(is_wrong(cells, sheared, test::sun({-3, -1, 8})));
+}
+
 }  // namespace
 }  // namespace gnomon

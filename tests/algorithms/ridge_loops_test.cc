@@ -262,7 +262,7 @@ TEST(RidgeLoops, AreaLightsAreRefused) {
   Light panel;
   panel.id = "panel";
   panel.type = LightType::kArea;
-  panel.loop = {at({0, 0, 9}), at({0, 1, 9}), at({1, 1, 9})};
+  panel.loop = {test::at({0, 0, 9}), test::at({0, 1, 9}), test::at({1, 1, 9})};
   scene.lights = {panel};
   const auto lit = Case::make(scene);
   ASSERT_TRUE(lit);
