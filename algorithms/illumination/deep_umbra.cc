@@ -54,6 +54,10 @@ class Subdivision {
   DeepUmbraBounds run(const PartResult& result, const AreaFractions& classes,
                       const DeepUmbraOptions& options) {
     DeepUmbraBounds bounds{result.part, result.side, {}, 0};
+    if (queue_.empty()) {
+      bounds.fraction = classes.umbra;
+      return bounds;
+    }
     while (!queue_.empty() && bounds.cells < options.max_cells && undecided_ > options.tolerance) {
       if (options.interrupted != nullptr && *options.interrupted) break;
       Cell cell = queue_.top();
@@ -154,8 +158,8 @@ Expected<std::vector<DeepUmbraBounds>> deep_umbra_bounds(const PreparedScene& sc
             fragment.first + std::size_t{fragment.count} <= classified.exact_points.size();
   }
   if (!fits) {
-    return fail(ErrorCode::kUsage, "the deep umbra needs the classes of an area light",
-                "a result of an exact kernel with exact points");
+    return fail(ErrorCode::kUsage, "the deep umbra needs the fragments of an area light",
+                "a result of an exact kernel, by a method that makes fragments");
   }
   const LightView view(scene, classified.light);
   const EdgeLines lines(scene.geometry);

@@ -366,7 +366,8 @@ int run_pictures(const CertifyCommandOptions& options) {
   pictures.files = options.pixel_files;
   pictures.float_counts = !options.kernels.empty();
   pictures.thickness = options.thickness;
-  pictures.clearance = options.clearance;
+  pictures.clearance = options.strict ? 0 : options.clearance;
+  pictures.strict = options.strict;
   pictures.jobs = options.scene.jobs;
   pictures.json = options.json;
   pictures.times = options.times;

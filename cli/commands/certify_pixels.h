@@ -21,6 +21,7 @@ struct PictureCommandOptions {
   std::vector<KernelChoice> kernels;
   bool float_counts = true;  // for the status
   double thickness = 0, clearance = 0;
+  bool strict = false;  // identical or failed
   unsigned jobs = 0;
   std::string json;
   bool times = false;

@@ -10,6 +10,7 @@
 #include "fuzz/mistakes/compute.h"
 #include "gnomon/oracle/verdict.h"
 #include "report/pixels/pixel_claims_of.h"
+#include "report/pixels/rows_of_table.h"
 
 namespace gnomon::fuzz {
 namespace {
@@ -90,6 +91,8 @@ Expected<std::optional<WrongPicture>> wrong_picture(const Scene& scene,
         if (refuses_scenes(subject) && taken.error().code == ErrorCode::kGeometry) continue;
         return tl::unexpected(std::move(taken.error()));
       }
+      judging.near_border =
+          report::rows_of_table(taken->view, {subject.algorithm, subject.options});
       auto report = oracle::judge_pixels(taken->view, taken->claims, judging);
       if (!report) return tl::unexpected(std::move(report.error()));
       // Too many samples on borders are no fault of the kernel.

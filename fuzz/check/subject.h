@@ -28,7 +28,10 @@ struct Subject {
 
   bool foreign() const { return !command.empty(); }
   /// Anything but the exact answer is a bug of ours.
-  bool exact() const { return !foreign() && kernel.exact() && mistake == Mistake::kNone; }
+  bool exact() const {
+    return !foreign() && kernel.exact() && mistake == Mistake::kNone &&
+           options.interpolation == Interpolation::kPlane;
+  }
   friend bool operator==(const Subject&, const Subject&) = default;
 };
 

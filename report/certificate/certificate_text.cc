@@ -152,8 +152,15 @@ void add_notes(const JudgedRun& run, const NamedScene& named, TextTable& table) 
   for (const std::string& note : report.notes) table.add_note(note);
   if (report.verdict != oracle::Verdict::kFailed &&
       report.totals.worst_share() > report.tolerance) {
-    table.add_note(
-        "the worst share is what doubles' own rounding explains, which is excused (--strict)");
+    // What of it is wrong besides is within tolerance.
+    const bool moved = report.totals.ill_conditioned_regions > 0;
+    std::string why;
+    if (report.totals.rounding_regions > 0 || !moved) why = "doubles' own rounding explains";
+    if (moved) {
+      why += (why.empty() ? "" : " or ") + std::string("moving one vertex by less than ") +
+             rounded(report.clearance, 3) + " undoes";
+    }
+    table.add_note("the worst share is what " + why + ", which is excused (--strict)");
   }
   if (report.totals.by_borders > 0) {
     table.add_note("of " + plural(report.totals.by_borders, "polygon side") +

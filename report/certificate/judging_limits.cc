@@ -12,7 +12,7 @@ oracle::CertifyOptions certify_options(const JudgingLimits& limits, const Prepar
   options.share_tolerance = limits.tolerance;
   options.width = limits.width;
   options.strict = limits.strict;
-  options.clearance = limits.clearance;
+  options.clearance = limits.strict ? 0 : limits.clearance;
   options.subset = limits.subset;
   options.leaks = limits.leaks;
   options.borders = !limits.measure && prepared.parts.size() > kSmallScene;

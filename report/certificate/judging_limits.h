@@ -20,7 +20,7 @@ inline constexpr std::size_t kSmallScene = 200;
 struct JudgingLimits {
   std::optional<double> tolerance;  // wrong share of a polygon; none: 1e-9, of shares their digits
   std::optional<double> width;      // of a region of error, scene units; none: 1e-9 of the diagonal
-  double clearance = 0;             // scene units
+  double clearance = 0;             // scene units; nothing under `strict`
   std::optional<std::uint64_t> leaks;
   bool strict = false, subset = false;
   bool measure = false;  // all error, on large scenes too

@@ -216,6 +216,10 @@ TEST(AreaLights, DeepUmbraIsEnclosed) {
                  {"--deep-umbra", "double"});
   expect_refused({"shadows", example("figure-4f"), "--deep-umbra-tolerance", "0.1"},
                  {"--deep-umbra"});
+  expect_refused({"shadows", example("figure-4f"), "--deep-umbra", "--algorithm", "contour"},
+                 {"fragments"});
+  // Of what is lit everywhere exactly nothing is dark.
+  EXPECT_EQ(document["lights"][0]["polygons"][1]["deep_umbra"]["upper"].GetDouble(), 0);
 }
 
 TEST(AreaLights, CertificatesOfForeignResultsTellMissingUmbra) {

@@ -106,6 +106,41 @@ TEST_F(PixelsCommand, CertifyJudgesOurOwnPictures) {
               AllOf(HasSubstr("plane/zbuffer"), HasSubstr("double/svbsp"), HasSubstr("identical")));
 }
 
+// What few rows get wrong is excused, of a run as of a file, unless --strict; linear distances are
+// no bug of an exact kernel.
+TEST_F(PixelsCommand, WhatRowsGetWrongIsToldApart) {
+  const std::string solid = directory_.file("solid.json"), file = directory_.file("p.json");
+  ASSERT_EQ(run_gnomon({"generate", "closed", "--param", "kind=polycube", "-o", solid}).status, 0);
+  const std::vector<std::string> camera{"--eye",     "60,-90,110", "--look-at", "0,0,0",
+                                        "--columns", "96",         "--rows",    "96"};
+  const auto certified = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"certify", solid};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_gnomon(words);
+  };
+  const auto by_camera = [&](const std::string& method, std::vector<std::string> more = {}) {
+    std::vector<std::string> words = camera;
+    words.insert(words.end(), {"--kernel", "plane", "--algorithm", method});
+    words.insert(words.end(), more.begin(), more.end());
+    return certified(words);
+  };
+  const std::string rows = "ridge-edges:rows=12,hemisphere=cube";
+  const RunResult excused = by_camera(rows);
+  EXPECT_EQ(excused.status, 0) << excused.out << excused.err;
+  EXPECT_THAT(excused.out, AllOf(HasSubstr("within tolerance"), HasSubstr("within half a row")));
+  const RunResult strict = by_camera(rows, {"--strict"});
+  EXPECT_EQ(strict.status, 1) << strict.out << strict.err;
+  EXPECT_THAT(strict.out, HasSubstr("failed"));
+  ASSERT_EQ(run_gnomon({"pixels", solid, "--eye", "60,-90,110", "--look-at", "0,0,0", "--width",
+                        "96", "--height", "96", "--algorithm", rows, "-o", file})
+                .status,
+            0);
+  EXPECT_EQ(certified({"--pixels", file}).status, 0);
+  EXPECT_EQ(certified({"--pixels", file, "--strict"}).status, 1);
+  const RunResult linear = by_camera("ridge-edges:interpolate=linear");
+  EXPECT_LE(linear.status, 1) << linear.out << linear.err;
+}
+
 TEST_F(PixelsCommand, ErrorsSayWhatIsExpected) {
   EXPECT_THAT(pixels({"-o", directory_.file("p.gif")}).err, HasSubstr(".png or .json"));
   EXPECT_THAT(pixels({"--algorithm", "contour"}).err, HasSubstr("one of: zbuffer"));

@@ -32,6 +32,7 @@ using NearBorder = std::function<bool(std::uint32_t light, const RationalPoint& 
 
 struct ImageOptions {
   double clearance = 0;  // scene units; wrong samples below it are ill-conditioned
+  bool strict = false;   // any wrong sample fails, by rows too
   /// Samples times parts; above it every n-th sample is judged.
   std::uint64_t most_pairs = 1'000'000'000;
   /// Samples on boundaries are judged, too, after they were really moved: by 2^-60 of R and 2^-120
