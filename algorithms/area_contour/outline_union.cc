@@ -352,12 +352,12 @@ void OutlineUnion::find_certain(const Stretch& stretch, Lengths& rest) {
 /// What perhaps is seen: no cover that is certain.
 void OutlineUnion::find_perhaps(const Carrier& carrier, const Stretch& stretch, Lengths& rest) {
   perhaps_gaps_.clear();
-  std::erase_if(covers_, [](const Stretch& cover) { return !cover.certainly_is(); });
   std::ranges::sort(covers_, {}, [](const Stretch& cover) { return cover.low.inner; });
   // Up to here all is covered. The stretch begins where a cover of what is before it would end.
   End at = outside(stretch.low);
   const End end = outside(stretch.high);
   for (const Stretch& cover : covers_) {
+    if (!cover.certainly_is()) continue;
     if (at.inner >= end.inner) return;
     if (cover.low.inner >= end.inner) break;
     if (has_gap(carrier, at, cover.low, false)) {
@@ -371,13 +371,22 @@ void OutlineUnion::find_perhaps(const Carrier& carrier, const Stretch& stretch, 
   perhaps_gaps_.push_back({at, end});
 }
 
-/// Measures gaps between sharper places, where it is certain which they are between.
+/// Measures gaps between sharper places, where it is certain which they are between: no other cover
+/// may reach in. What is outside of the stretch is among the covers here.
 void OutlineUnion::sharpen(const Carrier& carrier, Lengths& rest) {
-  const auto is_same = [](const Gap& a, const Gap& b) {
-    return a.before.line == b.before.line && a.after.line == b.after.line &&
-           a.before.inner == b.before.inner && a.after.inner == b.after.inner;
+  const auto is_place = [](const End& a, const End& b) {
+    return a.line == b.line && a.other == b.other && a.inner == b.inner && a.outer == b.outer;
+  };
+  const auto is_same = [&](const Gap& a, const Gap& b) {
+    return is_place(a.before, b.before) && is_place(a.after, b.after);
   };
   if (carrier.line == kNoLine || !std::ranges::equal(certain_gaps_, perhaps_gaps_, is_same)) return;
+  const auto is_alone = [&](const Gap& gap) {
+    return std::ranges::none_of(covers_, [&](const Stretch& cover) {
+      return cover.low.outer < gap.after.inner && cover.high.outer > gap.before.inner &&
+             !is_place(cover.low, gap.after) && !is_place(cover.high, gap.before);
+    });
+  };
   Lengths sharp;
   // Of a place: the least and the greatest.
   using Bounds = std::array<double, 2>;
@@ -385,9 +394,9 @@ void OutlineUnion::sharpen(const Carrier& carrier, Lengths& rest) {
     const Ball place = exact_->place_on(lines_[carrier.line], lines_[line]);
     return {place.lower(), place.upper()};
   };
-  const auto bounds = [&](const End& end) -> Bounds {
+  const auto bounds = [&](const End& end, bool is_sharp) -> Bounds {
     const Bounds known{std::min(end.inner, end.outer), std::max(end.inner, end.outer)};
-    if (end.line == kNoLine || known[0] == known[1]) return known;
+    if (!is_sharp || end.line == kNoLine || known[0] == known[1]) return known;
     Bounds place = sharper(end.line);
     if (end.other != kNoLine) {
       const Bounds other = sharper(end.other);
@@ -395,11 +404,14 @@ void OutlineUnion::sharpen(const Carrier& carrier, Lengths& rest) {
         place[i] = end.begins ? std::max(place[i], other[i]) : std::min(place[i], other[i]);
       }
     }
-    return {std::fmax(known[0], place[0]), std::fmin(known[1], place[1])};
+    // Where cells meet before the place, or behind it, the stretch ends there.
+    return {std::fmin(std::fmax(place[0], known[0]), known[1]),
+            std::fmax(std::fmin(place[1], known[1]), known[0])};
   };
   for (const Gap& gap : perhaps_gaps_) {
-    const auto [first, after_first] = bounds(gap.before);
-    const auto [before_last, last] = bounds(gap.after);
+    const bool is_sharp = is_alone(gap);
+    const auto [first, after_first] = bounds(gap.before, is_sharp);
+    const auto [before_last, last] = bounds(gap.after, is_sharp);
     sharp.certain += std::max(0.0, before_last - after_first);
     sharp.perhaps += last - first;
   }
@@ -412,7 +424,11 @@ OutlineUnion::Lengths OutlineUnion::rest_of(const Carrier& carrier, const Stretc
   Lengths rest;
   find_certain(stretch, rest);
   find_perhaps(carrier, stretch, rest);
-  if (is_sharp_) sharpen(carrier, rest);
+  if (is_sharp_) {
+    covers_.push_back({{-kInfinity, -kInfinity}, outside(stretch.low)});
+    covers_.push_back({outside(stretch.high), {kInfinity, kInfinity}});
+    sharpen(carrier, rest);
+  }
   const double rounding = 2 * kUnit * static_cast<double>(covers_.size() + 4);
   rest.perhaps += rounding * rest.perhaps;
   rest.certain = std::max(0.0, rest.certain - rounding * rest.certain);

@@ -45,5 +45,26 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SharedAreaScene,
                            return name;
                          });
 
+/// On the floor, a corner of one penumbra stands out by 1e-14 over the edge of another one, which
+/// ends 1e-7 from there at a line all but parallel to it.
+TEST(AreaNeedles, CornerOnTheEdgeOfAnotherPenumbra) {
+  const auto read = parse_scene(R"({"format": "gnomon-scene", "version": 1, "two_sided": true,
+ "vertices": [[-8, -8, 0], [8, -8, 0], [8, 8, 0], [-8, 8, 0],
+  [0, 0, 1], [1, 1, 2], [0.9999990463256836, 1, 2],
+  [3, 3, 1], [-2, 3, 1], [-2.0000009536743164, 3.0000009536743164, 1],
+  [2, -3, 2], [-1.9999990463256836, 3.0000009536743164, 1],
+  [-3, 2, 4], [0, -1, 2], [-9.5367431640625e-7, -0.9999990463256836, 2.0000009536743164]],
+ "polygons": [{"loop": [0, 1, 2, 3]}, {"loop": [4, 5, 6]}, {"loop": [7, 8, 9]},
+  {"loop": [10, 8, 11]}, {"loop": [12, 13, 14]}],
+ "lights": [{"id": "panel", "type": "area", "loop": [
+  [0.6000003814697266, -1.3999996185302734, 6], [0.6000003814697266, -0.6000003814697266, 6],
+  [1.3999996185302734, -0.6000003814697266, 6], [1.3999996185302734, -1.3999996185302734, 6]]}]})",
+                                "needles.json");
+  ASSERT_TRUE(read) << to_string(read.error());
+  const auto scene = Case::make(read->scene);
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(check_area_exact(*scene), "");
+}
+
 }  // namespace
 }  // namespace gnomon::test

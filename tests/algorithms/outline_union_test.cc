@@ -21,7 +21,7 @@ constexpr int kSide = 8;  // of the receiver, a square in the lattice
 
 /// a x + b y + c >= 0 in integers.
 struct HalfPlane {
-  int a, b, c;
+  long a, b, c;
 };
 using Convex = std::vector<HalfPlane>;
 using Point = std::array<mpq_class, 2>;
@@ -113,7 +113,8 @@ ReceiverChart chart() {
 }
 
 /// What a union says, or nothing where some outline holds all of the square.
-void check(const std::vector<Convex>& outlines, const mpq_class& truth, const std::string& what) {
+void check(const std::vector<Convex>& outlines, const mpq_class& truth, const std::string& what,
+           double most_error = 1e-9) {
   const ReceiverChart receiver = chart();
   Lattice exact;
   OutlineUnion outline_union;
@@ -123,10 +124,10 @@ void check(const std::vector<Convex>& outlines, const mpq_class& truth, const st
     bool is_outside = false;
     for (const HalfPlane& half : outline) {
       OutlineLine line;
-      const double length = std::hypot(half.a, half.b);
-      line.a = half.a / length;
-      line.b = half.b / length;
-      line.c = half.c / length;
+      const double length = std::hypot(static_cast<double>(half.a), static_cast<double>(half.b));
+      line.a = static_cast<double>(half.a) / length;
+      line.b = static_cast<double>(half.b) / length;
+      line.c = static_cast<double>(half.c) / length;
       line.error = 0x1p-45;
       const auto number = static_cast<std::uint32_t>(exact.lines.size());
       line.plane = PlaneRef(number);
@@ -150,7 +151,7 @@ void check(const std::vector<Convex>& outlines, const mpq_class& truth, const st
     return;
   }
   const UnionShare share = outline_union.share();
-  EXPECT_LT(share.error, 1e-9) << what;
+  EXPECT_LT(share.error, most_error) << what;
   EXPECT_LE(std::fabs(share.covered - truth.get_d()), share.error) << what;
   EXPECT_EQ(share.hidden, truth == 1) << what;
 }
@@ -174,6 +175,44 @@ TEST(OutlineUnion, OneEdgeOfSeveralActs) {
   check({box(1, 1, 5, 5), box(1, 1, 5, 5)}, "twice");
   check({box(1, 1, 5, 5), box(1, 2, 4, 7), box(1, 3, 6, 4)}, "on one line");
   check({box(1, 1, 5, 5), box(1, 1, 5, 5), box(5, 1, 7, 5)}, "twice beside one");
+}
+
+constexpr int kFine = 1 << 20;
+
+/// Has an edge that falls by as little as 2^-26 for 1, from x = 4 to x = 7. Where it ends is known
+/// to some 10 / kFine.
+Convex flat() {
+  constexpr int kFlat = 1 << 26;
+  return {{-1, -kFlat, 5 * kFlat + 4}, {0, -1, 5}, {0, 1, -2}, {1, 0, -1}, {-1, 0, 7}};
+}
+
+/// From x = 2 to x = 4 + more / kFine.
+Convex wide(int more, int low, int high) {
+  return {{-kFine, 0, 4 * kFine + more}, {1, 0, -2}, {0, -1, high}, {0, 1, -low}};
+}
+
+/// Another outline holds only so little of the edge, before its end, that bounds leave open whether
+/// it does: then the edge's end, be it found as sharply as may be, is not that of what is seen.
+TEST(OutlineUnion, CoverWithinTheBoundsOfAnEnd) {
+  for (int more = -12; more <= 12; ++more) {
+    for (const bool is_first : {false, true}) {
+      std::vector<Convex> outlines{flat(), wide(more, 1, 5)};
+      if (is_first) std::swap(outlines[0], outlines[1]);
+      check(outlines, covered(outlines), std::to_string(more), 1e-6);
+    }
+  }
+}
+
+/// Cells meet there, and what ends in one of them is not seen from the other.
+TEST(OutlineUnion, CellsMeetWithinTheBoundsOfAnEnd) {
+  for (int more = -12; more <= 12; ++more) {
+    for (int held = 0; held <= 8; held += 2) {
+      std::vector<Convex> outlines{flat(), wide(held, 1, 6)};
+      for (int i = 0; i < 70; ++i) outlines.push_back(wide(more + i % 6, 6, 7));
+      check(outlines, covered({flat(), wide(held, 1, 6), wide(more + 5, 6, 7)}),
+            std::to_string(more) + ", " + std::to_string(held), 2e-6);
+    }
+  }
 }
 
 /// Many outlines of few lines, so that nearly every edge has others on its line.
