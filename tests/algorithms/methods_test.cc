@@ -56,7 +56,7 @@ TEST(Methods, AreNamedByTheLightsThatTheyTake) {
   EXPECT_EQ(method_names({.point = true}),
             "sectors, contour, svbsp, receiver, merged, basic, tiling, svbsp-full, two-pass, "
             "blots");
-  EXPECT_EQ(method_names({.area = true}), "receiver, merged");
+  EXPECT_EQ(method_names({.area = true}), "contour, receiver, merged");
   EXPECT_EQ(method_names({.point = true, .area = true}),
             "sectors, contour, svbsp, receiver, merged, basic, tiling, svbsp-full, two-pass, "
             "blots");

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -337,6 +338,26 @@ TEST(RidgeEdges, FarPolygonsFirstAreLookedUpInVain) {
   EXPECT_EQ(far.lit_by, file.lit_by);
   EXPECT_GT(far.work[Counter::kLookUps], near.work[Counter::kLookUps]);
   EXPECT_GE(file.work[Counter::kLookUps], near.work[Counter::kLookUps]);
+}
+
+/// Section 4: what is looked up follows the picture, and the table what loops cross its rows;
+/// neither grows as the scene does.
+TEST(RidgeEdges, CostsGrowLessThanTheScene) {
+  const auto work = [](int cubes) {
+    const Scene scene = generate("cubes", {{"n", static_cast<double>(cubes)}}).value();
+    const PreparedScene prepared = prepare(scene).value();
+    const PreparedView view =
+        prepare_view(scene, fuzz::seven_eyes(prepared, 200, 1).back().camera).value();
+    return pixels_of(view, options_of("ridge-edges:hemisphere=cube,order=near")).work;
+  };
+  const auto few = work(30), many = work(480);
+  const auto grows = [&](Counter counter) {
+    return static_cast<double>(many[counter]) / static_cast<double>(few[counter]);
+  };
+  EXPECT_LT(grows(Counter::kLookUps), 8);
+  EXPECT_LT(grows(Counter::kTableSpans), 16);
+  std::printf("16 times the cubes: %.1f times the look-ups, %.1f times the spans\n",
+              grows(Counter::kLookUps), grows(Counter::kTableSpans));
 }
 
 TEST(RidgeEdges, CountsDoNotDependOnThreads) {

@@ -50,8 +50,8 @@ TEST(Compare, OneTableWithVerdictsRatiosAndGrowth) {
 TEST(Compare, EverySystemOnEveryKernelByDefaultAndByAll) {
   const RunResult done = compare({"figure-4f", "--kernel", "all", "--repeat", "1", "--csv", "-"});
   EXPECT_EQ(done.status, 0) << done.err;
-  // Two methods for area lights on seven kernels, and the header.
-  EXPECT_EQ(std::ranges::count(done.out, '\n'), 15);
+  // Three methods for area lights on seven kernels, and the header.
+  EXPECT_EQ(std::ranges::count(done.out, '\n'), 22);
   EXPECT_THAT(done.out, AllOf(HasSubstr(",merged,rational,measured,"), HasSubstr("identical"),
                               Not(HasSubstr("svbsp"))));
 }
