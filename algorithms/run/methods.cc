@@ -263,7 +263,8 @@ std::vector<std::string_view> names_of(const MethodNeeds& needs) {
   std::vector<std::string_view> names;
   if (needs.closed_meshes) names.emplace_back("closed meshes");
   if (needs.camera) names.emplace_back("a camera");
-  if (needs.one_hemisphere) names.emplace_back("all polygons ahead of the light as the picture looks");
+  if (needs.one_hemisphere)
+    names.emplace_back("all polygons ahead of the light as the picture looks");
   return names;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// What the rows of the method ridge-edges cannot tell apart: with a table of N rows a point is taken
-// for one in the middle of its row, seen from the light. Where no edge lies between the two the
-// table is right. For who judges its pictures, and tells what rows cost from what is wrong.
+// What the rows of the method ridge-edges cannot tell apart: with a table of N rows a point is
+// taken for one in the middle of its row, seen from the light. Where no edge lies between the two
+// the table is right. For who judges its pictures, and tells what rows cost from what is wrong.
 #ifndef GNOMON_ALGORITHMS_ANGULAR_ROWS_H
 #define GNOMON_ALGORITHMS_ANGULAR_ROWS_H
 
