@@ -18,6 +18,7 @@
 #include "gnomon/algorithms/pixels.h"
 #include "gnomon/oracle/image.h"
 #include "gnomon/scene/generate.h"
+#include "picture_runs.h"
 #include "report/pixels/pixel_claims_of.h"
 #include "report/pixels/rows_of_table.h"
 
@@ -25,23 +26,6 @@ namespace gnomon::test {
 namespace {
 
 using testing::HasSubstr;
-
-PixelOptions options_of(const std::string& method, KernelId kernel = KernelId::kPlane) {
-  const auto selection = parse_method(method, Domain::kImageSpace);
-  EXPECT_TRUE(selection) << method;
-  PixelOptions options;
-  options.kernel.id = kernel;
-  options.method = selection->id;
-  options.options = selection->values;
-  options.jobs = 1;
-  return options;
-}
-
-Pixels pixels_of(const PreparedView& view, const PixelOptions& options) {
-  auto pixels = compute_pixels(view.scene, view.frame, options);
-  EXPECT_TRUE(pixels) << to_string(pixels.error());
-  return pixels ? *std::move(pixels) : Pixels();
-}
 
 oracle::ImageReport judged(const PreparedView& view, const ExactCamera& camera,
                            const std::string& method, const Pixels& pixels) {
@@ -53,18 +37,6 @@ oracle::ImageReport judged(const PreparedView& view, const ExactCamera& camera,
       oracle::judge_pixels(view, report::pixel_claims_of(pixels, view.scene, camera), exact);
   EXPECT_TRUE(report) << to_string(report.error());
   return *std::move(report);
-}
-
-/// Of every generator a scene with point and directional lights.
-std::vector<Scene> scenes() {
-  std::vector<Scene> result;
-  for (const std::string& name : fuzz::generator_names()) {
-    if (name.starts_with("area")) continue;
-    Scene scene = fuzz::Generator::parse(name).value().make(3).scene;
-    std::erase_if(scene.lights, [](const Light& light) { return light.has_area(); });
-    if (!scene.lights.empty()) result.push_back(std::move(scene));
-  }
-  return result;
 }
 
 /// A closed solid of `gnomon generate closed` over a slab, under its lamp and a sun.
@@ -93,7 +65,7 @@ constexpr const char* kAnyPolygons = "ridge-edges:rows=exact,depth=facing,hemisp
 TEST(RidgeEdges, WithoutRowsHasTheSamplesOfTheOracleFromSevenEyes) {
   std::uint32_t pick = 0;
   std::uint64_t judged_samples = 0;
-  for (const Scene& scene : scenes()) {
+  for (const Scene& scene : scenes_of_all_generators()) {
     const PreparedScene prepared = prepare(scene).value();
     for (const fuzz::NamedEye& eye : fuzz::seven_eyes(prepared, 64, ++pick)) {
       const auto view = prepare_view(scene, eye.camera);
@@ -110,7 +82,7 @@ TEST(RidgeEdges, WithoutRowsHasTheSamplesOfTheOracleFromSevenEyes) {
 
 TEST(RidgeEdges, EveryExactKernelHasTheSamplesOfZbuffer) {
   std::uint32_t pick = 0;
-  for (const Scene& scene : scenes()) {
+  for (const Scene& scene : scenes_of_all_generators()) {
     const PreparedScene prepared = prepare(scene).value();
     for (const fuzz::NamedEye& eye : fuzz::seven_eyes(prepared, 20, ++pick)) {
       const PreparedView view = prepare_view(scene, eye.camera).value();

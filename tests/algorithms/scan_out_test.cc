@@ -8,49 +8,20 @@
 
 #include "exact_check.h"
 #include "fuzz/check/seven_eyes.h"
-#include "fuzz/generate/generator.h"
 #include "gnomon/algorithms/method_options.h"
 #include "gnomon/algorithms/pixels.h"
 #include "gnomon/oracle/image.h"
 #include "gnomon/scene/generate.h"
+#include "picture_runs.h"
 #include "report/pixels/pixel_claims_of.h"
 
 namespace gnomon::test {
 namespace {
 
-PixelOptions options_of(const std::string& method, KernelId kernel = KernelId::kPlane) {
-  const auto selection = parse_method(method, Domain::kImageSpace);
-  EXPECT_TRUE(selection) << method;
-  PixelOptions options;
-  options.kernel.id = kernel;
-  options.method = selection->id;
-  options.options = selection->values;
-  options.jobs = 1;
-  return options;
-}
-
-Pixels pixels_of(const PreparedView& view, const PixelOptions& options) {
-  auto pixels = compute_pixels(view.scene, view.frame, options);
-  EXPECT_TRUE(pixels) << to_string(pixels.error());
-  return *std::move(pixels);
-}
-
-/// Of every generator a scene with point and directional lights.
-std::vector<Scene> scenes() {
-  std::vector<Scene> result;
-  for (const std::string& name : fuzz::generator_names()) {
-    if (name.starts_with("area")) continue;
-    Scene scene = fuzz::Generator::parse(name).value().make(3).scene;
-    std::erase_if(scene.lights, [](const Light& light) { return light.has_area(); });
-    if (!scene.lights.empty()) result.push_back(std::move(scene));
-  }
-  return result;
-}
-
 TEST(ScanOut, HasTheSamplesOfZbufferAndTheOracleFromSevenEyes) {
   std::uint32_t pick = 0;
   std::uint64_t judged = 0;
-  for (const Scene& scene : scenes()) {
+  for (const Scene& scene : scenes_of_all_generators()) {
     const PreparedScene prepared = prepare(scene).value();
     for (const fuzz::NamedEye& eye : fuzz::seven_eyes(prepared, 40, ++pick)) {
       const auto view = prepare_view(scene, eye.camera);
@@ -81,7 +52,7 @@ TEST(ScanOut, HasTheSamplesOfZbufferAndTheOracleFromSevenEyes) {
 
 TEST(ScanOut, WhoIsAskedChangesNoListAndNoSample) {
   std::uint32_t pick = 0;
-  for (const Scene& scene : scenes()) {
+  for (const Scene& scene : scenes_of_all_generators()) {
     const PreparedScene prepared = prepare(scene).value();
     for (const fuzz::NamedEye& eye : fuzz::seven_eyes(prepared, 16, ++pick)) {
       const PreparedView view = prepare_view(scene, eye.camera).value();
@@ -117,7 +88,7 @@ TEST(ScanOut, AsksEveryPairOnlyIfItIsToldTo) {
 }
 
 TEST(ScanOut, CountsDoNotDependOnThreads) {
-  for (const Scene& scene : scenes()) {
+  for (const Scene& scene : scenes_of_all_generators()) {
     const PreparedScene prepared = prepare(scene).value();
     const auto eyes = fuzz::seven_eyes(prepared, 24, 1);
     if (eyes.empty()) continue;
