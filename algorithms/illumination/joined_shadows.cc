@@ -197,24 +197,29 @@ class JoinedShadows {
   /// Takes what only the borders of connected faces bound.
   void subtract_sheets() {
     if (faces_.size() < 3 || pieces_.empty()) return;  // two are a pair
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> contacts;
+    for_each_contact([&](FaceEdge at, FaceEdge other) {
+      if (at.face < other.face) contacts.emplace_back(at.face, other.face);
+    });
     std::vector<LightPieces::Piece> left;
     for (LightPart& part : parts_by_planes()) {
       pieces_.set_pieces(std::move(part.pieces));
-      subtract_sheets_of(part.has_face);
+      subtract_sheets_of(part.has_face, contacts);
       left.insert(left.end(), pieces_.pieces().begin(), pieces_.pieces().end());
     }
     pieces_.set_pieces(std::move(left));
   }
-  void subtract_sheets_of(const std::vector<bool>& has_face) {
+  void subtract_sheets_of(const std::vector<bool>& has_face,
+                          std::span<const std::pair<std::uint32_t, std::uint32_t>> contacts) {
     std::vector<std::uint32_t> root(faces_.size());
     std::iota(root.begin(), root.end(), 0u);
     const auto find = [&](std::uint32_t face) {
       while (root[face] != face) face = root[face] = root[root[face]];
       return face;
     };
-    for_each_contact([&](FaceEdge at, FaceEdge other) {
-      if (has_face[at.face] && has_face[other.face]) root[find(at.face)] = find(other.face);
-    });
+    for (const auto& [a, b] : contacts) {
+      if (has_face[a] && has_face[b]) root[find(a)] = find(b);
+    }
     std::vector<std::vector<std::uint32_t>> sheets(faces_.size());
     for (std::uint32_t f = 0; f < faces_.size(); ++f) {
       if (has_face[f]) sheets[find(f)].push_back(f);
