@@ -103,9 +103,13 @@ class ReceiverShares {
   std::optional<Shares> find_whole(Workspace& workspace, const LightInSpace<Space>& light,
                                    const LightVolumes& volumes, PlaneRef receiving);
   std::optional<Shares> find_cut(Workspace& workspace, const LightInSpace<Space>& light,
-                                 std::uint32_t part, Side side);
+                                 const LightVolumes& volumes, PlaneRef receiving,
+                                 const LightShape<Vertex>& cut);
+  void set_cut_light(const Space& space, const LightInSpace<Space>& light, const Loop& loop);
   bool blocks(Workspace& workspace, PlaneRef receiving, const PreparedScene& scene,
               std::uint32_t caster);
+  Verdict add_cut_volume(Workspace& workspace, const LightInSpace<Space>& light, PlaneRef receiving,
+                         const LightShape<Vertex>& cut, const FoundVolume& found);
   Verdict add_volume(Space& space, const VolumeStore& store, const VolumeToCut& cut);
   std::optional<Shares> shares();
   Relation relate(Space& space, std::span<const PlaneRef> planes, Border border);
@@ -116,6 +120,7 @@ class ReceiverShares {
   SearchedReceiver searched_;
   ReceiverChart chart_;
   VolumeSearch search_;
+  CutLight cut_light_;
   bool all_penumbra_ = false;
   std::vector<OutlineLine> lines_;
   OutlineUnion penumbras_, umbras_;
@@ -241,19 +246,54 @@ std::optional<Shares> ReceiverShares<Space>::find_whole(Workspace& workspace,
   return shares();
 }
 
-/// Of a light that it cuts: by the volumes of the part in front.
+/// Of a light that it cuts: by the volumes of the part in front, which are made here.
 template <VolumeSpaceModel Space>
 std::optional<Shares> ReceiverShares<Space>::find_cut(Workspace& workspace,
                                                       const LightInSpace<Space>& light,
-                                                      std::uint32_t part, Side side) {
-  light.prepare(workspace, part, side);
-  const VolumeStore& store = light.store(workspace);
-  for (const VolumeToCut& cut : workspace.volumes) {
-    const Verdict verdict = add_volume(workspace.space, store, cut);
-    if (verdict == Verdict::kOpen) return std::nullopt;
-    if (verdict == Verdict::kAllUmbra) return kAllUmbra;
+                                                      const LightVolumes& volumes,
+                                                      PlaneRef receiving,
+                                                      const LightShape<Vertex>& cut) {
+  if (cut.loop.size() < 3) return shares();
+  set_cut_light(workspace.space, light, cut.loop);
+  if (search_.begin_cut(volumes, searched_, cut_light_) || search_.find_blocking()) {
+    return kAllUmbra;
+  }
+  for (const bool blocking : {true, false}) {
+    if (!blocking && search_.find_others(all_penumbra_)) return kAllUmbra;
+    for (const FoundVolume& found : search_.found()) {
+      const Verdict verdict = add_cut_volume(workspace, light, receiving, cut, found);
+      if (verdict == Verdict::kOpen) return std::nullopt;
+      if (verdict == Verdict::kAllUmbra) return kAllUmbra;
+    }
   }
   return shares();
+}
+
+template <VolumeSpaceModel Space>
+void ReceiverShares<Space>::set_cut_light(const Space& space, const LightInSpace<Space>& light,
+                                          const Loop& loop) {
+  cut_light_.box = light.box_of(space, loop);
+  light.corners_of(space, loop, cut_light_.corners);
+}
+
+/// A volume that the whole light has on the receiver, made for the part of the light in front.
+template <VolumeSpaceModel Space>
+typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_cut_volume(
+    Workspace& workspace, const LightInSpace<Space>& light, PlaneRef receiving,
+    const LightShape<Vertex>& cut, const FoundVolume& found) {
+  if (all_penumbra_ && !found.umbra) return Verdict::kGoesOn;
+  const PreparedScene& scene = light.scene();
+  if (!blocks(workspace, receiving, scene, found.part)) return Verdict::kGoesOn;
+  // The first plane of each volume is its caster's own, seen from behind.
+  const VolumeStore& store = light.volumes();
+  const PlaneRef side = -store.penumbra(store[found.number])[0];
+  const Part& part = scene.parts[found.part];
+  workspace.own.clear();
+  workspace.builder.add(part_loop(workspace.space, scene, found.part, workspace.caster), side,
+                        side.flipped() != part.flipped, cut, workspace.own,
+                        all_penumbra_ ? VolumesWanted::kUmbra : VolumesWanted::kBoth);
+  if (workspace.own.size() == 0) return Verdict::kGoesOn;
+  return add_volume(workspace.space, workspace.own, {0, found.umbra});
 }
 
 template <VolumeSpaceModel Space>
@@ -280,9 +320,9 @@ std::optional<Shares> ReceiverShares<Space>::find(Workspace& workspace,
     penumbras_.add(lines_);
     umbras_.add(lines_);
   }
-  const auto shape = light.shape();
-  const Placement placement = workspace.record.decide(space, receiving, shape.loop);
-  if (placement == Placement::kSpanning) return find_cut(workspace, light, part, side);
+  if (const auto cut = light.cut_by(workspace, receiving)) {
+    return find_cut(workspace, light, volumes, receiving, *cut);
+  }
   return find_whole(workspace, light, volumes, receiving);
 }
 

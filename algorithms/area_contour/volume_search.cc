@@ -234,7 +234,7 @@ GNOMON_FOR_AVX2 VolumeSearch::Relation VolumeSearch::relate(
 
 const UmbraReach& VolumeSearch::reach() {
   if (!has_reach_) {
-    reach_ = UmbraReach(light_->light_corners_, box_);
+    reach_ = UmbraReach(cut_ != nullptr ? cut_->corners : light_->light_corners_, box_);
     has_reach_ = true;
   }
   return reach_;
@@ -271,9 +271,8 @@ GNOMON_FOR_AVX2 bool VolumeSearch::try_blocking() {
   Box from, to;
   from.add(middle_);
   Point3 middle{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    middle[k] = (light_->light_.low[k] + light_->light_.high[k]) / 2;
-  }
+  const Box& light = cut_ != nullptr ? cut_->box : light_->light_;
+  for (std::size_t k = 0; k < 3; ++k) middle[k] = (light.low[k] + light.high[k]) / 2;
   to.add(middle);
   const Shaft shaft(from, to);
   std::size_t tried = 0;
@@ -287,8 +286,13 @@ GNOMON_FOR_AVX2 bool VolumeSearch::try_blocking() {
         if (node.right != 0) return true;
         for (std::uint32_t place = node.begin; place < node.end && goes_on(); ++place) {
           if (!shaft.may_meet(light_->box(light_->volumes_[place].part))) continue;
-          ++tried;
-          found = try_to_cover(place);
+          if (cut_ != nullptr) {
+            found = test_cut(place);
+            tried = found_.size();
+          } else {
+            ++tried;
+            found = try_to_cover(place);
+          }
         }
         return false;
       },
@@ -327,8 +331,25 @@ bool VolumeSearch::test(std::uint32_t place) {
   return false;
 }
 
+/// The same where the receiver's plane cuts the light: nothing but an umbra is known to hold it.
+bool VolumeSearch::test_cut(std::uint32_t place) {
+  const SearchedVolume& volume = light_->volumes_[place];
+  if (is_own(volume) || misses_box(penumbra(volume))) return false;
+  const bool umbra_may = reach().may_reach(light_->box(volume.part));
+  if (all_penumbra_ && !umbra_may) return false;
+  if (relate(penumbra(volume)) == Relation::kOutside) return false;
+  if (may_have_umbra(volume) && relate(umbra(volume)) == Relation::kInside) {
+    umbra_hints_.add(place);
+    return true;
+  }
+  if (std::ranges::find(blocking_, volume.number) == blocking_.end()) {
+    found_.push_back({volume.number, volume.part, umbra_may});
+  }
+  return false;
+}
+
 GNOMON_FOR_AVX2 bool VolumeSearch::walk() {
-  const Shaft shaft(box_, light_->light_);
+  const Shaft shaft(box_, cut_ != nullptr ? cut_->box : light_->light_);
   std::vector<std::uint32_t> none;
   bool found = false;
   light_->tree_.find(
@@ -338,7 +359,7 @@ GNOMON_FOR_AVX2 bool VolumeSearch::walk() {
         if (node.right != 0) return true;
         for (std::uint32_t place = node.begin; place < node.end && !found; ++place) {
           if (!shaft.may_meet(light_->box(light_->volumes_[place].part))) continue;
-          found = test(place);
+          found = cut_ != nullptr ? test_cut(place) : test(place);
         }
         return false;
       },
@@ -346,10 +367,11 @@ GNOMON_FOR_AVX2 bool VolumeSearch::walk() {
   return found;
 }
 
-VolumeSearch::Outcome VolumeSearch::find(const LightVolumes& light,
-                                         const SearchedReceiver& receiver) {
+void VolumeSearch::begin(const LightVolumes& light, const SearchedReceiver& receiver,
+                         const CutLight* cut) {
   light_ = &light;
   receiver_ = &receiver;
+  cut_ = cut;
   box_ = light.box(receiver.part);
   for (std::size_t k = 0; k < 3; ++k) {
     middle_[k] = (box_.low[k] + box_.high[k]) / 2;
@@ -357,12 +379,43 @@ VolumeSearch::Outcome VolumeSearch::find(const LightVolumes& light,
   }
   has_reach_ = all_penumbra_ = false;
   found_.clear();
+}
+
+VolumeSearch::Outcome VolumeSearch::find(const LightVolumes& light,
+                                         const SearchedReceiver& receiver) {
+  begin(light, receiver, nullptr);
   if (try_hints() || (!all_penumbra_ && is_worth_blocking() && try_blocking()) || walk()) {
     return Outcome::kAllUmbra;
   }
   if (!all_penumbra_) return Outcome::kSome;
   std::erase_if(found_, [](const FoundVolume& volume) { return !volume.umbra; });
   return Outcome::kAllPenumbra;
+}
+
+bool VolumeSearch::begin_cut(const LightVolumes& light, const SearchedReceiver& receiver,
+                             const CutLight& cut) {
+  begin(light, receiver, &cut);
+  blocking_.clear();
+  for (std::size_t i = 0; i < umbra_hints_.count; ++i) {
+    const SearchedVolume& volume = light.volumes_[umbra_hints_.places[i]];
+    if (!is_own(volume) && relate(penumbra(volume)) != Relation::kOutside &&
+        volume.umbra_blocks != 0 && relate(umbra(volume)) == Relation::kInside) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool VolumeSearch::find_blocking() {
+  if (try_blocking()) return true;
+  for (const FoundVolume& volume : found_) blocking_.push_back(volume.number);
+  return false;
+}
+
+bool VolumeSearch::find_others(bool all_penumbra) {
+  found_.clear();
+  all_penumbra_ = all_penumbra;
+  return walk();
 }
 
 }  // namespace gnomon::area_contour

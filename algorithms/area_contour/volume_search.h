@@ -87,6 +87,12 @@ struct FoundVolume {
   bool umbra = false;  // that of the volume may, too
 };
 
+/// Where the part of a light is that is in front of a receiver whose plane cuts it.
+struct CutLight {
+  Box box;
+  std::vector<Point3> corners;  // to within UmbraReach::kMargin; none: not known so well
+};
+
 /// Sorts parts, but for the first few, so that neighbours in space follow one another: what holds
 /// one receiver is likely to hold the next, and lies in the caches.
 void sort_by_space(const CasterTree& tree, std::vector<std::uint32_t>& parts);
@@ -99,6 +105,18 @@ class VolumeSearch {
   /// Leaves in found() what may reach the receiver. kAllUmbra: one caster's umbra holds all of it.
   /// kAllPenumbra: one caster's penumbra does, and only volumes whose umbra may reach it are found.
   Outcome find(const LightVolumes& light, const SearchedReceiver& receiver);
+
+  // Of a receiver whose plane cuts the light, in this order. The volumes are those of the whole
+  // light: its penumbras hold those of a part of it, its umbras are held by them.
+
+  /// True if an umbra of the whole light holds all of the receiver. `cut` must outlive the search.
+  bool begin_cut(const LightVolumes& light, const SearchedReceiver& receiver, const CutLight& cut);
+  /// Leaves in found() a few volumes before the middle of the cut light. True as above.
+  bool find_blocking();
+  /// Leaves in found() the others that may reach the receiver. True as above. `all_penumbra`: only
+  /// those whose umbra may.
+  bool find_others(bool all_penumbra);
+
   std::span<const FoundVolume> found() const { return found_; }
 
  private:
@@ -115,6 +133,7 @@ class VolumeSearch {
   bool misses_box(std::span<const PlaneBlock> planes) const;
   std::span<const PlaneBlock> penumbra(const SearchedVolume& volume) const;
   std::span<const PlaneBlock> umbra(const SearchedVolume& volume) const;
+  void begin(const LightVolumes& light, const SearchedReceiver& receiver, const CutLight* cut);
   bool is_own(const SearchedVolume& volume) const {
     return volume.part == receiver_->part || volume.support == receiver_->support;
   }
@@ -125,15 +144,19 @@ class VolumeSearch {
   bool try_blocking();
   bool is_worth_blocking();
   bool test(std::uint32_t place);
+  bool test_cut(std::uint32_t place);
   bool walk();
 
   const LightVolumes* light_ = nullptr;
   const SearchedReceiver* receiver_ = nullptr;
+  const CutLight* cut_ = nullptr;  // if the receiver's plane cuts the light
   Box box_;
   Point3 middle_{}, half_{};
   bool has_reach_ = false, all_penumbra_ = false;
   UmbraReach reach_;
   std::vector<FoundVolume> found_;
+  std::vector<std::uint32_t>
+      blocking_;  // the numbers of those found before the middle of a cut light
   Hints penumbra_hints_, umbra_hints_;
   std::uint32_t blocking_tried_ = 0, blocking_found_ = 0, blocking_left_out_ = 0;
 };

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -161,6 +162,16 @@ class LightInSpace {
             light_->is_directional() ? &light_->point : nullptr, plane_};
   }
 
+  /// The part of an area light in front of a receiver whose plane cuts it, in the workspace; of
+  /// less than three corners if it has no area. None: the plane cuts nothing.
+  std::optional<LightShape<Vertex>> cut_by(Workspace& workspace, PlaneRef receiving) const;
+  /// The box of a cut light, as wide as its corners are known; that of all of it if they are not.
+  Box box_of(const Space& space, const Loop& light) const;
+  /// The corners of a light or of a cut one to within UmbraReach::kMargin; none if some are not
+  /// known so well.
+  static void corners_of(const Space& space, const Loop& light,
+                         std::vector<std::array<double, 3>>& corners);
+
   /// Whether that side of a part, if it receives at all, sees some of the light.
   Sight sight(Workspace& workspace, std::uint32_t part, Side side) const;
   /// Cuts a piece of the side of a part (its whole loop, or a fragment of an earlier light) and
@@ -195,40 +206,15 @@ class LightInSpace {
     return solid_volumes_[solid] == SolidCasters::kNone ? SolidCasters::kNone : solid;
   }
   void add_solid(Workspace& workspace, std::uint32_t solid, std::uint32_t receiver) const;
-  /// The box of a corner's position is as wide as what is known of it.
   UmbraReach umbra_reach(const Space& space, const Loop& light, const Box& receiver) const {
     if (!has_area()) return {};
     std::vector<std::array<double, 3>> corners;
-    for (std::uint32_t i = 0; i < light.size(); ++i) {
-      const std::array<Ball, 3> position = space.position(light.corner(i));
-      std::array<double, 3> point{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (!(position[k].radius < UmbraReach::kMargin)) return {};
-        point[k] = position[k].middle;
-      }
-      corners.push_back(point);
-    }
+    corners_of(space, light, corners);
     return UmbraReach(corners, receiver);
   }
   void sort_by_shadow(std::uint32_t receiver, std::vector<std::uint32_t>& casters) const;
   void drop_behind(Workspace& workspace, std::uint32_t receiver, PlaneRef receiving,
                    std::vector<std::uint32_t>& casters) const;
-  /// The box of a cut light, as wide as its corners are known; that of all of it if they are not.
-  Box box_of(const Space& space, const Loop& light) const {
-    Box box;
-    for (std::uint32_t i = 0; i < light.size(); ++i) {
-      const std::array<Ball, 3> position = space.position(light.corner(i));
-      std::array<double, 3> low{}, high{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (!position[k].is_finite()) return box_;
-        low[k] = position[k].lower();
-        high[k] = position[k].upper();
-      }
-      box.add(low);
-      box.add(high);
-    }
-    return box;
-  }
   Shaft shaft_to(const Box& receiver, const Box& light) const {
     if (!light_->is_directional()) return Shaft(receiver, light);
     std::array<double, 3> direction{};
@@ -430,21 +416,62 @@ void LightInSpace<Space>::sort_by_shadow(std::uint32_t receiver,
 }
 
 template <VolumeSpaceModel Space>
+std::optional<LightShape<typename Space::Vertex>> LightInSpace<Space>::cut_by(
+    Workspace& workspace, PlaneRef receiving) const {
+  LightShape<Vertex> light = shape();
+  if (!has_area() || !rules_.straddling_light_is_cut ||
+      workspace.record.decide(workspace.space, receiving, light.loop) != Placement::kSpanning) {
+    return std::nullopt;
+  }
+  workspace.light.clear();
+  const SplitChildren children =
+      make_children(workspace.space, receiving, light.loop, workspace.record, workspace.crossings,
+                    workspace.light);
+  light.loop = workspace.light.view(children.front, plane_id_);
+  return light;
+}
+
+template <VolumeSpaceModel Space>
+Box LightInSpace<Space>::box_of(const Space& space, const Loop& light) const {
+  Box box;
+  for (std::uint32_t i = 0; i < light.size(); ++i) {
+    const std::array<Ball, 3> position = space.position(light.corner(i));
+    std::array<double, 3> low{}, high{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!position[k].is_finite()) return box_;
+      low[k] = position[k].lower();
+      high[k] = position[k].upper();
+    }
+    box.add(low);
+    box.add(high);
+  }
+  return box;
+}
+
+template <VolumeSpaceModel Space>
+void LightInSpace<Space>::corners_of(const Space& space, const Loop& light,
+                                     std::vector<std::array<double, 3>>& corners) {
+  corners.clear();
+  for (std::uint32_t i = 0; i < light.size(); ++i) {
+    const std::array<Ball, 3> position = space.position(light.corner(i));
+    std::array<double, 3> point{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(position[k].radius < UmbraReach::kMargin)) return corners.clear();
+      point[k] = position[k].middle;
+    }
+    corners.push_back(point);
+  }
+}
+
+template <VolumeSpaceModel Space>
 void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Side side) const {
   Space& space = workspace.space;
   const PlaneRef receiving = plane_of_side(scene_.parts[index], side);
   workspace.own.clear();
   workspace.volumes.clear();
-  LightShape<Vertex> light = shape();
-  const bool cut = has_area() && rules_.straddling_light_is_cut &&
-                   workspace.record.decide(space, receiving, light.loop) == Placement::kSpanning;
-  if (cut) {
-    workspace.light.clear();
-    const SplitChildren children = make_children(space, receiving, light.loop, workspace.record,
-                                                 workspace.crossings, workspace.light);
-    if (children.front.count < 3) return;
-    light.loop = workspace.light.view(children.front, plane_id_);
-  }
+  const std::optional<LightShape<Vertex>> cut = cut_by(workspace, receiving);
+  if (cut && cut->loop.size() < 3) return;
+  const LightShape<Vertex> light = cut ? *cut : shape();
   const Box& box = tree_->box(index);
   const Box light_box = cut ? box_of(space, light.loop) : box_;
   const UmbraReach reach = umbra_reach(space, light.loop, box);
@@ -508,7 +535,7 @@ void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Sid
   });
   drop_behind(workspace, index, receiving, workspace.parts);
   sort_by_shadow(index, workspace.parts);
-  for (const std::uint32_t part : workspace.parts) add(part, cut);
+  for (const std::uint32_t part : workspace.parts) add(part, cut.has_value());
 }
 
 /// Only what is partly in front of the receiver can be in its light.

@@ -84,6 +84,8 @@ struct LightShape {
   bool has_area() const { return plane.valid(); }
 };
 
+enum class VolumesWanted : std::uint8_t { kBoth, kUmbra };
+
 template <VolumeSpaceModel Space>
 class VolumeBuilder {
  public:
@@ -93,13 +95,14 @@ class VolumeBuilder {
   explicit VolumeBuilder(Space& space, const Rules& rules = {}) : space_(&space), rules_(rules) {}
 
   /// Adds the volume of one side of a caster, in front of `side`, if it casts anything. `reversed`:
-  /// the loop is clockwise seen from that side.
+  /// the loop is clockwise seen from that side. `wanted`: of an area light, its umbra alone if it
+  /// has one; the penumbra is then not a whole one.
   void add(const Loop& caster, PlaneRef side, bool reversed, const LightShape<Vertex>& light,
-           VolumeStore& store) {
+           VolumeStore& store, VolumesWanted wanted = VolumesWanted::kBoth) {
     penumbra_.assign(1, -side);
     umbra_.assign(1, -side);
     if (light.has_area()) {
-      if (!make_area(caster, side, reversed, light)) return;
+      if (!make_area(caster, side, reversed, light, wanted)) return;
       store.add(caster.part, penumbra_, umbra_);
     } else {
       if (!make_point(caster, side, reversed, light)) return;
@@ -217,8 +220,8 @@ class VolumeBuilder {
     return true;
   }
 
-  bool make_area(const Loop& caster, PlaneRef side, bool reversed,
-                 const LightShape<Vertex>& light) {
+  bool make_area(const Loop& caster, PlaneRef side, bool reversed, const LightShape<Vertex>& light,
+                 VolumesWanted wanted) {
     if (caster_sides_.decide(*space_, light.plane, caster) == Placement::kBack ||
         all_on_or_behind(caster)) {
       return false;
@@ -245,13 +248,16 @@ class VolumeBuilder {
       for (std::uint32_t i = 0; i < front.size(); ++i) front_sides_[i] = light_sides_.side(i);
     }
     bool umbra = !straddles || !rules_.straddling_light_is_cut;
-    for (std::uint32_t i = 0; i < caster.size(); ++i) {
+    const bool penumbra = wanted == VolumesWanted::kBoth;
+    for (std::uint32_t i = 0; i < caster.size() && (umbra || penumbra); ++i) {
       const CornerOf a = to(caster, reversed, i), b = from(caster, reversed, i);
-      const PlaneRef outer = extreme(a, b, front, Side::kFront, [&](std::uint32_t k) {
-        return front_sides_[k] == Side::kFront;
-      });
-      if (outer.valid() && !any_on_caster_plane(front, front_sides_, outer, Side::kFront)) {
-        penumbra_.push_back(outer);
+      if (penumbra) {
+        const PlaneRef outer = extreme(a, b, front, Side::kFront, [&](std::uint32_t k) {
+          return front_sides_[k] == Side::kFront;
+        });
+        if (outer.valid() && !any_on_caster_plane(front, front_sides_, outer, Side::kFront)) {
+          penumbra_.push_back(outer);
+        }
       }
       if (!umbra) continue;
       const PlaneRef inner = extreme(a, b, whole, Side::kBack, [&](std::uint32_t k) {
@@ -262,8 +268,8 @@ class VolumeBuilder {
       umbra_.push_back(inner);
     }
     if (!umbra) umbra_.clear();
-    add_light_edges(caster, front);
-    return true;
+    if (penumbra) add_light_edges(caster, front);
+    return umbra || penumbra;
   }
 
   bool all_on_or_behind(const Loop& caster) const {
