@@ -56,6 +56,8 @@ struct ReceiverChart {
   /// The two coordinates.
   std::size_t u() const { return u_; }
   std::size_t v() const { return v_; }
+  /// The first corner in space: the chart is what the two coordinates are beyond it.
+  const Point3& origin() const { return origin_; }
 
   /// `n`: of the receiver's plane, as PlaneDoubles has it. `loop`: its corners in [0, 1], each
   /// coordinate off by at most `input_error`. `plane_error`: bounds the error of n . x - d of any

@@ -21,9 +21,11 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/area_contour/cover_mask.h"
 #include "algorithms/area_contour/lines_in_space.h"
 #include "algorithms/area_contour/outline_union.h"
 #include "algorithms/area_contour/receiver_chart.h"
+#include "algorithms/area_contour/shadow_boxes.h"
 #include "algorithms/area_contour/share_classes.h"
 #include "algorithms/area_contour/volume_search.h"
 #include "algorithms/partition/import_export.h"
@@ -95,6 +97,9 @@ class ReceiverShares {
                              const Loop& whole);
 
  private:
+  /// Fewer volumes are all asked.
+  static constexpr std::size_t kLeastMasked = 8;
+  static constexpr double kSmall = 256;  // of the receiver's rectangle
   enum class Relation : std::uint8_t { kOutside, kInside, kCrossing, kOpen };
   enum class Border : std::uint8_t { kOpen, kClosed };
   enum class Verdict : std::uint8_t { kGoesOn, kAllUmbra, kOpen };
@@ -110,7 +115,10 @@ class ReceiverShares {
               std::uint32_t caster);
   Verdict add_cut_volume(Workspace& workspace, const LightInSpace<Space>& light, PlaneRef receiving,
                          const LightShape<Vertex>& cut, const FoundVolume& found);
-  Verdict add_volume(Space& space, const VolumeStore& store, const VolumeToCut& cut);
+  std::optional<Shares> find_masked(Workspace& workspace, const LightInSpace<Space>& light,
+                                    const LightVolumes& volumes, PlaneRef receiving);
+  Verdict add_volume(Space& space, const VolumeStore& store, const VolumeToCut& cut,
+                     bool penumbra = true);
   std::optional<Shares> shares();
   Relation relate(Space& space, std::span<const PlaneRef> planes, Border border);
   static LineName name_of(const Space& space, PlaneRef plane);
@@ -123,6 +131,17 @@ class ReceiverShares {
   CutLight cut_light_;
   bool all_penumbra_ = false;
   std::vector<OutlineLine> lines_;
+  CoverMask penumbra_mask_, umbra_mask_;
+  ShadowProjection projection_;
+  struct Ordered {
+    std::uint32_t number, part;
+    bool has_umbra;
+    ShadowBoxes::Place place;
+    ChartBox penumbra, umbra;
+  };
+  std::vector<Ordered> ordered_;
+  const Ordered* masked_ = nullptr;  // what is being added, if masks are kept
+  std::vector<Point3> caster_;
   OutlineUnion penumbras_, umbras_;
 };
 
@@ -190,20 +209,27 @@ typename ReceiverShares<Space>::Relation ReceiverShares<Space>::relate(
 template <VolumeSpaceModel Space>
 typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_volume(Space& space,
                                                                           const VolumeStore& store,
-                                                                          const VolumeToCut& cut) {
+                                                                          const VolumeToCut& cut,
+                                                                          bool penumbra) {
   const ShadowVolume& volume = store[cut.volume];
-  if (!all_penumbra_) {
+  if (!all_penumbra_ && penumbra) {
     const Relation relation = relate(space, store.penumbra(volume), Border::kOpen);
     if (relation == Relation::kOutside) return Verdict::kGoesOn;
     if (relation == Relation::kOpen) return Verdict::kOpen;
     all_penumbra_ = relation == Relation::kInside;
-    if (!all_penumbra_) penumbras_.add(lines_);
+    if (!all_penumbra_) {
+      penumbras_.add(lines_);
+      if (masked_ != nullptr) penumbra_mask_.add(lines_, masked_->penumbra);
+    }
   }
   if (!cut.umbra || volume.umbra_count == 0) return Verdict::kGoesOn;
   const Relation relation = relate(space, store.umbra(volume), Border::kClosed);
   if (relation == Relation::kOpen) return Verdict::kOpen;
   if (relation == Relation::kInside) return Verdict::kAllUmbra;
-  if (relation == Relation::kCrossing) umbras_.add(lines_);
+  if (relation == Relation::kCrossing) {
+    umbras_.add(lines_);
+    if (masked_ != nullptr) umbra_mask_.add(lines_, masked_->umbra);
+  }
   return Verdict::kGoesOn;
 }
 
@@ -236,12 +262,72 @@ std::optional<Shares> ReceiverShares<Space>::find_whole(Workspace& workspace,
   const VolumeSearch::Outcome outcome = search_.find(volumes, searched_);
   if (outcome == VolumeSearch::Outcome::kAllUmbra) return kAllUmbra;
   all_penumbra_ = outcome == VolumeSearch::Outcome::kAllPenumbra;
+  if (search_.found().size() >= kLeastMasked) {
+    return find_masked(workspace, light, volumes, receiving);
+  }
   for (const FoundVolume& found : search_.found()) {
     if (!blocks(workspace, receiving, light.scene(), found.part)) continue;
     const Verdict verdict =
         add_volume(workspace.space, light.volumes(), {found.number, found.umbra});
     if (verdict == Verdict::kOpen) return std::nullopt;
     if (verdict == Verdict::kAllUmbra) return kAllUmbra;
+  }
+  return shares();
+}
+
+/// The same of many volumes, the largest outlines first, without those that lie where others are
+/// known to cover.
+template <VolumeSpaceModel Space>
+std::optional<Shares> ReceiverShares<Space>::find_masked(Workspace& workspace,
+                                                         const LightInSpace<Space>& light,
+                                                         const LightVolumes& volumes,
+                                                         PlaneRef receiving) {
+  const Space& space = workspace.space;
+  const PreparedScene& scene = light.scene();
+  penumbra_mask_.begin(chart_);
+  umbra_mask_ = penumbra_mask_;
+  const auto plane = space.load(support_);
+  const double sign = receiving.flipped() ? -1 : 1;
+  Point3 n = plane.n;
+  for (double& component : n) component *= sign;
+  projection_.begin(chart_, n, sign * plane.d, volumes.bound(), volumes.light_corners(),
+                    penumbra_mask_.margin());
+  ordered_.clear();
+  for (const FoundVolume& found : search_.found()) {
+    caster_.clear();
+    for (const VertexId vertex : scene.loop(scene.parts[found.part])) {
+      caster_.push_back(space.input_vertex(vertex).x);
+    }
+    ShadowBoxes boxes = projection_.boxes(caster_);
+    if (boxes.place == ShadowBoxes::Place::kBehind) continue;
+    boxes.penumbra.clip(penumbra_mask_.box());
+    boxes.umbra.clip(penumbra_mask_.box());
+    if (boxes.penumbra.is_empty()) continue;
+    const bool umbra = found.umbra && !boxes.umbra.is_empty();
+    if (all_penumbra_ && !umbra) continue;
+    ordered_.push_back({found.number, found.part, umbra, boxes.place, boxes.penumbra, boxes.umbra});
+  }
+  // Neighbours in space stay neighbours where outlines are so small that they hide little.
+  const double large = penumbra_mask_.box().area() / kSmall;
+  const auto small = std::ranges::stable_partition(
+      ordered_, [&](const Ordered& own) { return own.penumbra.area() > large; });
+  std::ranges::stable_sort(ordered_.begin(), small.begin(), std::ranges::greater{},
+                           [](const Ordered& own) { return own.penumbra.area(); });
+  for (const Ordered& own : ordered_) {
+    const bool umbra = own.has_umbra && !umbra_mask_.holds(own.umbra);
+    const bool penumbra = !all_penumbra_ && !penumbra_mask_.holds(own.penumbra);
+    if (!umbra && !penumbra) continue;
+    if (own.place != ShadowBoxes::Place::kInFront &&
+        !blocks(workspace, receiving, scene, own.part)) {
+      continue;
+    }
+    masked_ = &own;
+    const Verdict verdict =
+        add_volume(workspace.space, light.volumes(), {own.number, umbra}, penumbra);
+    if (verdict == Verdict::kOpen) return std::nullopt;
+    if (verdict == Verdict::kAllUmbra) return kAllUmbra;
+    if (umbra && umbra_mask_.is_full()) return kAllUmbra;
+    all_penumbra_ = all_penumbra_ || penumbra_mask_.is_full();
   }
   return shares();
 }
@@ -312,6 +398,7 @@ std::optional<Shares> ReceiverShares<Space>::find(Workspace& workspace,
   penumbras_.begin(chart_, exact);
   umbras_.begin(chart_, exact);
   all_penumbra_ = false;
+  masked_ = nullptr;
   // What is behind the light gets nothing, as if it were in every umbra.
   const PlaneRef behind = -light.plane();
   const Relation relation = relate(space, {&behind, 1}, Border::kClosed);

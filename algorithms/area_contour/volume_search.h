@@ -59,7 +59,9 @@ class LightVolumes {
   }
 
   const Box& light() const { return light_; }
+  std::span<const Point3> light_corners() const { return light_corners_; }
   const Box& box(std::uint32_t part) const { return boxes_[part]; }
+  double bound() const { return bound_; }
 
  private:
   friend class VolumeSearch;

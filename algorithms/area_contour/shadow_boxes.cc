@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "algorithms/area_contour/shadow_boxes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algorithms/area_contour/four_doubles.h"
+
+namespace gnomon::area_contour {
+namespace {
+
+/// Choices, not bounds: casters that are nearer to the light's height, and places that are known
+/// worse, are not asked.
+constexpr double kLeastGap = 0x1p-16, kMostWidth = 0x1p-24;
+
+}  // namespace
+
+void ShadowProjection::begin(const ReceiverChart& receiver, const Point3& n, double d, double error,
+                             std::span<const Point3> light, double extra) {
+  n_ = n;
+  d_ = d;
+  error_ = error;
+  extra_ = extra;
+  u_ = receiver.u();
+  v_ = receiver.v();
+  origin_ = receiver.origin();
+  light_.clear();
+  for (std::size_t i = 0; i < (light.size() + 3) / 4 * 4; ++i) {
+    if (i % 4 == 0) light_.emplace_back();
+    const Point3& corner = light[std::min(i, light.size() - 1)];  // the last one fills up
+    Seen& seen = light_.back();
+    seen.u[i % 4] = corner[u_];
+    seen.v[i % 4] = corner[v_];
+    seen.height[i % 4] = n[0] * corner[0] + n[1] * corner[1] + n[2] * corner[2] - d;
+  }
+}
+
+// Let e bound the error of heights (error_ is at least 64u), g the gap h(a) - h(o), coordinates in
+// [0, 1] and off by 2u. Then t is off by (e + 2 e |t|) / g and roundings of 4u |t|, and a place, of
+// three operations on numbers of at most 1 + |t|, by that and 8u (1 + |t|): altogether by less than
+// 4 e (1 + |t|) / g, for g at most 2.
+GNOMON_FOR_AVX2 ShadowBoxes ShadowProjection::boxes(std::span<const Point3> caster) const {
+  ShadowBoxes result;
+  double highest = -1, least = 1;
+  for (const Point3& corner : caster) {
+    const double height = n_[0] * corner[0] + n_[1] * corner[1] + n_[2] * corner[2] - d_;
+    highest = std::max(highest, height);
+    least = std::min(least, height);
+  }
+  if (highest < -error_) {
+    result.place = ShadowBoxes::Place::kBehind;
+    return result;
+  }
+  if (highest > error_) result.place = ShadowBoxes::Place::kInFront;
+  ChartBox penumbra, umbra = ChartBox::everything();
+  double gap = 2, largest = 0;
+  for (const Seen& light : light_) {
+    Doubles low_u = {2, 2, 2, 2}, low_v = low_u, high_u = -low_u, high_v = -low_u;
+    low_u *= 1e300;
+    low_v *= 1e300;
+    high_u *= 1e300;
+    high_v *= 1e300;
+    const Doubles &light_u = row(light.u), &light_v = row(light.v),
+                  &light_height = row(light.height);
+    for (const Point3& corner : caster) {
+      const double height = n_[0] * corner[0] + n_[1] * corner[1] + n_[2] * corner[2] - d_;
+      const Doubles apart = light_height - height, t = height / apart;
+      const Doubles u = corner[u_] + (corner[u_] - light_u) * t,
+                    v = corner[v_] + (corner[v_] - light_v) * t;
+      low_u = u < low_u ? u : low_u;
+      high_u = u > high_u ? u : high_u;
+      low_v = v < low_v ? v : low_v;
+      high_v = v > high_v ? v : high_v;
+      for (int i = 0; i < 4; ++i) {
+        gap = std::min(gap, apart[i]);
+        largest = std::max(largest, std::fabs(t[i]));
+      }
+    }
+    for (int i = 0; i < 4; ++i) {
+      const ChartBox own{{low_u[i], low_v[i]}, {high_u[i], high_v[i]}};
+      for (int k = 0; k < 2; ++k) {
+        penumbra.low[k] = std::min(penumbra.low[k], own.low[k]);
+        penumbra.high[k] = std::max(penumbra.high[k], own.high[k]);
+      }
+      umbra.clip(own);
+    }
+  }
+  if (!(gap > kLeastGap)) return result;
+  const double error = 4 * error_ * (1 + largest) / gap;
+  if (!(error < kMostWidth)) return result;
+  const double origin[] = {origin_[u_], origin_[v_]};
+  for (int k = 0; k < 2; ++k) {
+    result.penumbra.low[k] = penumbra.low[k] - origin[k] - error - extra_;
+    result.penumbra.high[k] = penumbra.high[k] - origin[k] + error + extra_;
+    result.umbra.low[k] = umbra.low[k] - origin[k] - error - extra_;
+    result.umbra.high[k] = umbra.high[k] - origin[k] + error + extra_;
+  }
+  return result;
+}
+
+}  // namespace gnomon::area_contour
