@@ -287,7 +287,7 @@ GNOMON_FOR_AVX2 bool VolumeSearch::try_blocking() {
 /// Only where that has been found often: else it costs more than it saves.
 bool VolumeSearch::is_worth_blocking() {
   constexpr std::uint32_t kSample = 64, kAgain = 16;
-  if (blocking_tried_ < kSample || blocking_found_ * 8 > blocking_tried_) return true;
+  if (blocking_tried_ < kSample || blocking_found_ * 3 > blocking_tried_) return true;
   return (++blocking_left_out_ % kAgain) == 0;
 }
 
