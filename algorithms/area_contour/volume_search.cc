@@ -6,27 +6,10 @@
 #include <numeric>
 #include <utility>
 
+#include "algorithms/area_contour/four_doubles.h"
+
 namespace gnomon::area_contour {
 namespace {
-
-// Four doubles; never passed by value, since below AVX it is not settled how.
-typedef double Doubles __attribute__((vector_size(32), may_alias));
-typedef long Bits __attribute__((vector_size(32), may_alias));
-
-inline bool any(const Bits& bits) { return (bits[0] | bits[1] | bits[2] | bits[3]) != 0; }
-inline bool all(const Bits& bits) { return (bits[0] & bits[1] & bits[2] & bits[3]) != 0; }
-
-// Functions that are compiled for AVX2, too; the loader chooses. Neither level fuses a product with
-// a sum, so that both give the same bits.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define GNOMON_FOR_AVX2 __attribute__((target_clones("avx2", "default")))
-#else
-#define GNOMON_FOR_AVX2
-#endif
-
-inline const Doubles& row(const double* values) {
-  return *reinterpret_cast<const Doubles*>(values);
-}
 
 double diagonal_of(const Box& box) {
   return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
