@@ -14,7 +14,7 @@ namespace {
 
 /// Cells with more outlines are halved if that keeps some apart, in the middle of some of their
 /// ends.
-constexpr std::uint32_t kLeaf = 64, kAsked = 64;
+constexpr std::uint32_t kLeaf = 64, kAsked = 64, kHolders = 3;
 constexpr int kDeepest = 40, kMostInVain = 4;
 /// Of the receiver's size: cells do not meet where outlines end.
 constexpr double kAside = 0.7351e-7;
@@ -23,26 +23,47 @@ constexpr double kAlong = 0x1p-900;
 
 }  // namespace
 
-/// Whether all that lies in the cell is inside of one outline.
-bool OutlineUnion::is_held(const Cell& cell) const {
-  const double low[] = {cell.low[0] - margin_, cell.low[1] - margin_};
-  const double high[] = {cell.high[0] + margin_, cell.high[1] + margin_};
-  for (std::uint32_t i = cell.first; i < cell.end; ++i) {
-    const Box& box = members_[i].box;
-    if (box.low[0] > low[0] || box.low[1] > low[1] || box.high[0] < high[0] ||
-        box.high[1] < high[1]) {
-      continue;
-    }
-    const Outline& outline = outlines_[members_[i].outline];
-    bool holds = true;
-    for (std::uint32_t k = 4 * outline.first; holds && k < 4 * outline.end; ++k) {
-      const Edge line = edge_on(k, 0, 0, 0);
-      const double least = line.a * (line.a > 0 ? low[0] : high[0]) +
-                           line.b * (line.b > 0 ? low[1] : high[1]) + line.c;
-      holds = least > line.error + slack_;
-    }
-    if (holds) return true;
+/// Whether all of a rectangle is certainly inside of an outline.
+GNOMON_FOR_AVX2 bool OutlineUnion::holds(const Outline& outline, const double (&low)[2],
+                                         const double (&high)[2]) const {
+  for (std::uint32_t i = outline.first; i < outline.end; ++i) {
+    const Doubles &a = row(blocks_[i].a), &b = row(blocks_[i].b);
+    const Doubles x = a > 0 ? a * low[0] : a * high[0], y = b > 0 ? b * low[1] : b * high[1];
+    const Bits inside = x + y + row(blocks_[i].c) > row(blocks_[i].error) + slack_;
+    if (!all(inside)) return false;
   }
+  return true;
+}
+
+/// Whether a box and the cell have more in common than the inside of an outline.
+inline bool OutlineUnion::is_outside(const Outline& outline, const Cell& cell,
+                                     const Box& box) const {
+  double low[2], high[2];
+  for (int k = 0; k < 2; ++k) {
+    low[k] = std::max<double>(box.low[k], cell.low[k] - margin_);
+    high[k] = std::min<double>(box.high[k], cell.high[k] + margin_);
+    if (low[k] < outline.box.low[k] || high[k] > outline.box.high[k]) return true;
+  }
+  return !holds(outline, low, high);
+}
+
+/// Drops outlines that a large one holds in the cell: it hides their edges and what they hide. True
+/// if one holds all of the cell.
+bool OutlineUnion::drop_held(Cell& cell) {
+  constexpr Box kEverything = {
+      {-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()},
+      {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()}};
+  for (std::uint32_t i = cell.first; i < cell.end; ++i) {
+    const Outline& holder = outlines_[members_[i].outline];
+    if (!is_outside(holder, cell, kEverything)) return true;
+    if (i >= cell.first + kHolders) continue;
+    std::uint32_t end = i + 1;
+    for (std::uint32_t k = end; k < cell.end; ++k) {
+      if (is_outside(holder, cell, members_[k].box)) members_[end++] = members_[k];
+    }
+    cell.end = end;
+  }
+  members_.resize(cell.end);
   return false;
 }
 
@@ -71,7 +92,7 @@ GNOMON_FOR_AVX2 void OutlineUnion::clip(const LineBlock& block, const Cell& cell
 
 /// Halves the cell between the ends of its outlines' boxes, across its longer side. False if that
 /// keeps none apart.
-bool OutlineUnion::halve(const Cell& cell, std::vector<Cell>& cells) {
+bool OutlineUnion::halve(const Cell& cell) {
   const int axis = cell.high[0] - cell.low[0] >= cell.high[1] - cell.low[1] ? 0 : 1;
   ends_.clear();
   const std::uint32_t every = 1 + (cell.end - cell.first) / kAsked;
@@ -106,8 +127,8 @@ bool OutlineUnion::halve(const Cell& cell, std::vector<Cell>& cells) {
   members_.insert(members_.begin() + cell.first, high_members_.begin(), high_members_.end());
   high.end = low.first = cell.first + highs;
   low.end = low.first + lows;
-  cells.push_back(high);
-  cells.push_back(low);
+  cells_.push_back(high);
+  cells_.push_back(low);
   return true;
 }
 
@@ -163,34 +184,29 @@ void OutlineUnion::sort_members() {
 
 void OutlineUnion::add_cells() {
   sort_members();
+  margin_ = 4 * slack_ + most_error_;
   Cell whole;
   whole.end = static_cast<std::uint32_t>(members_.size());
-  if (whole.end <= kLeaf) {
-    add_leaf(whole, false);
-    return;
-  }
-  margin_ = 4 * slack_ + most_error_;
+  const bool is_cut = whole.end > kLeaf;
   for (int k = 0; k < 2; ++k) {
     whole.low[k] = kInfinity;
     whole.high[k] = -kInfinity;
-  }
-  for (const Member& member : members_) {
-    for (int k = 0; k < 2; ++k) {
+    for (const Member& member : members_) {
       whole.low[k] = std::min<double>(whole.low[k], member.box.low[k]);
       whole.high[k] = std::max<double>(whole.high[k], member.box.high[k]);
     }
   }
-  std::vector<Cell> cells{whole};
-  while (!cells.empty()) {
-    const Cell cell = cells.back();
-    cells.pop_back();
+  cells_.assign(1, whole);
+  while (!cells_.empty()) {
+    Cell cell = cells_.back();
+    cells_.pop_back();
     members_.resize(cell.end);
-    if (is_held(cell)) continue;
+    if (drop_held(cell)) continue;
     if (cell.end - cell.first > kLeaf && cell.depth < kDeepest && cell.in_vain < kMostInVain &&
-        halve(cell, cells)) {
+        halve(cell)) {
       continue;
     }
-    add_leaf(cell, true);
+    add_leaf(cell, is_cut);
   }
 }
 

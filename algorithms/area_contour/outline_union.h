@@ -188,8 +188,10 @@ class OutlineUnion {
   void add_rest(const Edge& edge);
   void add_cells();
   void sort_members();
-  bool is_held(const Cell& cell) const;
-  bool halve(const Cell& cell, std::vector<Cell>& cells);
+  bool holds(const Outline& outline, const double (&low)[2], const double (&high)[2]) const;
+  bool is_outside(const Outline& outline, const Cell& cell, const Box& box) const;
+  bool drop_held(Cell& cell);
+  bool halve(const Cell& cell);
   void clip(const LineBlock& block, const Cell& cell, LineBlock& part) const;
   void add_leaf(const Cell& cell, bool is_cut);
   Box box_of(double low_x, double low_y, double high_x, double high_y) const;
@@ -206,6 +208,7 @@ class OutlineUnion {
   std::vector<Trimming> trimmings_;  // of the line at hand, in the order of lines
   std::vector<Stretch> covers_;      // of the edge at hand
   std::vector<Member> members_, high_members_;
+  std::vector<Cell> cells_;  // that are left
   std::vector<BoxBlock> leaf_;  // the cell at hand
   std::vector<std::uint64_t> sizes_;
   std::vector<double> ends_;
