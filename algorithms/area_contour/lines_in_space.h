@@ -7,6 +7,7 @@
 #ifndef GNOMON_ALGORITHMS_AREA_CONTOUR_LINES_IN_SPACE_H
 #define GNOMON_ALGORITHMS_AREA_CONTOUR_LINES_IN_SPACE_H
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -14,6 +15,7 @@
 
 #include "algorithms/area_contour/outline_union.h"
 #include "kernel/concept/kernel_concept.h"
+#include "kernel/implicit/plane_provenance.h"
 
 namespace gnomon::area_contour {
 
@@ -31,6 +33,9 @@ class LinesInSpace final : public ExactLines {
     nowhere_.bound = std::numeric_limits<float>::infinity();
   }
 
+  bool is_known_same(const OutlineLine& a, const OutlineLine& b) override {
+    return name_of(a.plane) == name_of(b.plane);
+  }
   /// A line is another one if that holds both points in which it meets the receiver's border.
   bool is_same(const OutlineLine& a, const OutlineLine& b) override {
     const auto n = static_cast<std::uint32_t>(corners_.size());
@@ -64,6 +69,19 @@ class LinesInSpace final : public ExactLines {
   }
 
  private:
+  /// What a line is known by: planes through three input vertices by the three, others by their
+  /// number.
+  std::array<std::uint32_t, 3> name_of(PlaneRef plane) const {
+    constexpr std::uint32_t kSupport = 0xffffffffu, kAdded = 0xfffffffdu;  // no vertices
+    const std::uint32_t number = plane.index();
+    if (number < space_.edges().planes) return {number, kSupport, kSupport};
+    const VolumePlaneSource& source = space_.source_of(plane);
+    if (source.is_explicit()) return {number, kAdded, kAdded};
+    std::array<std::uint32_t, 3> points = source.vertices;
+    std::ranges::sort(points);
+    return points;
+  }
+
   Space& space_;
   LoopView<Vertex> loop_;
   const std::vector<Corner<Vertex>>& corners_;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
-// Many outlines on one receiver: the chart is halved into cells until few outlines meet in one, and
-// edges are taken cell by cell. Only edges are cut where cells meet, at one place for both sides,
-// so that a cell keeps nothing and its border adds nothing. A cell that one outline holds has no
-// edge that is seen.
+// Many outlines on one receiver: the chart is halved into cells until few outlines meet in one.
+// Only then are edges cut where cells meet, at one place for both sides, so that a cell keeps
+// nothing and its border adds nothing. A cell that one outline holds has no edge that is seen.
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <functional>
-#include <numeric>
 
+#include "algorithms/area_contour/four_doubles.h"
 #include "algorithms/area_contour/outline_union.h"
 
 namespace gnomon::area_contour {
@@ -15,172 +14,199 @@ namespace {
 
 /// Cells with more outlines are halved if that keeps some apart, in the middle of some of their
 /// ends.
-constexpr std::uint32_t kLeaf = 64, kAsked = 64;
+constexpr std::uint32_t kLeaf = 64, kAsked = 64, kHolders = 3;
 constexpr int kDeepest = 40, kMostInVain = 4;
 /// Of the receiver's size: cells do not meet where outlines end.
 constexpr double kAside = 0.7351e-7;
+/// Lines that turn less against an axis run along it.
+constexpr double kAlong = 0x1p-900;
 
 }  // namespace
 
-/// Whether all that lies in the cell is inside of one outline.
-bool OutlineUnion::is_held(const Cell& cell) const {
-  const double low[] = {cell.box.low[0] - margin_, cell.box.low[1] - margin_};
-  const double high[] = {cell.box.high[0] + margin_, cell.box.high[1] + margin_};
-  for (std::uint32_t i = cell.first_outline; i < cell.end_outline; ++i) {
-    const Outline& outline = outlines_[cell_outlines_[i]];
-    if (outline.box.low[0] > low[0] || outline.box.low[1] > low[1] ||
-        outline.box.high[0] < high[0] || outline.box.high[1] < high[1]) {
-      continue;
-    }
-    bool holds = true;
-    for (std::uint32_t k = outline.first; holds && k < outline.first + outline.count; ++k) {
-      const OutlineLine& line = lines_[k];
-      const double least = line.a * (line.a > 0 ? low[0] : high[0]) +
-                           line.b * (line.b > 0 ? low[1] : high[1]) + line.c;
-      holds = least > line.error + slack_;
-    }
-    if (holds) return true;
+/// Whether all of a rectangle is certainly inside of an outline.
+GNOMON_FOR_AVX2 bool OutlineUnion::holds(const Outline& outline, const double (&low)[2],
+                                         const double (&high)[2]) const {
+  for (std::uint32_t i = outline.first; i < outline.end; ++i) {
+    const Doubles &a = row(blocks_[i].a), &b = row(blocks_[i].b);
+    const Doubles x = a > 0 ? a * low[0] : a * high[0], y = b > 0 ? b * low[1] : b * high[1];
+    const Bits inside = x + y + row(blocks_[i].c) > row(blocks_[i].error) + slack_;
+    if (!all(inside)) return false;
   }
+  return true;
+}
+
+/// Whether a box and the cell have more in common than the inside of an outline.
+inline bool OutlineUnion::is_outside(const Outline& outline, const Cell& cell,
+                                     const Box& box) const {
+  double low[2], high[2];
+  for (int k = 0; k < 2; ++k) {
+    low[k] = std::max<double>(box.low[k], cell.low[k] - margin_);
+    high[k] = std::min<double>(box.high[k], cell.high[k] + margin_);
+    if (low[k] < outline.box.low[k] || high[k] > outline.box.high[k]) return true;
+  }
+  return !holds(outline, low, high);
+}
+
+/// Drops outlines that a large one holds in the cell: it hides their edges and what they hide. True
+/// if one holds all of the cell.
+bool OutlineUnion::drop_held(Cell& cell) {
+  constexpr Box kEverything = {
+      {-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()},
+      {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()}};
+  for (std::uint32_t i = cell.first; i < cell.end; ++i) {
+    const Outline& holder = outlines_[members_[i].outline];
+    if (!is_outside(holder, cell, kEverything)) return true;
+    if (i >= cell.first + kHolders) continue;
+    std::uint32_t end = i + 1;
+    for (std::uint32_t k = end; k < cell.end; ++k) {
+      if (is_outside(holder, cell, members_[k].box)) members_[end++] = members_[k];
+    }
+    cell.end = end;
+  }
+  members_.resize(cell.end);
   return false;
 }
 
-/// Puts a part of an edge, or two of it, where it lies of a line across an axis.
-void OutlineUnion::divide(const Part& part, int axis, double at) {
-  const OutlineLine& line = lines_[edges_[part.edge].line];
-  const double origin = -line.c * (axis == 0 ? line.a : line.b);
-  const double slope = axis == 0 ? line.b : -line.a;
-  const double from = origin + slope * part.from, to = origin + slope * part.to;
-  if (from <= at && to <= at) {
-    low_edges_.push_back(part);
-  } else if (from >= at && to >= at) {
-    high_edges_.push_back(part);
-  } else {
-    const double place = std::clamp((at - origin) / slope, part.from, part.to);
-    (slope > 0 ? low_edges_ : high_edges_).push_back({part.edge, part.from, place});
-    (slope > 0 ? high_edges_ : low_edges_).push_back({part.edge, place, part.to});
+/// Of each edge what lies in the cell; from >= to where that is nothing. The place where an edge
+/// meets a border depends on the two alone, so that cells on both sides have it. Its coordinate
+/// there is off by less than the slack.
+GNOMON_FOR_AVX2 void OutlineUnion::clip(const LineBlock& block, const Cell& cell,
+                                        LineBlock& part) const {
+  Doubles from = row(block.from), to = row(block.to);
+  for (int axis = 0; axis < 2; ++axis) {
+    const Doubles origin = -row(block.c) * (axis == 0 ? row(block.a) : row(block.b));
+    const Doubles slope = axis == 0 ? row(block.b) : -row(block.a);
+    const Bits rises = slope > kAlong, falls = slope < -kAlong;
+    const Doubles inverse = 1 / slope;
+    const Doubles enters = (cell.low[axis] - origin) * inverse,
+                  leaves = (cell.high[axis] - origin) * inverse;
+    from = rises & (enters > from) ? enters : falls & (leaves > from) ? leaves : from;
+    to = rises & (leaves < to) ? leaves : falls & (enters < to) ? enters : to;
+    const Bits is_beside =
+        ~rises & ~falls & ((origin <= cell.low[axis]) | (origin > cell.high[axis]));
+    to = is_beside ? from : to;
   }
-}
-
-/// The edge, ended where cells meet.
-OutlineUnion::Edge OutlineUnion::edge_of(const Part& part) const {
-  Edge edge = edges_[part.edge];
-  Stretch& stretch = edge.stretch;
-  const bool begins = part.from > stretch.low.outer, ends = part.to < stretch.high.outer;
-  if (begins) {
-    if (stretch.low.inner <= part.from) stretch.low = {part.from, part.from};
-    stretch.low.outer = part.from;
-  }
-  if (ends) {
-    if (stretch.high.inner >= part.to) stretch.high = {part.to, part.to};
-    stretch.high.outer = part.to;
-  }
-  if (begins || ends) edge.box = box_of(lines_[edge.line], part.from, part.to);
-  return edge;
+  row(part.from) = from;
+  row(part.to) = to;
 }
 
 /// Halves the cell between the ends of its outlines' boxes, across its longer side. False if that
 /// keeps none apart.
-bool OutlineUnion::halve(const Cell& cell, std::vector<Cell>& cells) {
-  const double width = cell.box.high[0] - cell.box.low[0],
-               height = cell.box.high[1] - cell.box.low[1];
-  const int axis = width >= height ? 0 : 1;
+bool OutlineUnion::halve(const Cell& cell) {
+  const int axis = cell.high[0] - cell.low[0] >= cell.high[1] - cell.low[1] ? 0 : 1;
   ends_.clear();
-  const std::uint32_t every = 1 + (cell.end_outline - cell.first_outline) / kAsked;
-  for (std::uint32_t i = cell.first_outline; i < cell.end_outline; i += every) {
-    const Box& box = outlines_[cell_outlines_[i]].box;
+  const std::uint32_t every = 1 + (cell.end - cell.first) / kAsked;
+  for (std::uint32_t i = cell.first; i < cell.end; i += every) {
+    const Box& box = members_[i].box;
     for (const double end : {box.low[axis], box.high[axis]}) {
-      if (end > cell.box.low[axis] && end < cell.box.high[axis]) ends_.push_back(end);
+      if (end > cell.low[axis] && end < cell.high[axis]) ends_.push_back(end);
     }
   }
   if (ends_.empty()) return false;
   const auto middle = ends_.begin() + static_cast<std::ptrdiff_t>(ends_.size() / 2);
   std::nth_element(ends_.begin(), middle, ends_.end());
   const double at = *middle + kAside * receiver_->reach;
-  if (!(at > cell.box.low[axis]) || !(at < cell.box.high[axis])) return false;
-  low_edges_.clear();
-  high_edges_.clear();
-  for (std::uint32_t i = cell.first_edge; i < cell.end_edge; ++i) {
-    divide(cell_edges_[i], axis, at);
-  }
-  high_outlines_.clear();
-  Cell low = cell, high = cell;
-  low.box.high[axis] = high.box.low[axis] = at;
-  low.depth = high.depth = cell.depth + 1;
-  // The cell's own lists are needed no more once the children's are known; the high one's lie
-  // below, since the low one is taken first.
-  const std::uint32_t count = cell.end_outline - cell.first_outline;
+  if (!(at > cell.low[axis]) || !(at < cell.high[axis])) return false;
+  // The cell's own list is needed no more once the children's are known; the high one's lies below,
+  // since the low one is taken first.
+  high_members_.clear();
+  const std::uint32_t count = cell.end - cell.first;
   std::uint32_t lows = 0;
-  for (std::uint32_t i = cell.first_outline; i < cell.end_outline; ++i) {
-    const std::uint32_t outline = cell_outlines_[i];
-    const Box& box = outlines_[outline].box;
-    if (box.high[axis] >= at - margin_) high_outlines_.push_back(outline);
-    if (box.low[axis] <= at + margin_) cell_outlines_[cell.first_outline + lows++] = outline;
+  for (std::uint32_t i = cell.first; i < cell.end; ++i) {
+    const Member member = members_[i];
+    if (member.box.high[axis] >= at - margin_) high_members_.push_back(member);
+    if (member.box.low[axis] <= at + margin_) members_[cell.first + lows++] = member;
   }
-  const auto highs = static_cast<std::uint32_t>(high_outlines_.size());
+  const auto highs = static_cast<std::uint32_t>(high_members_.size());
+  Cell low = cell, high = cell;
+  low.high[axis] = high.low[axis] = at;
+  low.depth = high.depth = cell.depth + 1;
   low.in_vain = 10 * lows > 9 * count ? cell.in_vain + 1 : 0;
   high.in_vain = 10 * highs > 9 * count ? cell.in_vain + 1 : 0;
-  cell_outlines_.resize(cell.first_outline + lows);
-  cell_outlines_.insert(cell_outlines_.begin() + cell.first_outline, high_outlines_.begin(),
-                        high_outlines_.end());
-  high.first_outline = cell.first_outline;
-  high.end_outline = low.first_outline = cell.first_outline + highs;
-  low.end_outline = low.first_outline + lows;
-  cell_edges_.resize(cell.first_edge);
-  cell_edges_.insert(cell_edges_.end(), high_edges_.begin(), high_edges_.end());
-  high.first_edge = cell.first_edge;
-  high.end_edge = low.first_edge = static_cast<std::uint32_t>(cell_edges_.size());
-  cell_edges_.insert(cell_edges_.end(), low_edges_.begin(), low_edges_.end());
-  low.end_edge = static_cast<std::uint32_t>(cell_edges_.size());
-  cells.push_back(high);
-  cells.push_back(low);
+  members_.resize(cell.first + lows);
+  members_.insert(members_.begin() + cell.first, high_members_.begin(), high_members_.end());
+  high.end = low.first = cell.first + highs;
+  low.end = low.first + lows;
+  cells_.push_back(high);
+  cells_.push_back(low);
   return true;
 }
 
-void OutlineUnion::add_cells() {
-  const auto count = static_cast<std::uint32_t>(outlines_.size());
-  cell_outlines_.resize(count);
-  std::iota(cell_outlines_.begin(), cell_outlines_.end(), 0u);
-  // The largest first, since they hide most.
-  sizes_.clear();
-  for (const Outline& outline : outlines_) {
-    const Box& box = outline.box;
-    sizes_.push_back((box.high[0] - box.low[0]) * (box.high[1] - box.low[1]));
+/// Adds what is seen of the edges of a cell's outlines, of those that are cut that in the cell.
+void OutlineUnion::add_leaf(const Cell& cell, bool is_cut) {
+  leaf_.clear();
+  for (std::uint32_t i = cell.first; i < cell.end; ++i) {
+    const std::uint32_t k = (i - cell.first) % 8;
+    if (k == 0) {
+      BoxBlock& block = leaf_.emplace_back();
+      std::ranges::fill(block.low_x, std::numeric_limits<float>::infinity());
+    }
+    BoxBlock& block = leaf_.back();
+    const auto& [box, outline] = members_[i];
+    block.low_x[k] = box.low[0];
+    block.low_y[k] = box.low[1];
+    block.high_x[k] = box.high[0];
+    block.high_y[k] = box.high[1];
+    block.outline[k] = outline;
   }
-  std::ranges::stable_sort(cell_outlines_, std::greater{},
-                           [&](std::uint32_t outline) { return sizes_[outline]; });
-  if (count <= kLeaf) {
-    for (const Edge& edge : edges_) add_edge(edge, cell_outlines_);
-    return;
-  }
-  margin_ = 4 * slack_;
-  for (const OutlineLine& line : lines_) margin_ = std::max(margin_, 4 * slack_ + line.error);
-  cell_edges_.clear();
-  for (std::uint32_t i = 0; i < edges_.size(); ++i) {
-    cell_edges_.push_back({i, edges_[i].stretch.low.outer, edges_[i].stretch.high.outer});
-  }
-  Cell whole{outlines_[0].box, 0, count, 0, static_cast<std::uint32_t>(edges_.size())};
-  for (const Outline& outline : outlines_) {
-    for (int k = 0; k < 2; ++k) {
-      whole.box.low[k] = std::min(whole.box.low[k], outline.box.low[k]);
-      whole.box.high[k] = std::max(whole.box.high[k], outline.box.high[k]);
+  LineBlock part;
+  for (std::uint32_t i = cell.first; i < cell.end; ++i) {
+    const std::uint32_t number = members_[i].outline;
+    for (std::uint32_t b = outlines_[number].first; b < outlines_[number].end; ++b) {
+      const LineBlock& block = blocks_[b];
+      if (is_cut) clip(block, cell, part);
+      const LineBlock& ends = is_cut ? part : block;
+      for (std::uint32_t k = 0; k < 4; ++k) {
+        if (ends.from[k] < ends.to[k]) {
+          add_edge(edge_on(4 * b + k, number, ends.from[k], ends.to[k]));
+        }
+      }
     }
   }
-  std::vector<Cell> cells{whole};
-  while (!cells.empty()) {
-    const Cell cell = cells.back();
-    cells.pop_back();
-    cell_outlines_.resize(cell.end_outline);
-    cell_edges_.resize(cell.end_edge);
-    if (cell.first_edge == cell.end_edge || is_held(cell)) continue;
-    if (cell.end_outline - cell.first_outline > kLeaf && cell.depth < kDeepest &&
-        cell.in_vain < kMostInVain && halve(cell, cells)) {
+}
+
+/// All outlines, the largest first, since they hide most.
+void OutlineUnion::sort_members() {
+  sizes_.clear();
+  for (std::uint32_t i = 0; i < outlines_.size(); ++i) {
+    const Box& box = outlines_[i].box;
+    const float size = (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
+    // The bits of numbers that are not negative are in their order.
+    sizes_.push_back(std::uint64_t{~std::bit_cast<std::uint32_t>(size)} << 32 | i);
+  }
+  std::ranges::sort(sizes_);
+  members_.clear();
+  for (const std::uint64_t size : sizes_) {
+    const auto number = static_cast<std::uint32_t>(size);
+    members_.push_back({outlines_[number].box, number});
+  }
+}
+
+void OutlineUnion::add_cells() {
+  sort_members();
+  margin_ = 4 * slack_ + most_error_;
+  Cell whole;
+  whole.end = static_cast<std::uint32_t>(members_.size());
+  const bool is_cut = whole.end > kLeaf;
+  for (int k = 0; k < 2; ++k) {
+    whole.low[k] = kInfinity;
+    whole.high[k] = -kInfinity;
+    for (const Member& member : members_) {
+      whole.low[k] = std::min<double>(whole.low[k], member.box.low[k]);
+      whole.high[k] = std::max<double>(whole.high[k], member.box.high[k]);
+    }
+  }
+  cells_.assign(1, whole);
+  while (!cells_.empty()) {
+    Cell cell = cells_.back();
+    cells_.pop_back();
+    members_.resize(cell.end);
+    if (drop_held(cell)) continue;
+    if (cell.end - cell.first > kLeaf && cell.depth < kDeepest && cell.in_vain < kMostInVain &&
+        halve(cell)) {
       continue;
     }
-    const std::span<const std::uint32_t> others{cell_outlines_.data() + cell.first_outline,
-                                                cell.end_outline - cell.first_outline};
-    for (std::uint32_t i = cell.first_edge; i < cell.end_edge; ++i) {
-      add_edge(edge_of(cell_edges_[i]), others);
-    }
+    add_leaf(cell, is_cut);
   }
 }
 

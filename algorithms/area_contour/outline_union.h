@@ -19,6 +19,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,8 @@ inline constexpr double kSlack = 0x1p-47;
 class ExactLines {
  public:
   virtual ~ExactLines() = default;
+  /// Whether two lines are known to be one by what they were made from. False: they may be.
+  virtual bool is_known_same(const OutlineLine& a, const OutlineLine& b) = 0;
   /// Whether two lines are one.
   virtual bool is_same(const OutlineLine& a, const OutlineLine& b) = 0;
   /// On which side of `line` is the point where two others meet. Requires: they cross.
@@ -67,6 +70,8 @@ class OutlineUnion {
 
  private:
   static constexpr std::uint32_t kNoLine = 0xffffffffu;
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
   /// Where a stretch of a line begins or ends: the place lies between the two values; seen from
   /// inside the stretch, `outer` is beyond `inner`.
   struct End {
@@ -87,28 +92,42 @@ class OutlineUnion {
   struct Carrier {
     std::uint32_t line = kNoLine, corner = 0;
   };
+  /// Rounded outward.
   struct Box {
-    double low[2], high[2];
-    bool meets(const Box& other) const {
-      return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] &&
-             other.low[1] <= high[1];
-    }
+    float low[2], high[2];
+  };
+  /// Four lines of an outline, and its edges on them: what its own lines and the receiver leave of
+  /// each, between outer ends. What fills up the last block is positive everywhere and no edge.
+  /// A line's number is that of its block times four and its place there.
+  struct alignas(32) LineBlock {
+    double a[4] = {}, b[4] = {}, c[4] = {kFar, kFar, kFar, kFar}, error[4] = {};
+    double from[4] = {}, to[4] = {};
+    PlaneRef plane[4];
+    static constexpr double kFar = 0x1p100;
+  };
+  /// Corners strictly before and behind a line.
+  struct Sides {
+    CornerMask before = 0, behind = 0;
   };
   struct Outline {
-    std::uint32_t first = 0, count = 0;  // of lines_
+    std::uint32_t first = 0, end = 0;  // of blocks_
     Box box;
   };
-  /// An edge of an outline: what its own lines and the receiver leave of a line.
+  /// A part of an edge of an outline, between outer ends.
   struct Edge {
     std::uint32_t line = 0, outline = 0;
-    Stretch stretch;
-    Box box;
-  };
-  /// Of an edge what lies in a cell, between two places.
-  struct Part {
-    std::uint32_t edge = 0;
+    double a = 0, b = 0, c = 0, error = 0;  // of its line
     double from = 0, to = 0;
   };
+  /// What a line does to a stretch that it crosses.
+  struct Trimming {
+    double place = 0, radius = 0;
+    std::uint32_t line = 0;
+    bool is_near = false;   // perhaps the line that the stretch is of; no place
+    bool begins = false;    // what is inside begins there
+    bool is_known = false;  // the lines certainly cross
+  };
+  enum class Cover : std::uint8_t { kNothing, kSome, kAll };
   struct Lengths {
     double certain = 0, perhaps = 0;
   };
@@ -117,18 +136,42 @@ class OutlineUnion {
     End before, after;
   };
   struct Trim;
-  /// A rectangle of the chart: ranges of cell_outlines_, those that may meet it, and cell_edges_,
-  /// the stretches of edges in it.
-  struct Cell {
+  /// The border of the covered part, as a walk that must come back to where it began: whoever has
+  /// lost a piece of it does not.
+  struct Walk {
+    double x = 0, y = 0, error = 0;
+    void add(double dx, double dy, double middle, double radius);
+    bool is_closed() const;
+  };
+  /// An outline in a cell.
+  struct Member {
     Box box;
-    std::uint32_t first_outline = 0, end_outline = 0, first_edge = 0, end_edge = 0;
+    std::uint32_t outline = 0;
+  };
+  /// Boxes of eight outlines of a cell.
+  struct alignas(32) BoxBlock {
+    float low_x[8], low_y[8], high_x[8], high_y[8];
+    std::uint32_t outline[8];
+  };
+  /// An outline that may hold some of the receiver's border: of its edges behind those corners.
+  struct Bordering {
+    std::uint32_t outline = 0;
+    CornerMask edges = 0;
+  };
+  /// A rectangle of the chart: a range of members_, the outlines that may meet it.
+  struct Cell {
+    double low[2] = {}, high[2] = {};
+    std::uint32_t first = 0, end = 0;
     int depth = 0, in_vain = 0;
   };
 
-  Stretch in_receiver(const OutlineLine& line) const;
-  bool trim(std::uint32_t own, std::uint32_t by, Trim& trim) const;
+  OutlineLine line_of(std::uint32_t line) const;
+  Edge edge_on(std::uint32_t line, std::uint32_t outline, double from, double to) const;
+  Stretch in_receiver(const Edge& line) const;
+  CornerMask edges_of_border(std::span<const OutlineLine> lines) const;
+  bool trim(const Edge& own, const Outline& outline);
   bool cut_by_own(const Outline& outline, std::uint32_t line, Stretch& stretch);
-  bool cover(const Edge& edge, std::uint32_t other, Stretch& stretch) const;
+  Cover cover(const Edge& edge, std::uint32_t other, Stretch& stretch);
   bool hides(const Edge& edge, std::uint32_t other);
   bool cover_border(std::uint32_t corner, const Outline& outline, Stretch& stretch) const;
   bool is_one(std::uint32_t a, std::uint32_t b) const;
@@ -141,27 +184,38 @@ class OutlineUnion {
   UnionShare integrate();
   void add_integral(double height, double height_error, const Lengths& lengths);
   void add_borders();
-  void add_edge(const Edge& edge, std::span<const std::uint32_t> others);
+  void add_edge(const Edge& edge);
+  void add_rest(const Edge& edge);
   void add_cells();
-  bool is_held(const Cell& cell) const;
-  bool halve(const Cell& cell, std::vector<Cell>& cells);
-  void divide(const Part& part, int axis, double at);
-  Edge edge_of(const Part& part) const;
-  Box box_of(const OutlineLine& line, double from, double to) const;
+  void sort_members();
+  bool holds(const Outline& outline, const double (&low)[2], const double (&high)[2]) const;
+  bool is_outside(const Outline& outline, const Cell& cell, const Box& box) const;
+  bool drop_held(Cell& cell);
+  bool halve(const Cell& cell);
+  void clip(const LineBlock& block, const Cell& cell, LineBlock& part) const;
+  void add_leaf(const Cell& cell, bool is_cut);
+  Box box_of(double low_x, double low_y, double high_x, double high_y) const;
+  Box box_of(const Edge& edge) const;
 
   const ReceiverChart* receiver_ = nullptr;
   ExactLines* exact_ = nullptr;
-  double slack_ = 0, margin_ = 0;  // of places in a cell
-  std::vector<OutlineLine> lines_;
+  double slack_ = 0, most_error_ = 0;  // of lines
+  double margin_ = 0;                  // of places in a cell
+  std::vector<LineBlock> blocks_;
+  std::vector<Sides> sides_;  // of lines
   std::vector<Outline> outlines_;
-  std::vector<Edge> edges_;
-  std::vector<Stretch> covers_;  // of the edge at hand
-  std::vector<std::uint32_t> cell_outlines_, high_outlines_;
-  std::vector<Part> cell_edges_, low_edges_, high_edges_;
-  std::vector<double> ends_, sizes_;
+  std::vector<Bordering> bordering_;
+  std::vector<Trimming> trimmings_;  // of the line at hand, in the order of lines
+  std::vector<Stretch> covers_;      // of the edge at hand
+  std::vector<Member> members_, high_members_;
+  std::vector<Cell> cells_;  // that are left
+  std::vector<BoxBlock> leaf_;  // the cell at hand
+  std::vector<std::uint64_t> sizes_;
+  std::vector<double> ends_;
   std::uint32_t last_hider_ = 0;  // the outline that hid the last edge that was hidden
   std::vector<Gap> certain_gaps_, perhaps_gaps_;  // of the stretch at hand
   bool is_sharp_ = false;
+  Walk walk_;
   double sum_ = 0, error_ = 0;  // twice the covered area
   bool is_flat_ = false;        // the outline at hand has no area
   bool some_left_ = false;      // something is perhaps not covered

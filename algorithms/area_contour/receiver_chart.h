@@ -21,16 +21,12 @@ using Point3 = std::array<double, 3>;
 using CornerMask = std::uint64_t;
 inline constexpr std::uint32_t kMostCorners = 64;
 
-/// What a line is known by: lines of one receiver with the same name are the same line.
-using LineName = std::array<std::uint32_t, 3>;
-
 /// A line of the chart that passes through the receiver: a x + b y + c with (a, b) of length 1, its
 /// outline where that is positive. For every point of the receiver the true distance is within
 /// `error` of the value.
 struct OutlineLine {
   double a = 0, b = 0, c = 0, error = 0;
-  PlaneRef plane;  // with the outline in front
-  LineName name{};
+  PlaneRef plane;                     // with the outline in front
   CornerMask before = 0, behind = 0;  // corners strictly on the outline's side, and on the other
 };
 
@@ -64,7 +60,7 @@ struct ReceiverChart {
   /// plane at them. False if doubles say too little of so small or so thin a receiver.
   bool make(const Point3& n, const std::vector<Point3>& loop, double input_error,
             double plane_error);
-  /// The line in which a plane meets the receiver, without a name. False if doubles say too little
+  /// The line in which a plane meets the receiver. False if doubles say too little
   /// of it.
   bool add_line(const PlaneDoubles& plane, CornerMask before, CornerMask behind,
                 std::vector<OutlineLine>& lines) const;

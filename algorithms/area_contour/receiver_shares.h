@@ -32,7 +32,6 @@
 #include "algorithms/shadow_volumes/light_in_space.h"
 #include "kernel/concept/kernel_concept.h"
 #include "kernel/implicit/filter_bounds.h"
-#include "kernel/implicit/plane_provenance.h"
 
 namespace gnomon::area_contour {
 
@@ -121,7 +120,6 @@ class ReceiverShares {
                      bool penumbra = true);
   std::optional<Shares> shares();
   Relation relate(Space& space, std::span<const PlaneRef> planes, Border border);
-  static LineName name_of(const Space& space, PlaneRef plane);
 
   PlaneRef support_;
   std::vector<Corner<Vertex>> corners_;  // in the chart's order
@@ -164,16 +162,6 @@ bool ReceiverShares<Space>::make_chart(const Space& space, const Loop& whole) {
   return true;
 }
 
-template <VolumeSpaceModel Space>
-LineName ReceiverShares<Space>::name_of(const Space& space, PlaneRef plane) {
-  if (plane.index() < space.edges().planes) return names::of_support(plane.index());
-  const VolumePlaneSource& source = space.source_of(plane);
-  if (source.is_explicit()) return names::of_added(plane.index());
-  LineName points = source.vertices;
-  std::ranges::sort(points);
-  return points;
-}
-
 /// Leaves the lines that cross the receiver in lines_.
 template <VolumeSpaceModel Space>
 typename ReceiverShares<Space>::Relation ReceiverShares<Space>::relate(
@@ -200,7 +188,6 @@ typename ReceiverShares<Space>::Relation ReceiverShares<Space>::relate(
       doubles.point = &point;
     }
     is_open = !chart_.add_line(doubles, before, behind, lines_);
-    if (!is_open) lines_.back().name = name_of(space, plane);
   }
   if (is_open) return Relation::kOpen;
   return lines_.empty() ? Relation::kInside : Relation::kCrossing;

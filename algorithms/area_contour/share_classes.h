@@ -25,19 +25,6 @@ inline constexpr Shares kAllUmbra{{0, 0}, {0, 0}, {1, 1}};
 std::optional<Shares> shares_of(const std::optional<UnionShare>& penumbra, bool all_penumbra,
                                 const std::optional<UnionShare>& umbra);
 
-/// What lines of a receiver's chart are known by, but for planes through three input vertices:
-/// those are known by the three.
-namespace names {
-/// The line in which the receiver meets a support plane.
-inline constexpr LineName of_support(std::uint32_t plane) {
-  return {plane, 0xffffffffu, 0xffffffffu};
-}
-/// The line of an added plane that is not known otherwise.
-inline constexpr LineName of_added(std::uint32_t plane) {
-  return {plane, 0xfffffffdu, 0xfffffffdu};
-}
-}  // namespace names
-
 }  // namespace gnomon::area_contour
 
 #endif  // GNOMON_ALGORITHMS_AREA_CONTOUR_SHARE_CLASSES_H

@@ -75,6 +75,9 @@ class Lattice final : public ExactLines {
  public:
   std::vector<HalfPlane> lines;
 
+  bool is_known_same(const OutlineLine& a, const OutlineLine& b) override {
+    return a.plane == b.plane;
+  }
   bool is_same(const OutlineLine& a, const OutlineLine& b) override {
     const HalfPlane &p = of(a), &q = of(b);
     return p.a * q.b == p.b * q.a && p.a * q.c == p.c * q.a && p.b * q.c == p.c * q.b;
@@ -131,7 +134,6 @@ void check(const std::vector<Convex>& outlines, const mpq_class& truth, const st
       line.error = 0x1p-45;
       const auto number = static_cast<std::uint32_t>(exact.lines.size());
       line.plane = PlaneRef(number);
-      line.name = {number, 0, 0};
       exact.lines.push_back(half);
       const std::vector<Point> corners = square();
       for (std::uint32_t k = 0; k < 4; ++k) {
