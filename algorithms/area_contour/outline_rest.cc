@@ -30,8 +30,11 @@ OutlineUnion::End OutlineUnion::outside(const End& end) {
 }
 
 /// What certainly is seen: neither a cover nor one that perhaps is.
-void OutlineUnion::find_certain(const Stretch& stretch, Lengths& rest) {
-  certain_gaps_.clear();
+void OutlineUnion::find_certain(const Carrier& carrier, const Stretch& stretch, Lengths& rest) {
+  const auto add = [&](const End& before, const End& after) {
+    rest.certain += after.outer - before.outer;
+    rest.certain_integral += carrier.integral(before.outer, after.outer);
+  };
   if (!stretch.certainly_is()) return;
   std::ranges::sort(covers_, {}, [](const Stretch& cover) { return cover.low.outer; });
   End at = outside(stretch.low);
@@ -39,18 +42,21 @@ void OutlineUnion::find_certain(const Stretch& stretch, Lengths& rest) {
     if (at.outer >= stretch.high.inner) return;
     if (cover.low.outer > at.outer) {
       if (cover.low.outer >= stretch.high.inner) break;
-      rest.certain += cover.low.outer - at.outer;
-      certain_gaps_.push_back({at, cover.low});
+      add(at, cover.low);
     }
     if (cover.high.outer > at.outer) at = cover.high;
   }
   if (at.outer >= stretch.high.inner) return;
-  rest.certain += stretch.high.inner - at.outer;
-  certain_gaps_.push_back({at, outside(stretch.high)});
+  add(at, outside(stretch.high));
 }
 
 /// What perhaps is seen: no cover that is certain.
 void OutlineUnion::find_perhaps(const Carrier& carrier, const Stretch& stretch, Lengths& rest) {
+  const auto add = [&](const End& before, const End& after) {
+    rest.perhaps += after.inner - before.inner;
+    rest.perhaps_integral += carrier.integral(before.inner, after.inner);
+    perhaps_gaps_.push_back({before, after});
+  };
   perhaps_gaps_.clear();
   std::ranges::sort(covers_, {}, [](const Stretch& cover) { return cover.low.inner; });
   // Up to here all is covered. The stretch begins where a cover of what is before it would end.
@@ -60,74 +66,68 @@ void OutlineUnion::find_perhaps(const Carrier& carrier, const Stretch& stretch, 
     if (!cover.certainly_is()) continue;
     if (at.inner >= end.inner) return;
     if (cover.low.inner >= end.inner) break;
-    if (has_gap(carrier, at, cover.low, false)) {
-      rest.perhaps += cover.low.inner - at.inner;
-      perhaps_gaps_.push_back({at, cover.low});
-    }
+    if (has_gap(carrier, at, cover.low, false)) add(at, cover.low);
     if (cover.high.inner > at.inner) at = cover.high;
   }
-  if (!has_gap(carrier, at, end, true)) return;
-  rest.perhaps += end.inner - at.inner;
-  perhaps_gaps_.push_back({at, end});
+  if (has_gap(carrier, at, end, true)) add(at, end);
 }
 
-/// Measures gaps between sharper places, where it is certain which they are between: no other cover
-/// may reach in. What is outside of the stretch is among the covers here.
-void OutlineUnion::sharpen(const Carrier& carrier, Lengths& rest) {
-  const auto is_place = [](const End& a, const End& b) {
-    return a.line == b.line && a.other == b.other && a.inner == b.inner && a.outer == b.outer;
-  };
-  const auto is_same = [&](const Gap& a, const Gap& b) {
-    return is_place(a.before, b.before) && is_place(a.after, b.after);
-  };
-  if (carrier.line == kNoLine || !std::ranges::equal(certain_gaps_, perhaps_gaps_, is_same)) return;
-  const auto is_alone = [&](const Gap& gap) {
-    return std::ranges::none_of(covers_, [&](const Stretch& cover) {
-      return cover.low.outer < gap.after.inner && cover.high.outer > gap.before.inner &&
-             !is_place(cover.low, gap.after) && !is_place(cover.high, gap.before);
-    });
-  };
-  Lengths sharp;
-  // Of a place: the least and the greatest.
-  using Bounds = std::array<double, 2>;
-  const auto sharper = [&](std::uint32_t line) -> Bounds {
+/// Finds an end again from integers. Where the carrier was cut before the place, or behind it, the
+/// end is there: so a sharper place outside of what was known counts as that.
+void OutlineUnion::sharpen(const Carrier& carrier, End& end) const {
+  if (end.line == kNoLine || end.inner == end.outer) return;
+  // The least and the greatest place.
+  const auto place_of = [&](std::uint32_t line) -> std::array<double, 2> {
     const Ball place = exact_->place_on(line_of(carrier.line), line_of(line));
     return {place.lower(), place.upper()};
   };
-  const auto bounds = [&](const End& end, bool is_sharp) -> Bounds {
-    const Bounds known{std::min(end.inner, end.outer), std::max(end.inner, end.outer)};
-    if (!is_sharp || end.line == kNoLine || known[0] == known[1]) return known;
-    Bounds place = sharper(end.line);
-    if (end.other != kNoLine) {
-      const Bounds other = sharper(end.other);
-      for (std::size_t i = 0; i < 2; ++i) {
-        place[i] = end.begins ? std::max(place[i], other[i]) : std::min(place[i], other[i]);
-      }
+  std::array<double, 2> place = place_of(end.line);
+  if (end.other != kNoLine) {
+    const std::array<double, 2> other = place_of(end.other);
+    for (std::size_t i = 0; i < 2; ++i) {
+      place[i] = end.begins ? std::max(place[i], other[i]) : std::min(place[i], other[i]);
     }
-    // Where cells meet before the place, or behind it, the stretch ends there.
-    return {std::fmin(std::fmax(place[0], known[0]), known[1]),
-            std::fmax(std::fmin(place[1], known[1]), known[0])};
-  };
-  for (const Gap& gap : perhaps_gaps_) {
-    const bool is_sharp = is_alone(gap);
-    const auto [first, after_first] = bounds(gap.before, is_sharp);
-    const auto [before_last, last] = bounds(gap.after, is_sharp);
-    sharp.certain += std::max(0.0, before_last - after_first);
-    sharp.perhaps += last - first;
   }
-  rest.certain = std::max(rest.certain, sharp.certain);
-  rest.perhaps = std::min(rest.perhaps, sharp.perhaps);
+  const double least = std::min(end.inner, end.outer), most = std::max(end.inner, end.outer);
+  if (!(place[0] <= place[1])) return;
+  const double low = std::clamp(place[0], least, most), high = std::clamp(place[1], least, most);
+  end.inner = end.inner == least ? low : high;
+  end.outer = end.outer == least ? low : high;
 }
 
-/// What the covers leave of a stretch.
-OutlineUnion::Lengths OutlineUnion::rest_of(const Carrier& carrier, const Stretch& stretch) {
-  Lengths rest;
-  find_certain(stretch, rest);
-  find_perhaps(carrier, stretch, rest);
-  if (is_sharp_) {
-    covers_.push_back({{-kInfinity, -kInfinity}, outside(stretch.low)});
-    covers_.push_back({outside(stretch.high), {kInfinity, kInfinity}});
-    sharpen(carrier, rest);
+/// Finds those ends again that have a part in what perhaps is seen; others change nothing of it.
+void OutlineUnion::sharpen(const Carrier& carrier, Stretch& stretch) {
+  const auto matters = [&](const End& end) {
+    return std::ranges::any_of(perhaps_gaps_, [&](const Gap& gap) {
+      return std::max(end.inner, end.outer) >= gap.before.inner &&
+             std::min(end.inner, end.outer) <= gap.after.inner;
+    });
+  };
+  sharpened_.clear();
+  for (End* end : {&stretch.low, &stretch.high}) {
+    if (matters(*end)) sharpened_.push_back(end);
+  }
+  for (Stretch& cover : covers_) {
+    for (End* end : {&cover.low, &cover.high}) {
+      if (matters(*end)) sharpened_.push_back(end);
+    }
+  }
+  for (End* end : sharpened_) sharpen(carrier, *end);
+}
+
+/// What the covers leave of a stretch. Where that leaves much open, which is so of a few edges that
+/// are long, across the receiver, or end where lines are nearly parallel, ends are found sharply.
+OutlineUnion::Lengths OutlineUnion::rest_of(const Carrier& carrier, Stretch stretch) {
+  const auto find = [&] {
+    Lengths rest;
+    find_certain(carrier, stretch, rest);
+    find_perhaps(carrier, stretch, rest);
+    return rest;
+  };
+  Lengths rest = find();
+  if (carrier.line != kNoLine && (rest.perhaps - rest.certain) * frame_.most > sharpen_above_) {
+    sharpen(carrier, stretch);
+    rest = find();
   }
   const double rounding = 2 * Ball::kUnit * static_cast<double>(covers_.size() + 4);
   rest.perhaps += rounding * rest.perhaps;

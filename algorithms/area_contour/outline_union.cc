@@ -12,7 +12,7 @@ namespace gnomon::area_contour {
 namespace {
 
 /// A choice, not a bound.
-constexpr double kSharpenAbove = 0x1p-24;
+constexpr double kSharpenAbove = 0x1p-46;
 
 bool has(CornerMask mask, std::uint32_t corner) { return (mask >> corner & 1) != 0; }
 
@@ -264,19 +264,51 @@ bool OutlineUnion::cover_border(std::uint32_t corner, const Outline& outline,
   return stretch.may_be();
 }
 
-/// Adds a stretch of a line whose distance from the origin is `height` to twice the area.
-void OutlineUnion::add_integral(double height, double height_error, const Lengths& lengths) {
-  const double middle = lengths.certain + (lengths.perhaps - lengths.certain) / 2;
-  const double radius = (lengths.perhaps - lengths.certain) / 2;
-  sum_ += height * middle;
-  error_ += (std::fabs(height) + height_error) * radius + height_error * lengths.perhaps +
-            8 * Ball::kUnit * std::fabs(height) * lengths.perhaps + Ball::kUnit * std::fabs(sum_);
+/// Along the longest edge of the receiver, from the middle of its heights.
+void OutlineUnion::set_frame() {
+  const ReceiverChart& receiver = *receiver_;
+  double longest = 0;
+  for (std::uint32_t k = 0; k < receiver.size(); ++k) {
+    const std::array<double, 2>&p = receiver.corners[k], &q = receiver.corners[receiver.next(k)];
+    const double dx = q[0] - p[0], dy = q[1] - p[1], length = std::sqrt(dx * dx + dy * dy);
+    if (!(length > longest)) continue;
+    longest = length;
+    frame_.x = dx / length;
+    frame_.y = dy / length;
+  }
+  frame_.middle = 0;
+  double low = kInfinity, high = -kInfinity;
+  for (const std::array<double, 2>& corner : receiver.corners) {
+    low = std::min(low, frame_.height(corner[0], corner[1]));
+    high = std::max(high, frame_.height(corner[0], corner[1]));
+  }
+  frame_.middle = low + (high - low) / 2;
+  frame_.most = (high - low) / 2 + 2 * receiver.error + slack_;
+}
+
+// The border's integral over true stretches lies between sums over those that certainly are seen
+// and those that perhaps are, in this sense: what the second have besides the first is partly in
+// it, and its heights are at most `most`. So it is off the middle of both by at most half of the
+// difference in length times that. A line's points are off by at most its error, across; then so
+// are heights, and the way along by its turn.
+//
+/// Adds stretches of a line, of which a length of 1 goes so far along the receiver, to the area.
+void OutlineUnion::add_integral(double along, double along_error, double height_error,
+                                const Lengths& lengths) {
+  const double integral =
+      lengths.certain_integral + (lengths.perhaps_integral - lengths.certain_integral) / 2;
+  const double radius = std::max(0.0, lengths.perhaps - lengths.certain) / 2;
+  const double far = std::fabs(along) + along_error;
+  sum_ -= along * integral;
+  error_ += far * (frame_.most + height_error) * radius +
+            (far * height_error + frame_.most * along_error) * lengths.perhaps +
+            8 * Ball::kUnit * far * frame_.most * lengths.perhaps + Ball::kUnit * std::fabs(sum_);
 }
 
 void OutlineUnion::add_borders() {
   const ReceiverChart& receiver = *receiver_;
   const double reach = receiver.reach;
-  const double height_error = 4 * reach * (receiver.error + 2 * Ball::kUnit * reach);
+  const double error = 4 * (receiver.error + 2 * Ball::kUnit * reach);
   const Stretch whole{{0, 0}, {1, 1}};
   for (std::uint32_t k = 0; k < receiver.size(); ++k) {
     covers_.clear();
@@ -291,12 +323,16 @@ void OutlineUnion::add_borders() {
       }
       covers_.push_back(stretch);
     }
-    const Lengths rest = hidden ? Lengths{} : rest_of({kNoLine, k}, whole);
-    some_left_ = some_left_ || rest.perhaps > 0;
     const std::array<double, 2>&p = receiver.corners[k], &q = receiver.corners[receiver.next(k)];
+    const double height = frame_.height(p[0], p[1]);
+    const Carrier carrier{kNoLine, k, height, frame_.height(q[0], q[1]) - height};
+    const Lengths rest = hidden ? Lengths{} : rest_of(carrier, whole);
+    some_left_ = some_left_ || rest.perhaps > 0;
     // What is covered of the border is the union's border.
-    add_integral(p[0] * q[1] - p[1] * q[0], height_error,
-                 {std::max(0.0, 1 - rest.perhaps), 1 - rest.certain});
+    const double all = carrier.integral(0, 1);
+    add_integral(frame_.along(q[0] - p[0], q[1] - p[1]), error, error,
+                 {std::max(0.0, 1 - rest.perhaps), 1 - rest.certain, all - rest.perhaps_integral,
+                  all - rest.certain_integral});
     const double middle = 1 - (rest.certain + rest.perhaps) / 2;
     walk_.add(q[0] - p[0], q[1] - p[1], middle, std::fabs(rest.perhaps - rest.certain) / 2);
     walk_.error += 4 * receiver.error;
@@ -315,32 +351,36 @@ void OutlineUnion::add_rest(const Edge& edge) {
     if (stretch.high.inner >= edge.to) stretch.high = {edge.to, edge.to};
     stretch.high.outer = edge.to;
   }
-  const Lengths rest = rest_of({edge.line, 0}, stretch);
+  const Carrier carrier{edge.line, 0, frame_.height(-edge.c * edge.a, -edge.c * edge.b),
+                        frame_.x * -edge.a - frame_.y * edge.b};
+  const Lengths rest = rest_of(carrier, stretch);
   if (!(rest.perhaps > 0)) return;
   some_left_ = true;
-  add_integral(edge.c, edge.error + slack_, rest);
   // The line's direction is off by its error over the receiver's size, at most.
   const double turned = 4 * (edge.error + slack_) / receiver_->reach;
+  add_integral(frame_.along(edge.b, -edge.a), turned, edge.error + slack_, rest);
   walk_.add(edge.b, -edge.a, (rest.certain + rest.perhaps) / 2,
             (rest.perhaps - rest.certain) / 2 + turned * rest.perhaps);
 }
 
-UnionShare OutlineUnion::integrate() {
+UnionShare OutlineUnion::share() {
   const ReceiverChart& receiver = *receiver_;
   sum_ = error_ = 0;
   some_left_ = false;
   walk_ = {};
   last_hider_ = 0;
-  add_cells();
-  add_borders();
+  set_frame();
   double area = 0;
   for (std::uint32_t k = 0; k < receiver.size(); ++k) {
     const std::array<double, 2>&p = receiver.corners[k], &q = receiver.corners[receiver.next(k)];
-    area += p[0] * q[1] - p[1] * q[0];
+    area += (p[0] * q[1] - p[1] * q[0]) / 2;
   }
   const double reach = receiver.reach, n = receiver.size();
-  const double area_error = n * (4 * reach * (receiver.error + 2 * Ball::kUnit * reach) +
+  const double area_error = n * (2 * reach * (receiver.error + 2 * Ball::kUnit * reach) +
                                  n * Ball::kUnit * reach * reach);
+  sharpen_above_ = kSharpenAbove * area;
+  add_cells();
+  add_borders();
   UnionShare result;
   result.hidden = !some_left_;
   result.covered = sum_ / area;
@@ -353,14 +393,6 @@ UnionShare OutlineUnion::integrate() {
     result.hidden = false;
   }
   return result;
-}
-
-UnionShare OutlineUnion::share() {
-  is_sharp_ = false;
-  UnionShare result = integrate();
-  if (result.hidden || result.error < kSharpenAbove) return result;
-  is_sharp_ = true;
-  return integrate();
 }
 
 }  // namespace gnomon::area_contour

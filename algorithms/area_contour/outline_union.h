@@ -88,9 +88,23 @@ class OutlineUnion {
     bool may_be() const { return low.outer < high.outer; }
     bool certainly_is() const { return is_certain && low.inner < high.inner; }
   };
-  /// What stretches are of: a line, or an edge of the receiver.
+  /// Coordinates along the receiver and across it, so that a narrow one has small heights: what is
+  /// not known of places along it then hardly matters. The integral over a border of the height
+  /// times the way along is the area.
+  struct Frame {
+    double x = 1, y = 0;          // the unit vector along
+    double middle = 0, most = 0;  // heights are taken from the middle, and are at most that
+    double along(double dx, double dy) const { return x * dx + y * dy; }
+    double height(double px, double py) const { return x * py - y * px - middle; }
+  };
+  /// What stretches are of: a line, or an edge of the receiver, with its height at place 0 and how
+  /// that grows.
   struct Carrier {
     std::uint32_t line = kNoLine, corner = 0;
+    double height = 0, slope = 0;
+    double integral(double from, double to) const {
+      return (to - from) * (height + slope * ((from + to) / 2));
+    }
   };
   /// Rounded outward.
   struct Box {
@@ -128,8 +142,10 @@ class OutlineUnion {
     bool is_known = false;  // the lines certainly cross
   };
   enum class Cover : std::uint8_t { kNothing, kSome, kAll };
+  /// Of stretches: their lengths, and the integrals of their heights.
   struct Lengths {
     double certain = 0, perhaps = 0;
+    double certain_integral = 0, perhaps_integral = 0;
   };
   /// What lies between two places, the first of which ends a cover or begins the stretch.
   struct Gap {
@@ -176,13 +192,14 @@ class OutlineUnion {
   bool cover_border(std::uint32_t corner, const Outline& outline, Stretch& stretch) const;
   bool is_one(std::uint32_t a, std::uint32_t b) const;
   bool has_gap(const Carrier& carrier, const End& before, const End& after, bool is_end) const;
-  Lengths rest_of(const Carrier& carrier, const Stretch& stretch);
+  Lengths rest_of(const Carrier& carrier, Stretch stretch);
   static End outside(const End& end);
-  void find_certain(const Stretch& stretch, Lengths& rest);
+  void find_certain(const Carrier& carrier, const Stretch& stretch, Lengths& rest);
   void find_perhaps(const Carrier& carrier, const Stretch& stretch, Lengths& rest);
-  void sharpen(const Carrier& carrier, Lengths& rest);
-  UnionShare integrate();
-  void add_integral(double height, double height_error, const Lengths& lengths);
+  void sharpen(const Carrier& carrier, End& end) const;
+  void sharpen(const Carrier& carrier, Stretch& stretch);
+  void set_frame();
+  void add_integral(double along, double along_error, double height_error, const Lengths& lengths);
   void add_borders();
   void add_edge(const Edge& edge);
   void add_rest(const Edge& edge);
@@ -199,6 +216,7 @@ class OutlineUnion {
 
   const ReceiverChart* receiver_ = nullptr;
   ExactLines* exact_ = nullptr;
+  Frame frame_;
   double slack_ = 0, most_error_ = 0;  // of lines
   double margin_ = 0;                  // of places in a cell
   std::vector<LineBlock> blocks_;
@@ -208,15 +226,16 @@ class OutlineUnion {
   std::vector<Trimming> trimmings_;  // of the line at hand, in the order of lines
   std::vector<Stretch> covers_;      // of the edge at hand
   std::vector<Member> members_, high_members_;
-  std::vector<Cell> cells_;  // that are left
+  std::vector<Cell> cells_;     // that are left
   std::vector<BoxBlock> leaf_;  // the cell at hand
   std::vector<std::uint64_t> sizes_;
   std::vector<double> ends_;
-  std::uint32_t last_hider_ = 0;  // the outline that hid the last edge that was hidden
-  std::vector<Gap> certain_gaps_, perhaps_gaps_;  // of the stretch at hand
-  bool is_sharp_ = false;
+  std::uint32_t last_hider_ = 0;   // the outline that hid the last edge that was hidden
+  std::vector<Gap> perhaps_gaps_;  // of the stretch at hand
+  std::vector<End*> sharpened_;
+  double sharpen_above_ = 0;  // what an edge may leave open of the area
   Walk walk_;
-  double sum_ = 0, error_ = 0;  // twice the covered area
+  double sum_ = 0, error_ = 0;  // of the covered area
   bool is_flat_ = false;        // the outline at hand has no area
   bool some_left_ = false;      // something is perhaps not covered
 };
