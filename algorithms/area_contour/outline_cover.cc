@@ -18,7 +18,7 @@ inline unsigned lanes_of(const Bits& bits) {
 }  // namespace
 
 /// Leaves in trimmings_ what lines of an outline do to a stretch of a line, but those that have all
-/// of it inside. False if one certainly leaves nothing: then only near ones are left, before it.
+/// of it inside. False if one certainly leaves nothing: near ones before it are left then, too.
 ///
 /// A line's value at a place t of the stretch is start + slope t. It is off by the errors of both
 /// lines, and by its roundings, which are less than the slack.
