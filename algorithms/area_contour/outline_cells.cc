@@ -14,7 +14,7 @@ namespace {
 
 /// Cells with more outlines are halved if that keeps some apart, in the middle of some of their
 /// ends.
-constexpr std::uint32_t kLeaf = 64, kAsked = 64, kHolders = 3;
+constexpr std::uint32_t kLeaf = 192, kAsked = 64, kHolders = 3;
 constexpr int kDeepest = 40, kMostInVain = 4;
 /// Of the receiver's size: cells do not meet where outlines end.
 constexpr double kAside = 0.7351e-7;

@@ -18,13 +18,12 @@ inline unsigned lanes_of(const Bits& bits) {
 }  // namespace
 
 /// Leaves in trimmings_ what lines of an outline do to a stretch of a line, but those that have all
-/// of it inside. False if one certainly leaves nothing: then only near ones are left, before it.
+/// of it inside. False if one certainly leaves nothing: near ones before it are left then, too.
 ///
 /// A line's value at a place t of the stretch is start + slope t. It is off by the errors of both
 /// lines, and by its roundings, which are less than the slack.
 GNOMON_FOR_AVX2 bool OutlineUnion::trim(const Edge& own, const Outline& outline) {
-  constexpr Bits kFirst = {0x1, 0x2, 0x4, 0x8}, kSecond = {0x10, 0x20, 0x40, 0x80},
-                 kThird = {0x100, 0x200, 0x400, 0x800};
+  constexpr Bits kFirst = {0x1, 0x2, 0x4, 0x8}, kSecond = {0x10, 0x20, 0x40, 0x80};
   trimmings_.clear();
   const double own_error = own.error + slack_;
   for (std::uint32_t i = outline.first; i < outline.end; ++i) {
@@ -36,12 +35,12 @@ GNOMON_FOR_AVX2 bool OutlineUnion::trim(const Edge& own, const Outline& outline)
     const Doubles first = start + slope * own.from, last = start + slope * own.to;
     const Bits inside = (first > error) & (last > error);
     const Bits outside = (first < -error) & (last < -error);
-    const Bits lines = (~inside & kFirst) | (outside & kSecond) |
-                       (~inside & (first >= -error) & (first <= error) & (last >= -error) &
-                        (last <= error) & kThird);
-    const unsigned lanes = lanes_of(lines);
+    const unsigned lanes = lanes_of((~inside & kFirst) | (outside & kSecond));
     if (lanes == 0) continue;
-    const unsigned missing = lanes >> 4 & 15, near = lanes >> 8;
+    const unsigned missing = lanes >> 4, open = lanes & 15;
+    if (missing != 0 && (open & ((missing & -missing) - 1)) == 0) return false;
+    const unsigned near = lanes_of((first >= -error) & (first <= error) & (last >= -error) &
+                                   (last <= error) & kFirst);
     if (missing != 0) {
       for (unsigned left = near & ((missing & -missing) - 1); left != 0; left &= left - 1) {
         Trimming by;
@@ -56,7 +55,7 @@ GNOMON_FOR_AVX2 bool OutlineUnion::trim(const Edge& own, const Outline& outline)
     const Doubles radius = half + 0x1p-49 * ((place < 0 ? -place : place) + half);
     // Else they may be parallel, and the place none.
     const Bits crosses = (slope < 0 ? -slope : slope) * receiver_->reach > 8 * error;
-    for (unsigned left = lanes & 15; left != 0; left &= left - 1) {
+    for (unsigned left = open; left != 0; left &= left - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
       trimmings_.push_back(
           {place[k], radius[k], 4 * i + k, (near >> k & 1) != 0, slope[k] > 0, crosses[k] != 0});

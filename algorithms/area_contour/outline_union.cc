@@ -40,7 +40,6 @@ void OutlineUnion::begin(const ReceiverChart& receiver, ExactLines& exact) {
   slack_ = kSlack * receiver.reach;
   most_error_ = 0;
   blocks_.clear();
-  sides_.clear();
   outlines_.clear();
   bordering_.clear();
 }
@@ -48,8 +47,8 @@ void OutlineUnion::begin(const ReceiverChart& receiver, ExactLines& exact) {
 OutlineLine OutlineUnion::line_of(std::uint32_t line) const {
   const LineBlock& block = blocks_[line / 4];
   const std::uint32_t k = line % 4;
-  return {block.a[k],     block.b[k],          block.c[k],         block.error[k],
-          block.plane[k], sides_[line].before, sides_[line].behind};
+  return {block.a[k],     block.b[k],      block.c[k],     block.error[k],
+          block.plane[k], block.before[k], block.behind[k]};
 }
 
 OutlineUnion::Edge OutlineUnion::edge_on(std::uint32_t line, std::uint32_t outline, double from,
@@ -82,7 +81,8 @@ OutlineUnion::Box OutlineUnion::box_of(const Edge& edge) const {
 /// their order, go over to the outline's side.
 OutlineUnion::Stretch OutlineUnion::in_receiver(const Edge& line) const {
   const ReceiverChart& receiver = *receiver_;
-  const auto [before, behind] = sides_[line.line];
+  const LineBlock& block = blocks_[line.line / 4];
+  const CornerMask before = block.before[line.line % 4], behind = block.behind[line.line % 4];
   const double error = line.error + 2 * receiver.error + slack_;
   Stretch stretch;
   const auto along = [&](std::uint32_t k) {
@@ -183,7 +183,6 @@ void OutlineUnion::add(std::span<const OutlineLine> lines) {
   outline.first = static_cast<std::uint32_t>(blocks_.size());
   outline.end = outline.first + (count + 3) / 4;
   blocks_.resize(outline.end);
-  sides_.resize(4 * outline.end);
   for (std::uint32_t i = 0; i < count; ++i) {
     const OutlineLine& line = lines[i];
     LineBlock& block = blocks_[outline.first + i / 4];
@@ -192,7 +191,8 @@ void OutlineUnion::add(std::span<const OutlineLine> lines) {
     block.c[i % 4] = line.c;
     block.error[i % 4] = line.error;
     block.plane[i % 4] = line.plane;
-    sides_[4 * outline.first + i] = {line.before, line.behind};
+    block.before[i % 4] = line.before;
+    block.behind[i % 4] = line.behind;
     most_error_ = std::max(most_error_, line.error);
   }
   double low[] = {kInfinity, kInfinity}, high[] = {-kInfinity, -kInfinity};
@@ -219,7 +219,6 @@ void OutlineUnion::add(std::span<const OutlineLine> lines) {
   }
   if (!has_edge || is_flat_) {  // nothing of the receiver is inside
     blocks_.resize(outline.first);
-    sides_.resize(4 * outline.first);
     return;
   }
   CornerMask outside = 0;
@@ -241,11 +240,12 @@ bool OutlineUnion::cover_border(std::uint32_t corner, const Outline& outline,
   const std::uint32_t next = receiver.next(corner);
   Trim trim;
   for (std::uint32_t i = 4 * outline.first; i < 4 * outline.end; ++i) {
-    const Sides& sides = sides_[i];
-    const bool from_behind = has(sides.behind, corner), to_behind = has(sides.behind, next);
+    const LineBlock& block = blocks_[i / 4];
+    const CornerMask before = block.before[i % 4], behind = block.behind[i % 4];
+    const bool from_behind = has(behind, corner), to_behind = has(behind, next);
     if (!from_behind && !to_behind) continue;
-    if (!has(sides.before, from_behind ? next : corner)) return false;
-    const OutlineLine line = line_of(i);
+    if (!has(before, from_behind ? next : corner)) return false;
+    const Edge line = edge_on(i, 0, 0, 0);
     const auto distance = [&](std::uint32_t k) {
       return std::fabs(line.a * receiver.corners[k][0] + line.b * receiver.corners[k][1] + line.c);
     };

@@ -23,6 +23,7 @@
 #include <span>
 #include <vector>
 
+#include "algorithms/area_contour/chunked_list.h"
 #include "algorithms/area_contour/receiver_chart.h"
 #include "gnomon/kernel/sign.h"
 #include "kernel/signs/ball.h"
@@ -116,12 +117,9 @@ class OutlineUnion {
   struct alignas(32) LineBlock {
     double a[4] = {}, b[4] = {}, c[4] = {kFar, kFar, kFar, kFar}, error[4] = {};
     double from[4] = {}, to[4] = {};
+    CornerMask before[4] = {}, behind[4] = {};  // corners strictly on either side
     PlaneRef plane[4];
     static constexpr double kFar = 0x1p100;
-  };
-  /// Corners strictly before and behind a line.
-  struct Sides {
-    CornerMask before = 0, behind = 0;
   };
   struct Outline {
     std::uint32_t first = 0, end = 0;  // of blocks_
@@ -219,8 +217,7 @@ class OutlineUnion {
   Frame frame_;
   double slack_ = 0, most_error_ = 0;  // of lines
   double margin_ = 0;                  // of places in a cell
-  std::vector<LineBlock> blocks_;
-  std::vector<Sides> sides_;  // of lines
+  ChunkedList<LineBlock> blocks_;
   std::vector<Outline> outlines_;
   std::vector<Bordering> bordering_;
   std::vector<Trimming> trimmings_;  // of the line at hand, in the order of lines

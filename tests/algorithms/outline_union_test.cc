@@ -210,40 +210,77 @@ TEST(OutlineUnion, CellsMeetWithinTheBoundsOfAnEnd) {
   for (int more = -12; more <= 12; ++more) {
     for (int held = 0; held <= 8; held += 2) {
       std::vector<Convex> outlines{flat(), wide(held, 1, 6)};
-      for (int i = 0; i < 70; ++i) outlines.push_back(wide(more + i % 6, 6, 7));
+      for (int i = 0; i < 210; ++i) outlines.push_back(wide(more + i % 6, 6, 7));
       check(outlines, covered({flat(), wide(held, 1, 6), wide(more + 5, 6, 7)}),
             std::to_string(more) + ", " + std::to_string(held), 2e-6);
     }
   }
 }
 
-/// Many outlines of few lines, so that nearly every edge has others on its line.
-TEST(OutlineUnion, LatticeOfOutlines) {
-  std::mt19937 random(7);
-  const auto upto = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  for (int round = 0; round < 4000; ++round) {
-    std::vector<Convex> outlines(2 + static_cast<std::size_t>(upto(5)));
-    for (Convex& outline : outlines) {
-      const int left = upto(6), low = upto(6);
-      outline = box(left, low, left + 1 + upto(4), low + 1 + upto(4));
-      for (int cuts = upto(3); cuts > 0; --cuts) {
-        const int a = upto(2) == 0 ? 1 : -1, b = upto(2) == 0 ? 1 : -1;
-        outline.push_back({a, b, -(a * (left + upto(3)) + b * (low + upto(3)))});
-      }
+/// Of few lines of a small lattice, so that nearly every edge has others on its line.
+class Lots {
+ public:
+  explicit Lots(unsigned seed) : random_(seed) {}
+  int upto(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+  Convex outline() {
+    const int left = upto(6), low = upto(6);
+    Convex result = box(left, low, left + 1 + upto(4), low + 1 + upto(4));
+    for (int cuts = upto(3); cuts > 0; --cuts) {
+      const int a = upto(2) == 0 ? 1 : -1, b = upto(2) == 0 ? 1 : -1;
+      result.push_back({a, b, -(a * (left + upto(3)) + b * (low + upto(3)))});
     }
+    return result;
+  }
+  /// Through a point of the lattice.
+  HalfPlane line() {
+    const int a = upto(7) - 3, b = a == 0 ? 1 : upto(7) - 3;
+    return {a, b, -(a * upto(kSide + 1) + b * upto(kSide + 1))};
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+TEST(OutlineUnion, LatticeOfOutlines) {
+  Lots lots(7);
+  for (int round = 0; round < 4000; ++round) {
+    std::vector<Convex> outlines(2 + static_cast<std::size_t>(lots.upto(5)));
+    for (Convex& outline : outlines) outline = lots.outline();
     check(outlines, "round " + std::to_string(round));
     if (HasFailure()) return;
   }
 }
 
-/// So many that the square is halved into cells.
+/// Each outline in two halves, many times: so many that the square is halved into cells. They cover
+/// what the outlines do, and no half holds a whole one.
+TEST(OutlineUnion, ManyHalves) {
+  Lots lots(9);
+  for (int round = 0; round < 200; ++round) {
+    std::vector<Convex> outlines(2 + static_cast<std::size_t>(lots.upto(3)));
+    std::vector<Convex> halves;
+    for (Convex& outline : outlines) {
+      outline = lots.outline();
+      for (int i = 20 + lots.upto(100); i > 0; --i) {
+        const HalfPlane line = lots.line();
+        for (const long sign : {1L, -1L}) {
+          halves.push_back(outline);
+          halves.back().push_back({sign * line.a, sign * line.b, sign * line.c});
+        }
+      }
+    }
+    check(halves, covered(outlines), "round " + std::to_string(round));
+    if (HasFailure()) return;
+  }
+}
+
+/// So many that in some rounds the square is halved into cells.
 TEST(OutlineUnion, ManyBoxes) {
   std::mt19937 random(8);
   const auto upto = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   for (int round = 0; round < 300; ++round) {
     std::vector<Convex> outlines;
     std::array<std::array<bool, kSide>, kSide> squares{};
-    for (int i = 25 + upto(40); i > 0; --i) {
+    for (int i = 25 + upto(40) * (1 + round % 6); i > 0; --i) {
       const int left = upto(kSide), low = upto(kSide);
       const int right = std::min(kSide, left + 1 + upto(2)),
                 high = std::min(kSide, low + 1 + upto(2));
