@@ -11,8 +11,8 @@
 namespace gnomon::area_contour {
 namespace {
 
-/// A choice, not a bound.
-constexpr double kSharpenAbove = 0x1p-46;
+/// Choices, not bounds: of a share, and of that for an edge among many.
+constexpr double kOpen = 0x1p-31, kLeastOpen = 0x1p-43;
 
 bool has(CornerMask mask, std::uint32_t corner) { return (mask >> corner & 1) != 0; }
 
@@ -378,7 +378,7 @@ UnionShare OutlineUnion::share() {
   const double reach = receiver.reach, n = receiver.size();
   const double area_error = n * (2 * reach * (receiver.error + 2 * Ball::kUnit * reach) +
                                  n * Ball::kUnit * reach * reach);
-  sharpen_above_ = kSharpenAbove * area;
+  sharpen_above_ = std::max(kLeastOpen, kOpen / static_cast<double>(outlines_.size())) * area;
   add_cells();
   add_borders();
   UnionShare result;
