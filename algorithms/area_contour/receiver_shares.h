@@ -48,10 +48,11 @@ PlaneDoubles doubles_of(const Space& space, PlaneRef plane) {
   return {loaded.n, loaded.d, plane, nullptr};
 }
 
-/// The volumes of a light for the search.
+/// The volumes of a light for the search. `jobs`: as LightVolumes::finish() has it.
 template <VolumeSpaceModel Space>
 LightVolumes light_volumes(const Space& space, const LightGeometry& geometry,
-                           const CasterTree& tree, const LightInSpace<Space>& light) {
+                           const CasterTree& tree, const LightInSpace<Space>& light,
+                           unsigned jobs) {
   const PreparedScene& scene = light.scene();
   std::vector<Box> boxes;
   boxes.reserve(scene.parts.size());
@@ -70,14 +71,12 @@ LightVolumes light_volumes(const Space& space, const LightGeometry& geometry,
     const std::uint32_t part = store[i].caster;
     result.add(i, part, scene.parts[part].plane, store[i].penumbra_count, store[i].umbra_count);
   }
-  std::vector<PlaneDoubles> planes;
-  result.finish([&](std::uint32_t volume, bool umbra) -> std::span<const PlaneDoubles> {
+  result.finish(jobs, [&](std::uint32_t volume, bool umbra, std::vector<PlaneDoubles>& planes) {
     planes.clear();
     const ShadowVolume& own = store[volume];
     for (const PlaneRef plane : umbra ? store.umbra(own) : store.penumbra(own)) {
       planes.push_back(doubles_of(space, plane));
     }
-    return planes;
   });
   return result;
 }

@@ -54,10 +54,11 @@ LightVolumes::LightVolumes(std::vector<Box> boxes, const Box& light,
       light_corners_(std::move(light_corners)),
       bound_(bound) {}
 
-void LightVolumes::put(std::span<const PlaneDoubles> planes) {
+void LightVolumes::put(std::span<const PlaneDoubles> planes, std::uint32_t first) {
+  constexpr PlaneBlock kFilling{{}, {-1, -1, -1, -1}};
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    if (i % 4 == 0) blocks_.emplace_back();
-    PlaneBlock& block = blocks_.back();
+    PlaneBlock& block = blocks_[first + i / 4];
+    if (i % 4 == 0) block = kFilling;
     const double sign = planes[i].plane.flipped() ? -1 : 1;
     for (std::size_t k = 0; k < 3; ++k) block.n[k][i % 4] = sign * planes[i].n[k];
     block.d[i % 4] = sign * planes[i].d;
@@ -73,18 +74,13 @@ void LightVolumes::add(std::uint32_t number, std::uint32_t part, std::uint32_t s
 }
 
 /// Volumes in the order in which the walk comes to them.
-void LightVolumes::sort() {
+void LightVolumes::sort(unsigned jobs) {
   std::vector<Box> boxes;
   boxes.reserve(volumes_.size());
-  std::size_t blocks = 0;
-  for (const SearchedVolume& volume : volumes_) {
-    boxes.push_back(boxes_[volume.part]);
-    blocks += volume.penumbra_blocks + volume.umbra_blocks;
-  }
-  blocks_.reserve(blocks);
+  for (const SearchedVolume& volume : volumes_) boxes.push_back(boxes_[volume.part]);
   std::vector<std::uint32_t> members(volumes_.size());
   std::iota(members.begin(), members.end(), 0u);
-  tree_ = BoxTree(std::move(boxes), std::move(members));
+  tree_ = BoxTree(std::move(boxes), std::move(members), jobs);
   const std::span<const BoxTree::Node> nodes = tree_.nodes();
   std::vector<SearchedVolume> volumes;
   volumes.reserve(volumes_.size());
@@ -92,6 +88,12 @@ void LightVolumes::sort() {
     for (const std::uint32_t member : tree_.members(nodes[0])) volumes.push_back(volumes_[member]);
   }
   volumes_ = std::move(volumes);
+  std::uint32_t blocks = 0;
+  for (SearchedVolume& volume : volumes_) {
+    volume.first = blocks;
+    blocks += volume.penumbra_blocks + volume.umbra_blocks;
+  }
+  blocks_ = std::make_unique_for_overwrite<PlaneBlock[]>(blocks);
   largest_.assign(nodes.size(), 0);
   for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parents
     if (nodes[i].right != 0) {
@@ -178,10 +180,10 @@ void VolumeSearch::Hints::add(std::uint32_t place) {
 }
 
 std::span<const PlaneBlock> VolumeSearch::penumbra(const SearchedVolume& volume) const {
-  return {light_->blocks_.data() + volume.first, volume.penumbra_blocks};
+  return {light_->blocks_.get() + volume.first, volume.penumbra_blocks};
 }
 std::span<const PlaneBlock> VolumeSearch::umbra(const SearchedVolume& volume) const {
-  return {light_->blocks_.data() + volume.first + volume.penumbra_blocks, volume.umbra_blocks};
+  return {light_->blocks_.get() + volume.first + volume.penumbra_blocks, volume.umbra_blocks};
 }
 
 /// Whether the receiver's box is behind a plane, and so its corners, whose values are bounded.

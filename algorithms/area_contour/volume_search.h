@@ -13,19 +13,21 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "algorithms/area_contour/receiver_chart.h"
 #include "algorithms/partition/box.h"
 #include "algorithms/partition/box_tree.h"
+#include "algorithms/partition/in_parallel.h"
 #include "algorithms/shadow_volumes/caster_tree.h"
 
 namespace gnomon::area_contour {
 
 /// Four planes n . x - d; what fills up the last block is positive everywhere.
 struct alignas(32) PlaneBlock {
-  double n[3][4] = {}, d[4] = {-1, -1, -1, -1};
+  double n[3][4], d[4];
 };
 
 /// A volume as the search sees it.
@@ -46,16 +48,24 @@ class LightVolumes {
   /// Adds a volume of so many planes. In any order.
   void add(std::uint32_t number, std::uint32_t part, std::uint32_t support, std::size_t penumbra,
            std::size_t umbra);
-  /// Sorts what was added into a hierarchy. `planes(number, umbra)`: those of a volume's penumbra
-  /// or umbra as a span of PlaneDoubles, turned so that it is in front of them.
+  /// Sorts what was added into a hierarchy. `planes(number, umbra, found)` leaves those of a
+  /// volume's penumbra or umbra in `found`, as PlaneDoubles, turned so that it is in front of them.
+  /// `jobs` other than 1: on the threads of the arena that the caller is in, `planes`, too.
   template <class Planes>
-  void finish(const Planes& planes) {
-    sort();
-    for (SearchedVolume& volume : volumes_) {
-      volume.first = static_cast<std::uint32_t>(blocks_.size());
-      put(planes(volume.number, false));
-      put(planes(volume.number, true));
-    }
+  void finish(unsigned jobs, const Planes& planes) {
+    constexpr std::uint32_t kGrain = 512;
+    sort(jobs);
+    in_parallel(jobs, static_cast<std::uint32_t>(volumes_.size()), kGrain,
+                [&](std::uint32_t begin, std::uint32_t end) {
+                  std::vector<PlaneDoubles> found;
+                  for (std::uint32_t i = begin; i < end; ++i) {
+                    const SearchedVolume& volume = volumes_[i];
+                    planes(volume.number, false, found);
+                    put(found, volume.first);
+                    planes(volume.number, true, found);
+                    put(found, volume.first + volume.penumbra_blocks);
+                  }
+                });
   }
 
   const Box& light() const { return light_; }
@@ -65,15 +75,15 @@ class LightVolumes {
 
  private:
   friend class VolumeSearch;
-  void sort();
-  void put(std::span<const PlaneDoubles> planes);
+  void sort(unsigned jobs);
+  void put(std::span<const PlaneDoubles> planes, std::uint32_t block);
 
   std::vector<Box> boxes_;
   Box light_;
   std::vector<Point3> light_corners_;
   double bound_ = 0;
   std::vector<SearchedVolume> volumes_;  // in the order of the tree's members
-  std::vector<PlaneBlock> blocks_;
+  std::unique_ptr<PlaneBlock[]> blocks_;
   BoxTree tree_;
   std::vector<double> largest_;  // of each node: the longest diagonal of a caster's box below it
 };

@@ -21,9 +21,9 @@
 
 #include "algorithms/contour/contour_walk.h"
 #include "algorithms/contour/dark_polygons.h"
-#include "algorithms/contour/in_parallel.h"
 #include "algorithms/contour/light_charts.h"
 #include "algorithms/contour/pair_search.h"
+#include "algorithms/partition/in_parallel.h"
 #include "algorithms/partition/run_task.h"
 #include "algorithms/sectors/sector_run.h"
 #include "kernel/concept/kernel_model.h"

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/contour/in_parallel.h"
 #include "algorithms/contour/light_rays.h"
 #include "algorithms/partition/import_export.h"
+#include "algorithms/partition/in_parallel.h"
 #include "gnomon/scene/prepare.h"
 
 namespace gnomon {

@@ -22,8 +22,8 @@
 
 #include "algorithms/contour/chart_boxes.h"
 #include "algorithms/contour/facing_polygons.h"
-#include "algorithms/contour/in_parallel.h"
 #include "algorithms/partition/chart_box.h"
+#include "algorithms/partition/in_parallel.h"
 
 namespace gnomon {
 

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <utility>
 
-#include "algorithms/contour/in_parallel.h"
+#include "algorithms/partition/in_parallel.h"
 
 namespace gnomon {
 namespace {

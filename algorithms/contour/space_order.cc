@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "algorithms/contour/in_parallel.h"
+#include "algorithms/partition/in_parallel.h"
 
 namespace gnomon {
 

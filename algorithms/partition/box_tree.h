@@ -29,8 +29,9 @@ class BoxTree {
   };
 
   BoxTree() = default;
-  /// The hierarchy of those `members` of `boxes`. Cost: O(n log n).
-  BoxTree(std::vector<Box> boxes, std::vector<std::uint32_t> members);
+  /// The hierarchy of those `members` of `boxes`. `jobs` other than 1: large ones on the threads of
+  /// the arena that the caller is in; the hierarchy is the same. Cost: O(n log n).
+  BoxTree(std::vector<Box> boxes, std::vector<std::uint32_t> members, unsigned jobs = 1);
 
   /// Any of the boxes, a member or not.
   const Box& box(std::uint32_t number) const { return boxes_[number]; }
@@ -67,16 +68,24 @@ class BoxTree {
 
  private:
   static constexpr std::uint32_t kLeafSize = 4;
+  /// Fewer members are sorted by one thread.
+  static constexpr std::uint32_t kMembersOfAThread = 2048;
   struct Task {
-    std::uint32_t begin, end, parent;  // parent: whose right child it is
+    std::uint32_t begin, end;
+    std::uint32_t node;  // that is made of these members
   };
-  static constexpr std::uint32_t kNoParent = 0xffffffffu;
+
+  /// Nodes of a hierarchy of so many members. Cost: O(log n).
+  static std::uint32_t node_count(std::uint32_t members);
 
   /// Twice the middle of a box along an axis.
   double middle(std::uint32_t number, std::size_t axis) const {
     return boxes_[number].low[axis] + boxes_[number].high[axis];
   }
   std::uint32_t halve(const Task& task);
+  /// Makes a node; says whether it has children, and then of which members.
+  bool make_node(const Task& task, Task& left, Task& right);
+  void make_subtree(const Task& task);
 
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> order_;

@@ -65,7 +65,7 @@ class ReceiverRun {
         light_geometry_(make_light_geometry(scene)),
         scene_space_(light_geometry_.geometry, options.kernel.options()),
         space_(scene_space_, options.kernel.options()),
-        tree_(light_geometry_.geometry, scene, casters(scene)) {
+        tree_(light_geometry_.geometry, scene, casters(scene), options.tuning.jobs) {
     if (options.method.options.casters == CastersAre::kSolids) find_solids();
   }
 
@@ -94,6 +94,7 @@ class ReceiverRun {
       solids_.solids.push_back(std::move(component.parts));
     }
   }
+  unsigned jobs() const { return Space::kParallel ? options_.tuning.jobs : 1; }
   const SolidCasters* solids() const { return solids_.solids.empty() ? nullptr : &solids_; }
   /// Calls body(workspace, i) for [0, n). False if it was stopped.
   template <class Body>
@@ -211,7 +212,7 @@ bool ReceiverRun<Space>::for_each(std::size_t n, double from, double to, const B
                                 (to - from) * static_cast<double>(done) / static_cast<double>(n));
     }
   };
-  if (Space::kParallel && options_.tuning.jobs != 1) {
+  if (jobs() != 1) {
     tbb::parallel_for(std::size_t{0}, n, one);
   } else {
     for (std::size_t i = 0; i < n; ++i) one(i);
@@ -340,7 +341,8 @@ template <VolumeSpaceModel Space>
 LightResult ReceiverRun<Space>::run_light(std::uint32_t index, double from, double to) {
   pieces_ = 0;
   const std::uint32_t mark = space_.plane_mark();
-  const LightInSpace<Space> light(space_, light_geometry_, tree_, index, rules_, solids());
+  const LightInSpace<Space> light(space_, light_geometry_, tree_, index, rules_, solids(), jobs());
+  stages_ += light.stage_counts();
   LightResult result;
   result.light = index;
   light.count(result.work);
@@ -387,7 +389,8 @@ void ReceiverRun<Space>::run_pieces(std::uint32_t index, double from, double to,
   for (std::uint32_t i = 0; i < cut.pieces.size() && !stopped_; ++i) {
     const Loop piece = cut.loops.view(cut.pieces[i], face.plane);
     const std::uint32_t mark = space_.plane_mark();
-    const LightInSpace<Space> light(space_, light_geometry_, tree_, index, rules_, piece);
+    const LightInSpace<Space> light(space_, light_geometry_, tree_, index, rules_, piece, jobs());
+    stages_ += light.stage_counts();
     LightResult result;
     result.light = index;
     result.piece = i;
@@ -418,7 +421,7 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
   volumes_.reset();
   if constexpr (area_contour::HasPlaneDoubles<Space>) {
     if (by_contour(light) && !options_.output.exact_fractions) {
-      volumes_.emplace(area_contour::light_volumes(space_, light_geometry_, tree_, light));
+      volumes_.emplace(area_contour::light_volumes(space_, light_geometry_, tree_, light, jobs()));
     }
   }
   std::vector<std::vector<SideResult>> parts(scene_.parts.size());
@@ -499,7 +502,8 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
   std::deque<LightInSpace<Space>> lights;
   std::deque<std::optional<Trees>> trees;
   for (const std::uint32_t light : indices) {
-    lights.emplace_back(space_, light_geometry_, tree_, light, rules_, solids());
+    lights.emplace_back(space_, light_geometry_, tree_, light, rules_, solids(), jobs());
+    stages_ += lights.back().stage_counts();
     trees.emplace_back();
   }
   if (std::ranges::any_of(lights, [&](const auto& light) { return has_trees(light); })) {

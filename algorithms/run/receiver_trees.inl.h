@@ -77,10 +77,12 @@ bool ReceiverRun<Space>::build_trees(const LightInSpace<Space>& light, double fr
   } else {
     volumes = trees.near_first();
   }
-  const auto outcome = trees.cast_all(volumes, [&](double share) {
+  const auto step = [&](double share) {
     if (options_.control.progress) options_.control.progress(from + (to - from) * share);
     return !stopped();
-  });
+  };
+  const auto outcome = trees.cast_all(volumes, jobs(), step, [&] { return stopped(); });
+  stages_ += trees.stage_counts();
   counts[Counter::kNodes] += trees.node_count();
   counts.at_least(Counter::kDepth, trees.depth());
   return is_done(outcome);

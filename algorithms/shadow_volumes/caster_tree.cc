@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/partition/in_parallel.h"
 #include "kernel/numbers/exact_integer.h"
 
 namespace gnomon {
@@ -17,13 +18,18 @@ double diagonal_of(const Box& box) {
   return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
 }
 
-std::vector<Box> boxes_of_parts(const Geometry& geometry, const PreparedScene& scene) {
+std::vector<Box> boxes_of_parts(const Geometry& geometry, const PreparedScene& scene,
+                                unsigned jobs) {
+  constexpr std::uint32_t kGrain = 2048;
   std::vector<Box> boxes(scene.parts.size());
-  for (std::uint32_t part = 0; part < scene.parts.size(); ++part) {
-    for (const VertexId vertex : scene.loop(scene.parts[part])) {
-      boxes[part].add(grid_fraction(geometry.grid, vertex));
-    }
-  }
+  in_parallel(jobs, static_cast<std::uint32_t>(boxes.size()), kGrain,
+              [&](std::uint32_t begin, std::uint32_t end) {
+                for (std::uint32_t part = begin; part < end; ++part) {
+                  for (const VertexId vertex : scene.loop(scene.parts[part])) {
+                    boxes[part].add(grid_fraction(geometry.grid, vertex));
+                  }
+                }
+              });
   return boxes;
 }
 
@@ -155,8 +161,8 @@ bool UmbraReach::may_reach(const Box& box, double size) const {
 }
 
 CasterTree::CasterTree(const Geometry& geometry, const PreparedScene& scene,
-                       std::span<const std::uint32_t> parts)
-    : tree_(boxes_of_parts(geometry, scene), {parts.begin(), parts.end()}),
+                       std::span<const std::uint32_t> parts, unsigned jobs)
+    : tree_(boxes_of_parts(geometry, scene, jobs), {parts.begin(), parts.end()}, jobs),
       largest_(tree_.nodes().size(), 0) {
   const std::span<const BoxTree::Node> nodes = tree_.nodes();
   for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parents

@@ -71,9 +71,9 @@ class UmbraReach {
 
 class CasterTree {
  public:
-  /// The hierarchy of those parts, by the geometry's grid.
+  /// The hierarchy of those parts, by the geometry's grid. `jobs`: as BoxTree has it.
   CasterTree(const Geometry& geometry, const PreparedScene& scene,
-             std::span<const std::uint32_t> parts);
+             std::span<const std::uint32_t> parts, unsigned jobs = 1);
 
   const Box& box(std::uint32_t part) const { return tree_.box(part); }
   /// Appends the parts that may meet the shaft, in order of their numbers.

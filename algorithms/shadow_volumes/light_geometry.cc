@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "kernel/numbers/exact_integer.h"
@@ -42,10 +44,9 @@ class Builder {
  private:
   VertexId vertex(const GridPoint& point) {
     const GridPositions& grid = result_.geometry.grid;
+    const LowBits low = low_bits(point);
     for (VertexId v = 0; v < grid.size(); ++v) {
-      if (grid.at(v, 0) == point[0] && grid.at(v, 1) == point[1] && grid.at(v, 2) == point[2]) {
-        return v;
-      }
+      if (low_bits(v) == low && at(v) == point) return v;
     }
     const auto found = std::find(added_.begin(), added_.end(), point);
     if (found == added_.end()) {
@@ -58,22 +59,42 @@ class Builder {
   void put_positions() {
     if (added_.empty()) return;
     Geometry& geometry = result_.geometry;
-    std::vector<mpz_class> all;
-    all.reserve(3 * (geometry.grid.size() + added_.size()));
-    for (VertexId v = 0; v < geometry.grid.size(); ++v) {
-      for (int k = 0; k < 3; ++k) all.push_back(geometry.grid.at(v, k));
-    }
     for (const GridPoint& point : added_) {
       std::array<double, 3> nearest{};
       for (int k = 0; k < 3; ++k) {
-        all.push_back(point[k]);
         nearest[k] =
             nearest_double(mpq_class(geometry.origin[k] + geometry.step * mpq_class(point[k])));
       }
       geometry.positions.push_back(nearest);
     }
-    geometry.grid = GridPositions::from(std::move(all));
+    geometry.grid = with_added(geometry.grid);
     geometry.light_vertices += static_cast<std::uint32_t>(added_.size());
+  }
+
+  GridPositions with_added(const GridPositions& grid) const {
+    const auto is_narrow = [](const GridPoint& point) {
+      return std::ranges::all_of(
+          point, [](const mpz_class& x) { return sgn(x) >= 0 && x.fits_slong_p(); });
+    };
+    const std::size_t size = 3 * (grid.size() + added_.size());
+    if (grid.is_narrow() && std::ranges::all_of(added_, is_narrow)) {
+      std::vector<std::int64_t> all;
+      all.reserve(size);
+      if (grid.size() > 0) {
+        all.assign(grid.narrow_point(0), grid.narrow_point(0) + 3 * grid.size());
+      }
+      for (const GridPoint& point : added_) {
+        for (const mpz_class& x : point) all.push_back(x.get_si());
+      }
+      return GridPositions::from_narrow(std::move(all));
+    }
+    std::vector<mpz_class> all;
+    all.reserve(size);
+    for (VertexId v = 0; v < grid.size(); ++v) {
+      for (int k = 0; k < 3; ++k) all.push_back(grid.at(v, k));
+    }
+    for (const GridPoint& point : added_) all.insert(all.end(), point.begin(), point.end());
+    return GridPositions::from(std::move(all));
   }
 
   void complete(LightFace& face) {
@@ -130,6 +151,32 @@ class Builder {
     return PlaneRef(index, from > to);
   }
 
+  // Numbers modulo 2^64. What is equal, or zero, is so modulo 2^64: nearly all vertices and planes
+  // of a scene are told from the light's by that alone.
+  using LowBits = std::array<std::uint64_t, 3>;
+  static std::uint64_t low_bits(const mpz_class& x) {
+    const std::uint64_t magnitude = mpz_get_ui(x.get_mpz_t());
+    return sgn(x) < 0 ? -magnitude : magnitude;
+  }
+  static LowBits low_bits(const GridPoint& point) {
+    return {low_bits(point[0]), low_bits(point[1]), low_bits(point[2])};
+  }
+  LowBits low_bits(VertexId v) const {
+    const GridPositions& grid = result_.geometry.grid;
+    LowBits low{};
+    for (int k = 0; k < 3; ++k) {
+      low[k] = grid.is_narrow() ? static_cast<std::uint64_t>(grid.narrow(v, k))
+                                : low_bits(grid.wide(v, k));
+    }
+    return low;
+  }
+  static LowBits low_difference(const LowBits& a, const LowBits& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  }
+  static std::uint64_t sum_of_products(const LowBits& a, const LowBits& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+
   Vector3<mpz_class> at(VertexId v) const {
     const GridPositions& grid = result_.geometry.grid;
     return {grid.at(v, 0), grid.at(v, 1), grid.at(v, 2)};
@@ -141,8 +188,12 @@ class Builder {
   PlaneId plane(const SupportTriple& triple, bool& flipped) {
     std::vector<SupportTriple>& planes = result_.geometry.planes;
     const Vector3<mpz_class> n = normal(triple), origin = at(triple.a);
+    const LowBits low_n = low_bits(n), low_origin = low_bits(origin);
+    const auto contains = [&](VertexId v) {
+      return sum_of_products(low_n, low_difference(low_bits(v), low_origin)) == 0 &&
+             sgn(dot(n, difference(at(v), origin))) == 0;
+    };
     for (PlaneId id = 0; id < planes.size(); ++id) {
-      const auto contains = [&](VertexId v) { return sgn(dot(n, difference(at(v), origin))) == 0; };
       if (!contains(planes[id].a) || !contains(planes[id].b) || !contains(planes[id].c)) continue;
       flipped = sgn(dot(n, normal(planes[id]))) < 0;
       return id;

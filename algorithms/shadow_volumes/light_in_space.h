@@ -27,15 +27,11 @@
 #include "algorithms/shadow_volumes/receiver_cutter.h"
 #include "algorithms/shadow_volumes/shadow_volume.h"
 #include "algorithms/shadow_volumes/solid_casters.h"
+#include "algorithms/shadow_volumes/volumes_of_parts.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "kernel/concept/kernel_concept.h"
 
 namespace gnomon {
-
-/// The support plane of a part, turned so that its front is the given side's.
-inline PlaneRef plane_of_side(const Part& part, Side side) {
-  return PlaneRef(part.plane, part.flipped != (side == Side::kBack));
-}
 
 /// What one side of a part has of a light.
 struct Sight {
@@ -71,9 +67,11 @@ class LightInSpace {
   using Workspace = ReceiverWorkspace<Space>;
 
   /// Adds the planes of all volumes to `space`, which must be forked afterwards. `tree`, `scene`
-  /// and `solids`, which may be null, must outlive it.
+  /// and `solids`, which may be null, must outlive it. `jobs` other than 1: on the threads of the
+  /// arena that the caller is in.
   LightInSpace(Space& space, const LightGeometry& scene, const CasterTree& tree,
-               std::uint32_t light, const Rules& rules, const SolidCasters* solids = nullptr)
+               std::uint32_t light, const Rules& rules, const SolidCasters* solids = nullptr,
+               unsigned jobs = 1)
       : scene_(*scene.scene),
         number_(light),
         light_(&scene.scene->lights[light]),
@@ -91,11 +89,11 @@ class LightInSpace {
     }
     plane_id_ = face.edges.empty() ? kNoPlane : face.plane;
     if (has_area()) plane_ = PlaneRef(face.plane, face.flipped);
-    make_volumes(space);
+    make_volumes(space, jobs);
   }
   /// The same for a piece of an area light, a convex loop on its plane that support planes cut out.
   LightInSpace(Space& space, const LightGeometry& scene, const CasterTree& tree,
-               std::uint32_t light, const Rules& rules, const Loop& piece)
+               std::uint32_t light, const Rules& rules, const Loop& piece, unsigned jobs = 1)
       : scene_(*scene.scene),
         number_(light),
         light_(&scene.scene->lights[light]),
@@ -108,7 +106,7 @@ class LightInSpace {
     loop_.append(piece);
     plane_id_ = face.plane;
     plane_ = PlaneRef(face.plane, face.flipped);
-    make_volumes(space);
+    make_volumes(space, jobs);
   }
 
   bool has_area() const { return light_->has_area(); }
@@ -141,6 +139,8 @@ class LightInSpace {
                                           std::uint32_t solid) const;
   /// Volumes and their planes.
   void count(WorkCounts& counts) const;
+  /// Decisions that forks of the space have made for the volumes, and the space has not counted.
+  const StageCounts& stage_counts() const { return stages_; }
   LightState in_shadow() const { return has_area() ? LightState::kUmbra : LightState::kShadow; }
   PlaneRef plane() const { return plane_; }
   /// Of the region that it shines in, inside in front; none: everywhere.
@@ -195,7 +195,7 @@ class LightInSpace {
   /// Keeps the shadow of a caster at the light finite, as far as the order of casters goes.
   static constexpr double kNearestToLight = 1e-12;
 
-  void make_volumes(Space& space);
+  void make_volumes(Space& space, unsigned jobs);
   void make_solid_volumes(Space& space, VolumeBuilder<Space>& builder);
   /// The solid that casts in place of a part; kNone: the part casts.
   std::uint32_t caster_of(std::uint32_t part) const {
@@ -233,35 +233,25 @@ class LightInSpace {
   PlaneRef plane_;  // of an area light; it emits to its front
   VolumeStore store_;
   std::vector<std::uint32_t> first_volume_;
+  StageCounts stages_;
   const SolidCasters* solids_ = nullptr;
   std::vector<std::uint32_t> solid_volumes_;  // by solid; kNone: its parts cast
 };
 
-/// The volumes of both sides of a part, for one shape of the light.
-template <VolumeSpaceModel Space, class SpaceOfLoops>
-void add_part_volumes(VolumeBuilder<Space>& builder, const SpaceOfLoops& space,
-                      const PreparedScene& scene, std::uint32_t index,
-                      const LightShape<typename Space::Vertex>& light,
-                      LoopStore<typename Space::Vertex>& loops, VolumeStore& store) {
-  const Part& part = scene.parts[index];
-  const auto loop = part_loop(space, scene, index, loops);
-  builder.add(loop, plane_of_side(part, Side::kFront), false, light, store);
-  if (part.two_sided) builder.add(loop, plane_of_side(part, Side::kBack), true, light, store);
-}
-
 template <VolumeSpaceModel Space>
-void LightInSpace<Space>::make_volumes(Space& space) {
-  VolumeBuilder<Space> builder(space, rules_);
-  LoopStore<Vertex> loops;
-  first_volume_.reserve(scene_.parts.size() + 1);
-  for (std::uint32_t i = 0; i < scene_.parts.size(); ++i) {
-    first_volume_.push_back(static_cast<std::uint32_t>(store_.size()));
-    // A polygon in the light's plane casts nothing.
-    if (!casts_under(*light_, scene_.parts[i]) || scene_.parts[i].plane == plane_id_) continue;
-    add_part_volumes(builder, space, scene_, i, shape(), loops, store_);
+void LightInSpace<Space>::make_volumes(Space& space, unsigned jobs) {
+  // A polygon in the light's plane casts nothing.
+  const auto casts = [&](const Part& part) {
+    return casts_under(*light_, part) && part.plane != plane_id_;
+  };
+  VolumesOfParts made = make_volumes_of_parts(space, rules_, scene_, shape(), casts, jobs);
+  store_ = std::move(made.store);
+  first_volume_ = std::move(made.first);
+  stages_ = made.stages;
+  if (solids_ != nullptr && !has_area()) {
+    VolumeBuilder<Space> builder(space, rules_);
+    make_solid_volumes(space, builder);
   }
-  first_volume_.push_back(static_cast<std::uint32_t>(store_.size()));
-  if (solids_ != nullptr && !has_area()) make_solid_volumes(space, builder);
 }
 
 /// One volume a solid, besides those of its faces, by which its witnesses are told. Of a light

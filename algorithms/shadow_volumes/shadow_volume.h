@@ -24,6 +24,7 @@
 #define GNOMON_ALGORITHMS_SHADOW_VOLUMES_SHADOW_VOLUME_H
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -33,6 +34,7 @@
 #include "algorithms/partition/split.h"
 #include "algorithms/shadow_volumes/light_geometry.h"
 #include "kernel/concept/kernel_concept.h"
+#include "kernel/concept/plane_takeover.h"
 
 namespace gnomon {
 
@@ -63,11 +65,25 @@ class VolumeStore {
     planes_.insert(planes_.end(), penumbra.begin(), penumbra.end());
     planes_.insert(planes_.end(), umbra.begin(), umbra.end());
   }
+  void reserve_more(std::size_t volumes, std::size_t planes) {
+    volumes_.reserve(volumes_.size() + volumes);
+    planes_.reserve(planes_.size() + planes);
+  }
+  /// Adds the volumes of another store, whose planes have other numbers here.
+  void append(const VolumeStore& other, const PlaneShift& shift) {
+    const auto first = static_cast<std::uint32_t>(planes_.size());
+    for (ShadowVolume volume : other.volumes_) {
+      volume.first += first;
+      volumes_.push_back(volume);
+    }
+    for (const PlaneRef plane : other.planes_) planes_.push_back(shift(plane));
+  }
   void clear() {
     volumes_.clear();
     planes_.clear();
   }
   std::size_t size() const { return volumes_.size(); }
+  std::size_t plane_count() const { return planes_.size(); }
 
  private:
   std::vector<ShadowVolume> volumes_;

@@ -38,6 +38,7 @@
 #include "algorithms/shadow_volumes/light_in_space.h"
 #include "algorithms/volume_trees/balanced_prefix.h"
 #include "algorithms/volume_trees/bounding_box.h"
+#include "algorithms/volume_trees/cast_in_cells.h"
 #include "algorithms/volume_trees/end_caps.h"
 #include "algorithms/volume_trees/volume_tree.h"
 
@@ -60,10 +61,11 @@ class PenumbraAndUmbra {
         options_(&options),
         has_caps_(caps),
         rules_(rules),
-        penumbra_(space, rules),
-        umbra_(space, rules) {}
+        penumbra_(rules),
+        umbra_(rules),
+        grower_(space) {}
 
-  enum class Outcome : std::uint8_t { kDone, kStopped, kTooManyNodes };
+  using Outcome = CastOutcome;
   /// The trees may have so many nodes for each fragment that the limits allow.
   static constexpr std::uint64_t kMostNodesAFragment = 8;
   /// Leaves of the prefix. Measured on cities and quads of 3,001 to 30,001 polygons, small and
@@ -80,10 +82,10 @@ class PenumbraAndUmbra {
   void begin(std::span<const std::uint32_t> receivers);
   /// Adds one of the light's volumes to the trees. False if they have too many nodes.
   bool cast(std::uint32_t volume);
-  /// Casts those volumes in this order. `step(share)` is called before each and returns false to
-  /// stop. Requires: begin().
-  template <class Step>
-  Outcome cast_all(std::span<const std::uint32_t> volumes, const Step& step);
+  /// Casts those volumes in this order, as CastInCells does. Requires: begin(), and none was cast.
+  template <class Step, class Stopped>
+  Outcome cast_all(std::span<const std::uint32_t> volumes, unsigned jobs, const Step& step,
+                   const Stopped& stopped);
 
   /// Whether a side that sees the light can be filtered: its plane does not cut the light.
   bool takes(Space& space, SplitRecord& record, PlaneRef receiving) const {
@@ -101,12 +103,22 @@ class PenumbraAndUmbra {
   std::uint64_t node_count() const { return penumbra_.node_count() + umbra_.node_count(); }
   /// Of the deeper tree. O(nodes).
   std::uint64_t depth() const { return std::max(penumbra_.depth(), umbra_.depth()); }
-  std::uint64_t findings() const {
-    return penumbra_.findings() + umbra_.findings() + splitter_.findings();
-  }
+  std::uint64_t findings() const { return findings_ + grower_.splitter.findings(); }
+  /// Decisions that forks of the space have made for the trees, and the space has not counted.
+  const StageCounts& stage_counts() const { return stages_; }
 
  private:
   void plan_caps(std::span<const std::uint32_t> receivers);
+  std::uint64_t most_nodes() const {
+    const std::uint64_t fragments = options_->limits.fragments;
+    return fragments > ~std::uint64_t{0} / kMostNodesAFragment ? ~std::uint64_t{0}
+                                                               : kMostNodesAFragment * fragments;
+  }
+  /// Cuts the penumbra or the umbra of a volume out of the box, up to its end. None: there is
+  /// none.
+  std::optional<VolumeInTree> cut_out(Space& space, PolyhedronSplitter<Space>& splitter,
+                                      std::uint32_t index, bool is_umbra,
+                                      Polyhedron<Vertex>& volume) const;
   /// Some point in front of a side: of an area light, or of the scene's box, which a far lamp is
   /// outside of. None if the box has none.
   std::optional<Corner<Vertex>> before(Space& space, PlaneRef receiving) const;
@@ -124,8 +136,10 @@ class PenumbraAndUmbra {
   Polyhedron<Vertex> box_;       // that volumes are cut out of
   std::vector<VolumeEnd> ends_;  // by volume; empty: there are no caps
   VolumeTree<Space> penumbra_, umbra_;
-  PolyhedronSplitter<Space> splitter_;
+  TreeGrower<Space> grower_;
   Polyhedron<Vertex> volume_;
+  std::uint64_t findings_ = 0;  // of cast_all()
+  StageCounts stages_;
 };
 
 template <VolumeSpaceModel Space>
@@ -168,12 +182,12 @@ void PenumbraAndUmbra<Space>::begin(std::span<const std::uint32_t> receivers) {
     receiver_boxes.reserve(receivers.size());
     for (const std::uint32_t part : receivers) receiver_boxes.push_back(boxes_->box(part));
     const SpacePrefix prefix = plan_space_prefix(receiver_boxes, kReceiversALeaf);
-    penumbra_.plant(prefix);
-    umbra_.plant(prefix);
+    penumbra_.plant(*space_, prefix);
+    umbra_.plant(*space_, prefix);
   }
   // Volumes are cut out of the scene's box, or the part of it that is in front of an area light.
   box_ = make_box(*space_, {0, 0, 0}, {1, 1, 1});
-  if (light_->has_area()) splitter_.clip(*space_, light_->plane(), false, box_);
+  if (light_->has_area()) grower_.splitter.clip(*space_, light_->plane(), false, box_);
   if (has_caps_) plan_caps(receivers);
 }
 
@@ -186,45 +200,51 @@ void PenumbraAndUmbra<Space>::plan_caps(std::span<const std::uint32_t> receivers
   ends_.resize(store.size());
   for (const std::uint32_t i : light_->casting_volumes()) {
     const auto whole = light_->has_area() ? store.penumbra(store[i]) : store.umbra(store[i]);
-    cut_volume(*space_, box_, whole, splitter_, volume_);
+    cut_volume(*space_, box_, whole, grower_.splitter, volume_);
     ends_[i] = caps.end_of(*space_, volume_, store[i].caster);
   }
 }
 
 template <VolumeSpaceModel Space>
-bool PenumbraAndUmbra<Space>::cast(std::uint32_t index) {
+std::optional<VolumeInTree> PenumbraAndUmbra<Space>::cut_out(Space& space,
+                                                             PolyhedronSplitter<Space>& splitter,
+                                                             std::uint32_t index, bool is_umbra,
+                                                             Polyhedron<Vertex>& volume) const {
   const VolumeStore& store = light_->volumes();
   const ShadowVolume& own = store[index];
-  if (!ends_.empty() && ends_[index].reaches_nothing) return true;
-  const std::uint64_t most = options_->limits.fragments > ~std::uint64_t{0} / kMostNodesAFragment
-                                 ? ~std::uint64_t{0}
-                                 : kMostNodesAFragment * options_->limits.fragments;
+  const auto planes = is_umbra ? store.umbra(own) : store.penumbra(own);
+  if (planes.empty() || (!ends_.empty() && ends_[index].reaches_nothing)) return std::nullopt;
+  cut_volume(space, box_, planes, splitter, volume);
+  if (!ends_.empty()) {
+    for (const PlaneRef cap : ends_[index].caps) splitter.clip(space, cap, true, volume);
+  }
+  return VolumeInTree{planes.front().index(), own.caster};
+}
+
+template <VolumeSpaceModel Space>
+bool PenumbraAndUmbra<Space>::cast(std::uint32_t index) {
   for (const bool is_umbra : {false, true}) {
-    const auto planes = is_umbra ? store.umbra(own) : store.penumbra(own);
-    if (planes.empty()) continue;
-    cut_volume(*space_, box_, planes, splitter_, volume_);
-    if (!ends_.empty()) {
-      for (const PlaneRef cap : ends_[index].caps) splitter_.clip(*space_, cap, true, volume_);
-    }
-    if (!(is_umbra ? umbra_ : penumbra_)
-             .insert(volume_, planes.front().index(), own.caster, most)) {
-      return false;
-    }
+    const auto own = cut_out(*space_, grower_.splitter, index, is_umbra, volume_);
+    if (!own) continue;
+    VolumeTree<Space>& tree = is_umbra ? umbra_ : penumbra_;
+    if (!tree.insert(grower_, volume_, own->base, own->caster, most_nodes())) return false;
   }
   return true;
 }
 
 template <VolumeSpaceModel Space>
-template <class Step>
-typename PenumbraAndUmbra<Space>::Outcome PenumbraAndUmbra<Space>::cast_all(
-    std::span<const std::uint32_t> volumes, const Step& step) {
-  for (std::size_t i = 0; i < volumes.size(); ++i) {
-    if (!step(static_cast<double>(i) / static_cast<double>(volumes.size()))) {
-      return Outcome::kStopped;
-    }
-    if (!cast(volumes[i])) return Outcome::kTooManyNodes;
-  }
-  return Outcome::kDone;
+template <class Step, class Stopped>
+CastOutcome PenumbraAndUmbra<Space>::cast_all(std::span<const std::uint32_t> volumes, unsigned jobs,
+                                              const Step& step, const Stopped& stopped) {
+  CastInCells<Space> cells(*space_, penumbra_, umbra_, rules_, most_nodes());
+  const CastOutcome outcome = cells.cast(
+      volumes, jobs,
+      [&](Space& space, PolyhedronSplitter<Space>& splitter, std::uint32_t volume, bool is_umbra,
+          Polyhedron<Vertex>& out) { return cut_out(space, splitter, volume, is_umbra, out); },
+      step, stopped);
+  findings_ += cells.findings();
+  stages_ += cells.stage_counts();
+  return outcome;
 }
 
 template <VolumeSpaceModel Space>

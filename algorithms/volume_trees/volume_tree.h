@@ -50,28 +50,59 @@ struct ReceivingSide {
   const Corner<Vertex>* before;  // some point strictly in front of it: a vertex of the light
 };
 
+/// What one thread needs to put volumes into trees whose planes are those of a space.
+template <VolumeSpaceModel Space>
+struct TreeGrower {
+  using Vertex = typename Space::Vertex;
+
+  explicit TreeGrower(Space& planes) : space(&planes) {}
+  /// A piece that is on its way down; pieces[i] goes to places[i], i < places.size().
+  Polyhedron<Vertex>& piece(std::size_t i) {
+    if (pieces.size() <= i) pieces.resize(i + 1);
+    return pieces[i];
+  }
+
+  Space* space;
+  PolyhedronSplitter<Space> splitter;
+  std::vector<TreePlace> places;
+  std::vector<Polyhedron<Vertex>> pieces;
+  Polyhedron<Vertex> whole;  // that is being split
+};
+
 template <VolumeSpaceModel Space>
 class VolumeTree {
  public:
   using Vertex = typename Space::Vertex;
+  using Grower = TreeGrower<Space>;
 
-  explicit VolumeTree(Space& space, const Rules& rules = {})
-      : space_(&space), rules_(rules), nodes_(1) {}
+  explicit VolumeTree(const Rules& rules = {}) : rules_(rules), nodes_(1) {}
 
-  /// Puts a balanced prefix at the top. Requires: nothing inserted yet.
-  void plant(const SpacePrefix& prefix);
+  /// Puts a balanced prefix at the top, whose planes it adds to `space`. Requires: nothing inserted
+  /// yet.
+  void plant(Space& space, const SpacePrefix& prefix);
 
-  /// Adds a volume to the union. `base`: the caster's plane. Returns false, and leaves the tree in
-  /// an undefined state, if it would have more than `most_nodes`.
-  bool insert(const Polyhedron<Vertex>& volume, PlaneId base, std::uint32_t caster,
+  /// Adds a volume to the union, and takes the volume: what is left of it is of no use. `base`: the
+  /// caster's plane. Returns false, and leaves the tree in an undefined state, if it would have
+  /// more than `most_nodes`.
+  bool insert(Grower& grower, Polyhedron<Vertex>& volume, PlaneId base, std::uint32_t caster,
               std::uint64_t most_nodes);
+  /// Calls at_out(place, piece) for each piece of a volume that reaches an OUT cell, until it
+  /// returns false. It may put nodes there, and take the piece. Takes the volume, too.
+  template <class AtOut>
+  bool split_down(Grower& grower, Polyhedron<Vertex>& volume, const AtOut& at_out) const;
+
+  /// All OUT cells, in the order of nodes.
+  std::vector<TreePlace> out_cells() const;
+  /// Whether no cell is OUT.
+  bool is_full() const { return is_full(nodes_[0].front); }
+  /// Makes an OUT cell IN, for it is full of the volumes of a tree that graft() will put there.
+  void close(TreePlace at);
+  /// Puts trees into cells that were OUT, trees[i] at places[i], and empties them.
+  void graft(std::span<const TreePlace> places, std::span<VolumeTree> trees);
 
   std::uint64_t node_count() const { return nodes_.size() - 1; }
   /// Nodes on the longest way from the root to a cell. O(nodes).
   std::uint64_t depth() const { return depth_of(std::span<const Node>(nodes_)); }
-  /// Counts what PolyhedronSplitter could not make as it should: 0 on exact kernels.
-  std::uint64_t findings() const { return splitter_.findings(); }
-
   /// The node at a place, or a negative number that stands for a cell.
   std::int32_t node_at(TreePlace at) const {
     return at.front ? nodes_[at.node].front : nodes_[at.node].back;
@@ -103,21 +134,11 @@ class VolumeTree {
     return link < 0 ? link != kOut : nodes_[static_cast<std::size_t>(link)].full != 0;
   }
   void note_full(std::uint32_t node);
-  void split(std::uint32_t node, std::size_t top);
-  Polyhedron<Vertex>& piece(std::size_t i) {
-    if (pieces_.size() <= i) pieces_.resize(i + 1);
-    return pieces_[i];
-  }
+  void split(Grower& grower, std::uint32_t node, std::size_t top) const;
   void extend(TreePlace at, const Polyhedron<Vertex>& piece, PlaneId base, std::uint32_t caster);
 
-  Space* space_;
   Rules rules_;
   std::vector<Node> nodes_;  // 0 is a sentinel whose front child is the root
-  // Workspace of insert(): pieces_[i] goes to places_[i], i < places_.size().
-  PolyhedronSplitter<Space> splitter_;
-  std::vector<TreePlace> places_;
-  std::vector<Polyhedron<Vertex>> pieces_;
-  Polyhedron<Vertex> whole_;
 };
 
 /// CellFilter filters loops down finished trees. Each thread has one, with its own fork of the
@@ -156,13 +177,13 @@ struct VolumeTreeWorkspace {
 };
 
 template <VolumeSpaceModel Space>
-void VolumeTree<Space>::plant(const SpacePrefix& prefix) {
+void VolumeTree<Space>::plant(Space& space, const SpacePrefix& prefix) {
   if (prefix.nodes.empty()) return;
   const auto link = [](std::int32_t planned) {
     return planned == SpacePrefix::kLeaf ? kOut : planned + 1;  // after the sentinel
   };
   for (const SpacePrefix::Node& planned : prefix.nodes) {
-    nodes_.push_back({space_->add_axis_plane(planned.axis, planned.value), link(planned.front),
+    nodes_.push_back({space.add_axis_plane(planned.axis, planned.value), link(planned.front),
                       link(planned.back), 0, 0});
   }
   nodes_[0].front = 1;
@@ -174,29 +195,38 @@ void VolumeTree<Space>::plant(const SpacePrefix& prefix) {
 }
 
 template <VolumeSpaceModel Space>
-bool VolumeTree<Space>::insert(const Polyhedron<Vertex>& volume, PlaneId base, std::uint32_t caster,
-                               std::uint64_t most_nodes) {
+bool VolumeTree<Space>::insert(Grower& grower, Polyhedron<Vertex>& volume, PlaneId base,
+                               std::uint32_t caster, std::uint64_t most_nodes) {
+  return split_down(grower, volume, [&](TreePlace at, const Polyhedron<Vertex>& piece) {
+    extend(at, piece, base, caster);
+    return node_count() <= most_nodes;
+  });
+}
+
+template <VolumeSpaceModel Space>
+template <class AtOut>
+bool VolumeTree<Space>::split_down(Grower& grower, Polyhedron<Vertex>& volume,
+                                   const AtOut& at_out) const {
   if (volume.empty()) return true;
-  places_.assign(1, TreePlace{});
-  piece(0) = volume;
-  while (!places_.empty()) {
-    const std::size_t top = places_.size() - 1;
-    TreePlace at = places_.back();
-    places_.pop_back();
+  grower.places.assign(1, TreePlace{});
+  std::swap(grower.piece(0), volume);
+  while (!grower.places.empty()) {
+    const std::size_t top = grower.places.size() - 1;
+    TreePlace at = grower.places.back();
+    grower.places.pop_back();
     const std::int32_t node = descend(
         at,
         [&](TreePlace place) {
-          const std::int32_t link = child(place);
+          const std::int32_t link = node_at(place);
           return link >= 0 && nodes_[static_cast<std::size_t>(link)].full != 0 ? kNoNode : link;
         },
         [&](std::uint32_t number) {
-          return splitter_.decide(*space_, nodes_[number].plane, piece(top));
+          return grower.splitter.decide(*grower.space, nodes_[number].plane, grower.piece(top));
         });
     if (node >= 0) {
-      split(static_cast<std::uint32_t>(node), top);
-    } else if (child(at) == kOut) {
-      extend(at, piece(top), base, caster);
-      if (node_count() > most_nodes) return false;
+      split(grower, static_cast<std::uint32_t>(node), top);
+    } else if (node_at(at) == kOut && !at_out(at, grower.piece(top))) {
+      return false;
     }
   }
   return true;
@@ -204,15 +234,16 @@ bool VolumeTree<Space>::insert(const Polyhedron<Vertex>& volume, PlaneId base, s
 
 /// Puts what a node's plane makes of piece `top`, which is no longer needed, where it goes next.
 template <VolumeSpaceModel Space>
-void VolumeTree<Space>::split(std::uint32_t node, std::size_t top) {
-  std::swap(whole_, piece(top));
-  piece(top + 1);
+void VolumeTree<Space>::split(Grower& grower, std::uint32_t node, std::size_t top) const {
+  std::swap(grower.whole, grower.piece(top));
+  grower.piece(top + 1);
+  Polyhedron<Vertex>&back = grower.pieces[top], &front = grower.pieces[top + 1];
   // The back child is taken last: a chain of back children is then walked with a short stack.
-  splitter_.split(*space_, nodes_[node].plane, whole_, pieces_[top + 1], pieces_[top]);
-  if (!pieces_[top].empty()) places_.push_back({node, false});
-  if (!pieces_[top + 1].empty()) {
-    if (pieces_[top].empty()) std::swap(pieces_[top], pieces_[top + 1]);
-    places_.push_back({node, true});
+  grower.splitter.split(*grower.space, nodes_[node].plane, grower.whole, front, back);
+  if (!back.empty()) grower.places.push_back({node, false});
+  if (!front.empty()) {
+    if (back.empty()) std::swap(back, front);
+    grower.places.push_back({node, true});
   }
 }
 
@@ -242,6 +273,45 @@ void VolumeTree<Space>::note_full(std::uint32_t node) {
   for (; node != 0 && is_full(nodes_[node].front) && is_full(nodes_[node].back);
        node = nodes_[node].parent) {
     nodes_[node].full = 1;
+  }
+}
+
+template <VolumeSpaceModel Space>
+std::vector<TreePlace> VolumeTree<Space>::out_cells() const {
+  std::vector<TreePlace> cells;
+  for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+    if (nodes_[node].front == kOut) cells.push_back({node, true});
+    if (node > 0 && nodes_[node].back == kOut) cells.push_back({node, false});  // 0: the sentinel
+  }
+  return cells;
+}
+
+template <VolumeSpaceModel Space>
+void VolumeTree<Space>::close(TreePlace at) {
+  child(at) = in_cell(0);
+  note_full(at.node);
+}
+
+template <VolumeSpaceModel Space>
+void VolumeTree<Space>::graft(std::span<const TreePlace> places, std::span<VolumeTree> trees) {
+  std::size_t nodes = nodes_.size();
+  for (const VolumeTree& tree : trees) nodes += tree.node_count();
+  nodes_.reserve(nodes);
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    const auto offset = static_cast<std::int32_t>(nodes_.size()) - 1;  // of a tree's node 1
+    const auto link = [&](std::int32_t own) { return own < 0 ? own : own + offset; };
+    const std::vector<Node> own = std::exchange(trees[i].nodes_, std::vector<Node>(1));
+    child(places[i]) = link(own[0].front);
+    for (std::size_t k = 1; k < own.size(); ++k) {
+      Node node = own[k];
+      node.front = link(node.front);
+      node.back = link(node.back);
+      node.parent = node.parent == 0
+                        ? places[i].node & 0x7fffffffu
+                        : (node.parent + static_cast<std::uint32_t>(offset)) & 0x7fffffffu;
+      nodes_.push_back(node);
+    }
+    note_full(places[i].node);
   }
 }
 

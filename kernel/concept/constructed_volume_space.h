@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/kernel/sign.h"
 #include "gnomon/kernel/stage_counts.h"
+#include "kernel/concept/plane_takeover.h"
 #include "kernel/signs/corner.h"
 
 namespace gnomon {
@@ -73,6 +75,20 @@ class ConstructedVolumeSpace {
   std::uint32_t plane_mark() const { return static_cast<std::uint32_t>(own_.size()); }
   void release_planes(std::uint32_t mark) {
     own_.erase(own_.begin() + static_cast<std::ptrdiff_t>(mark), own_.end());
+  }
+
+  /// As TakesPlanes has them.
+  void reserve_planes(std::size_t more) { own_.reserve(own_.size() + more); }
+  PlaneShift take_planes(Derived fork) {
+    const PlaneShift shift{first_own_, plane_mark()};
+    for (OwnPlane& own : static_cast<ConstructedVolumeSpace&>(fork).own_) {
+      for (PointName& point : own.points) {
+        if (point[1] == kNone) continue;  // an input vertex, or none
+        for (std::uint32_t& plane : point) plane += plane < shift.first ? 0 : shift.by;
+      }
+      own_.push_back(std::move(own));
+    }
+    return shift;
   }
 
   /// Requires: not the name of an input edge.

@@ -4,6 +4,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "kernel/implicit/scaled_doubles.h"
@@ -115,6 +117,20 @@ PlaneRef VolumePlanes::add_explicit(ExactPlane<mpz_class> exact) {
   explicit_.push_back({{}, static_cast<std::uint32_t>(wide_.size()), bits, plane_mark()});
   wide_.push_back(std::move(exact));
   return push(plane);
+}
+
+PlaneShift VolumePlanes::take_planes(VolumePlanes fork) {
+  const PlaneShift shift{first_own(), plane_mark()};
+  const auto first_wide = static_cast<std::uint32_t>(wide_.size());
+  own_.insert(own_.end(), fork.own_.begin(), fork.own_.end());
+  for (Explicit& given : fork.explicit_) {
+    given.owner += shift.by;
+    own_[given.owner].source = VolumePlaneSource::of_integers(explicit_.size());
+    if (given.is_wide()) given.wide += first_wide;
+    explicit_.push_back(given);
+  }
+  std::ranges::move(fork.wide_, std::back_inserter(wide_));
+  return shift;
 }
 
 double VolumePlanes::accurate_value(const Plane& plane, VertexId v) const {

@@ -15,12 +15,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/kernel/precision_plan.h"
+#include "kernel/concept/plane_takeover.h"
 #include "kernel/implicit/exact_geometry.h"
 #include "kernel/implicit/filter_bounds.h"
 #include "kernel/implicit/plane_provenance.h"
@@ -42,6 +44,10 @@ class VolumePlanes {
       explicit_.pop_back();
     }
   }
+
+  /// As TakesPlanes has them.
+  void reserve_planes(std::size_t more) { own_.reserve(own_.size() + more); }
+  PlaneShift take_planes(VolumePlanes fork);
 
   /// A plane and its doubles, to test many vertices against.
   struct LoadedPlane {

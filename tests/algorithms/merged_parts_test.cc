@@ -313,7 +313,8 @@ struct UnionCheck {
 
 UnionCheck check_union(UnionScene& scene, Random& random, const Rules& rules, bool prefix) {
   Space& space = scene.space();
-  VolumeTree<Space> tree(space, rules);
+  VolumeTree<Space> tree(rules);
+  TreeGrower<Space> grower(space);
   CellFilter<Space> filter(space, true);
   if (prefix) {
     std::vector<Box> boxes;
@@ -331,7 +332,7 @@ UnionCheck check_union(UnionScene& scene, Random& random, const Rules& rules, bo
       }
       boxes.push_back(box);
     }
-    tree.plant(plan_space_prefix(boxes, 2));
+    tree.plant(space, plan_space_prefix(boxes, 2));
   }
   std::vector<std::uint32_t> order(scene.volumes().size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -342,7 +343,8 @@ UnionCheck check_union(UnionScene& scene, Random& random, const Rules& rules, bo
     const TestVolume& from = scene.volumes()[i];
     cut_volume(space, scene.box(), from.refs, splitter, volume);
     EXPECT_EQ(volume.empty() ? "" : check(space, volume), "");
-    EXPECT_TRUE(tree.insert(volume, scene.scene().parts[from.caster].plane, from.caster, 1u << 20));
+    EXPECT_TRUE(
+        tree.insert(grower, volume, scene.scene().parts[from.caster].plane, from.caster, 1u << 20));
   }
   UnionCheck result;
   LoopStore<Vertex> store;
@@ -396,7 +398,7 @@ UnionCheck check_union(UnionScene& scene, Random& random, const Rules& rules, bo
       }
     }
   }
-  EXPECT_EQ(tree.findings() + splitter.findings() + filter.vanished(), 0u);
+  EXPECT_EQ(grower.splitter.findings() + splitter.findings() + filter.vanished(), 0u);
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,45 @@ bool overlap(const Box& a, const Box& b) {
     if (a.low[k] > b.high[k] || b.low[k] > a.high[k]) return false;
   }
   return true;
+}
+
+/// Halves are sorted by different threads only where there are thousands of members.
+TEST(BoxTree, IsTheSameForEveryNumberOfThreads) {
+  Random random(2);
+  const auto whole = [](const BoxTree& tree) {
+    const std::span<const std::uint32_t> members = tree.members(tree.nodes()[0]);
+    return std::vector<std::uint32_t>(members.begin(), members.end());
+  };
+  const auto same = [](const BoxTree::Node& a, const BoxTree::Node& b) {
+    return a.begin == b.begin && a.end == b.end && a.right == b.right && a.box.low == b.box.low &&
+           a.box.high == b.box.high;
+  };
+  for (const std::uint32_t n : {2048u, 2049u, 4097u, 10007u, 20000u}) {
+    // Few positions: many middles are equal.
+    const std::vector<Box> boxes = random_boxes(random, n, n == 20000 ? 8 : 1000);
+    std::vector<std::uint32_t> members(n);
+    std::iota(members.begin(), members.end(), 0u);
+    const BoxTree one(boxes, members, 1);
+    for (int round = 0; round < 3; ++round) {
+      const BoxTree many(boxes, members, 0);
+      EXPECT_EQ(whole(one), whole(many)) << n;
+      EXPECT_TRUE(std::ranges::equal(one.nodes(), many.nodes(), same)) << n;
+    }
+    // Each node has its place: a left child follows, and leaves hold all members once.
+    std::uint32_t held = 0;
+    for (std::uint32_t i = 0; i < one.nodes().size(); ++i) {
+      const BoxTree::Node& node = one.nodes()[i];
+      if (node.right == 0) {
+        EXPECT_EQ(node.begin, held);
+        held = node.end;
+        continue;
+      }
+      EXPECT_EQ(one.nodes()[i + 1].begin, node.begin);
+      EXPECT_EQ(one.nodes()[i + 1].end, one.nodes()[node.right].begin);
+      EXPECT_EQ(one.nodes()[node.right].end, node.end);
+    }
+    EXPECT_EQ(held, n);
+  }
 }
 
 TEST(BoxTree, FindsWhatASearchOfAllMembersFinds) {

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "kernel/concept/kernel_concept.h"
+#include "kernel/concept/plane_takeover.h"
 #include "kernel/signs/nearest_double.h"
 #include "triangle_soup.h"
 
@@ -736,8 +737,69 @@ TYPED_TEST_P(ExactVolumeSpace, PositionsAreCertifiedExactAndNearest) {
   }
 }
 
-REGISTER_TYPED_TEST_SUITE_P(ExactVolumeSpace, SidesOfMadePointsAreTrue, FacesOfAddedPlanesAreCut,
-                            BoxesAreCut, PositionsAreCertifiedExactAndNearest);
+/// Planes of every kind that a fork has added keep what they are where a space takes them over that
+/// has planes of its own, and so do those that were there.
+TYPED_TEST_P(ExactVolumeSpace, PlanesOfForksAreTakenOver) {
+  using Space = TypeParam;
+  if constexpr (!TakesPlanes<Space>) {
+    GTEST_SKIP() << "planes of this kernel are for one thread";
+  } else {
+    Random random(31);
+    unsigned asked = 0;
+    for (const SoupKind kind : kSoupKinds) {
+      for (const unsigned bits : {5u, 30u, 70u, 150u}) {
+        const TriangleSoup soup = random_soup(random, kind, bits, 8);
+        const typename Space::SceneSpace scene(soup.geometry(), TestFixture::kOptions);
+        Space space(scene, TestFixture::kOptions);
+        const auto add_all = [&](VolumePlanes<Space>& planes) {
+          for (int i = 0; i < 4; ++i) {
+            planes.add_through_vertices();
+            planes.add_through_cut_light();
+            planes.add_along_direction(bits);
+            planes.add_axis_plane(0.375);
+          }
+        };
+        VolumePlanes<Space> own(soup, space, random);
+        add_all(own);
+        Space empty = space.fork();
+        empty.release_planes(0);
+        std::vector<std::pair<PlaneRef, TruePlane>> all = own.entries();
+        for (int fork = 0; fork < 2; ++fork) {
+          Space forked = empty.fork();
+          VolumePlanes<Space> planes(soup, forked, random);
+          add_all(planes);
+          const std::uint32_t count = forked.plane_mark(), before = space.plane_mark();
+          space.reserve_planes(count);
+          const PlaneShift shift = space.take_planes(std::move(forked));
+          EXPECT_EQ(space.plane_mark(), before + count);
+          for (const auto& [ref, plane] : planes.entries()) all.emplace_back(shift(ref), plane);
+        }
+        for (const auto& [ref, plane] : all) {
+          for (const VolumeLoop<Space>& loop : own.loops()) {
+            for (std::uint32_t i = 0; i < loop.size(); ++i) {
+              ASSERT_EQ(space.side_of_plane(ref, loop.corner(i)), plane.side(ref, loop.exact[i]));
+              ++asked;
+            }
+          }
+          // Cut by it, and asked of another plane.
+          const auto& [other, other_plane] = all[random.below(all.size())];
+          const VolumeLoop<Space> cut = own.loops()[0].clipped(space, ref, plane);
+          for (std::uint32_t i = 0; i < cut.size(); ++i) {
+            ASSERT_EQ(space.side_of_plane(other, cut.corner(i)),
+                      other_plane.side(other, cut.exact[i]));
+          }
+        }
+        space.release_planes(0);
+        EXPECT_EQ(space.plane_mark(), 0u);
+      }
+    }
+    EXPECT_GT(asked, 10'000u);
+  }
+}
+
+REGISTER_TYPED_TEST_SUITE_P(ExactVolumeSpace, PlanesOfForksAreTakenOver, SidesOfMadePointsAreTrue,
+                            FacesOfAddedPlanesAreCut, BoxesAreCut,
+                            PositionsAreCertifiedExactAndNearest);
 
 }  // namespace gnomon::test
 

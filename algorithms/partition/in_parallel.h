@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 // Work on ranges, in one call or on the threads of the arena that the caller is in.
-#ifndef GNOMON_ALGORITHMS_CONTOUR_IN_PARALLEL_H
-#define GNOMON_ALGORITHMS_CONTOUR_IN_PARALLEL_H
+#ifndef GNOMON_ALGORITHMS_PARTITION_IN_PARALLEL_H
+#define GNOMON_ALGORITHMS_PARTITION_IN_PARALLEL_H
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -24,4 +24,4 @@ void in_parallel(unsigned jobs, std::uint32_t n, std::uint32_t grain, const Body
 
 }  // namespace gnomon
 
-#endif  // GNOMON_ALGORITHMS_CONTOUR_IN_PARALLEL_H
+#endif  // GNOMON_ALGORITHMS_PARTITION_IN_PARALLEL_H
