@@ -21,11 +21,10 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/area_contour/cover_mask.h"
 #include "algorithms/area_contour/lines_in_space.h"
 #include "algorithms/area_contour/outline_union.h"
+#include "algorithms/area_contour/placed_volumes.h"
 #include "algorithms/area_contour/receiver_chart.h"
-#include "algorithms/area_contour/shadow_boxes.h"
 #include "algorithms/area_contour/share_classes.h"
 #include "algorithms/area_contour/volume_search.h"
 #include "algorithms/partition/import_export.h"
@@ -97,7 +96,6 @@ class ReceiverShares {
  private:
   /// Fewer volumes are all asked.
   static constexpr std::size_t kLeastMasked = 8;
-  static constexpr double kSmall = 256;  // of the receiver's rectangle
   enum class Relation : std::uint8_t { kOutside, kInside, kCrossing, kOpen };
   enum class Border : std::uint8_t { kOpen, kClosed };
   enum class Verdict : std::uint8_t { kGoesOn, kAllUmbra, kOpen };
@@ -128,16 +126,8 @@ class ReceiverShares {
   CutLight cut_light_;
   bool all_penumbra_ = false;
   std::vector<OutlineLine> lines_;
-  CoverMask penumbra_mask_, umbra_mask_;
-  ShadowProjection projection_;
-  struct Ordered {
-    std::uint32_t number, part;
-    bool has_umbra;
-    ShadowBoxes::Place place;
-    ChartBox penumbra, umbra;
-  };
-  std::vector<Ordered> ordered_;
-  const Ordered* masked_ = nullptr;  // what is being added, if masks are kept
+  PlacedVolumes placed_;
+  const ShadowBoxes* masked_ = nullptr;  // of what is being added, if masks are kept
   std::vector<Point3> caster_;
   OutlineUnion penumbras_, umbras_;
 };
@@ -205,7 +195,7 @@ typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_volume(Space&
     all_penumbra_ = relation == Relation::kInside;
     if (!all_penumbra_) {
       penumbras_.add(lines_);
-      if (masked_ != nullptr) penumbra_mask_.add(lines_, masked_->penumbra);
+      if (masked_ != nullptr) placed_.penumbras.add(lines_, masked_->penumbra);
     }
   }
   if (!cut.umbra || volume.umbra_count == 0) return Verdict::kGoesOn;
@@ -214,7 +204,7 @@ typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_volume(Space&
   if (relation == Relation::kInside) return Verdict::kAllUmbra;
   if (relation == Relation::kCrossing) {
     umbras_.add(lines_);
-    if (masked_ != nullptr) umbra_mask_.add(lines_, masked_->umbra);
+    if (masked_ != nullptr) placed_.umbras.add(lines_, masked_->umbra);
   }
   return Verdict::kGoesOn;
 }
@@ -270,50 +260,32 @@ std::optional<Shares> ReceiverShares<Space>::find_masked(Workspace& workspace,
                                                          PlaneRef receiving) {
   const Space& space = workspace.space;
   const PreparedScene& scene = light.scene();
-  penumbra_mask_.begin(chart_);
-  umbra_mask_ = penumbra_mask_;
   const auto plane = space.load(support_);
   const double sign = receiving.flipped() ? -1 : 1;
-  Point3 n = plane.n;
-  for (double& component : n) component *= sign;
-  projection_.begin(chart_, n, sign * plane.d, volumes.bound(), volumes.light_corners(),
-                    penumbra_mask_.margin());
-  ordered_.clear();
+  placed_.begin(chart_, {sign * plane.n[0], sign * plane.n[1], sign * plane.n[2]}, sign * plane.d,
+                volumes);
   for (const FoundVolume& found : search_.found()) {
     caster_.clear();
     for (const VertexId vertex : scene.loop(scene.parts[found.part])) {
       caster_.push_back(space.input_vertex(vertex).x);
     }
-    ShadowBoxes boxes = projection_.boxes(caster_);
-    if (boxes.place == ShadowBoxes::Place::kBehind) continue;
-    boxes.penumbra.clip(penumbra_mask_.box());
-    boxes.umbra.clip(penumbra_mask_.box());
-    if (boxes.penumbra.is_empty()) continue;
-    const bool umbra = found.umbra && !boxes.umbra.is_empty();
-    if (all_penumbra_ && !umbra) continue;
-    ordered_.push_back({found.number, found.part, umbra, boxes.place, boxes.penumbra, boxes.umbra});
+    placed_.place(found, caster_, all_penumbra_);
   }
-  // Neighbours in space stay neighbours where outlines are so small that they hide little.
-  const double large = penumbra_mask_.box().area() / kSmall;
-  const auto small = std::ranges::stable_partition(
-      ordered_, [&](const Ordered& own) { return own.penumbra.area() > large; });
-  std::ranges::stable_sort(ordered_.begin(), small.begin(), std::ranges::greater{},
-                           [](const Ordered& own) { return own.penumbra.area(); });
-  for (const Ordered& own : ordered_) {
-    const bool umbra = own.has_umbra && !umbra_mask_.holds(own.umbra);
-    const bool penumbra = !all_penumbra_ && !penumbra_mask_.holds(own.penumbra);
+  for (const PlacedVolume& volume : placed_.largest_first()) {
+    const FoundVolume& found = volume.found;
+    const bool umbra = found.umbra && !placed_.umbras.holds(volume.boxes.umbra);
+    const bool penumbra = !all_penumbra_ && !placed_.penumbras.holds(volume.boxes.penumbra);
     if (!umbra && !penumbra) continue;
-    if (own.place != ShadowBoxes::Place::kInFront &&
-        !blocks(workspace, receiving, scene, own.part)) {
+    if (volume.boxes.place != ShadowBoxes::Place::kInFront &&
+        !blocks(workspace, receiving, scene, found.part)) {
       continue;
     }
-    masked_ = &own;
+    masked_ = &volume.boxes;
     const Verdict verdict =
-        add_volume(workspace.space, light.volumes(), {own.number, umbra}, penumbra);
+        add_volume(workspace.space, light.volumes(), {found.number, umbra}, penumbra);
     if (verdict == Verdict::kOpen) return std::nullopt;
-    if (verdict == Verdict::kAllUmbra) return kAllUmbra;
-    if (umbra && umbra_mask_.is_full()) return kAllUmbra;
-    all_penumbra_ = all_penumbra_ || penumbra_mask_.is_full();
+    if (verdict == Verdict::kAllUmbra || (umbra && placed_.umbras.is_full())) return kAllUmbra;
+    all_penumbra_ = all_penumbra_ || placed_.penumbras.is_full();
   }
   return shares();
 }

@@ -17,11 +17,17 @@
 namespace gnomon {
 
 MethodId method_of(LightType light, const ShadowOptions& options, bool together) {
-  if (light == LightType::kArea) return options.method.area;
-  if (options.method.point != MethodId::kAutomatic) return options.method.point;
-  if (together) return MethodId::kSvbsp;
   const ShadowOutput& output = options.output;
   const bool shares_alone = !output.points && !output.exact_points && !output.exact_fractions;
+  if (light == LightType::kArea) {
+    if (options.method.area != MethodId::kAutomatic) return options.method.area;
+    // Other kernels have every receiver cut by either method.
+    const bool by_contour =
+        shares_alone && !output.combined && options.kernel.id == KernelId::kPlane;
+    return by_contour ? MethodId::kContour : MethodId::kReceiver;
+  }
+  if (options.method.point != MethodId::kAutomatic) return options.method.point;
+  if (together) return MethodId::kSvbsp;
   const bool exact = kernel_info(options.kernel.id).exact;
   return shares_alone && exact ? MethodId::kContour : MethodId::kSectors;
 }
@@ -111,6 +117,7 @@ class Computation {
         lookup_(lookup),
         runs_(runs_of(scene, options, lights)) {
     by_receiver_ = std::ranges::any_of(runs_, &MethodRun::by_receiver);
+    own_.method.area = method_of(LightType::kArea, options, false);
     if (options.control.light_done) {
       own_.control.light_done = [this](LightResult&& light) {
         light.method = method(light.light);
@@ -160,7 +167,7 @@ class Computation {
       };
     }
     const double start = cpu_seconds();
-    MethodId method = run.by_receiver ? options_.method.area : method_of_type(LightType::kPoint);
+    MethodId method = run.by_receiver ? own_.method.area : method_of_type(LightType::kPoint);
     // What contour leaves open is for the same run to cut.
     if (run.by_receiver && method == MethodId::kContour) method = MethodId::kReceiver;
     Expected<ShadowResult> result =
@@ -192,7 +199,7 @@ class Computation {
                  return scene_.lights[light].has_area() == area;
                });
       });
-      if (is_there) add(area ? options_.method.area : options_.method.point);
+      if (is_there) add(area ? own_.method.area : options_.method.point);
     }
   }
 

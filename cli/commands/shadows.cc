@@ -269,8 +269,9 @@ int run_shadows(const ShadowsOptions& options) {
                           {"--no-merge", options.no_merge, &Method::leaves_out_steps},
                           {"--no-prefix", options.no_prefix, &Method::leaves_out_steps}});
   if (!algorithm) return report_error(algorithm.error());
-  if (asks_for_shares_alone(options, *kernel) && algorithm->point == MethodId::kSectors) {
-    algorithm->point = MethodId::kAutomatic;
+  if (asks_for_shares_alone(options, *kernel)) {
+    if (algorithm->point == MethodId::kSectors) algorithm->point = MethodId::kAutomatic;
+    algorithm->area = MethodId::kAutomatic;
   }
   if (options.pieces) {
     if (algorithm->point == MethodId::kReceiver) {
@@ -332,7 +333,9 @@ void add_shadows_command(CLI::App& app, Action& action) {
       "room.result.json");
   add_scene_options(command, options->scene);
   add_kernel_option(command, options->kernel);
-  add_algorithm_option(command, options->algorithm);
+  add_algorithm_option(command, options->algorithm, "How shadows are found.",
+                       "auto: contour for classes and shares alone, if the kernel allows it;\n"
+                       "else sectors and receiver wherever they can do what is asked");
   command.add_flag("--identity", options->identity,
                    "Rounded kernels: a vertex made by a plane is on it, whatever its numbers say");
   command

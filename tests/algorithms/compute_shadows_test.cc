@@ -133,6 +133,32 @@ TEST(ComputeShadows, AlgorithmIsContourForSharesElseSectorsUnlessOnlySvbspCan) {
   EXPECT_EQ(algorithm_of(MethodId::kSvbsp, false), "svbsp");
 }
 
+TEST(ComputeShadows, UnderAnAreaLightContourIsForSharesOfPlaneElseReceiver) {
+  ScenePen pen;
+  pen.polygon({{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}});
+  pen.polygon({{4, 4, 2}, {6, 4, 2}, {6, 6, 2}, {4, 6, 2}});
+  pen.panel({{3, 3, 8}, {3, 6, 8}, {6, 6, 8}, {6, 3, 8}});
+  const auto scene = Case::make(pen.take());
+  ShadowOptions asked;
+  const auto chosen = [&] { return compute_shadows(scene->prepared(), asked)->algorithm; };
+  EXPECT_EQ(chosen(), "contour");
+  asked.kernel.id = KernelId::kRational;
+  EXPECT_EQ(chosen(), "receiver");
+  asked.kernel.id = KernelId::kPlane;
+  asked.output.combined = true;
+  EXPECT_EQ(chosen(), "receiver");
+  asked.output = {};
+  asked.output.exact_fractions = true;
+  EXPECT_EQ(chosen(), "receiver");
+  asked.output = {};
+  asked.output.points = true;
+  EXPECT_EQ(chosen(), "receiver");
+  EXPECT_FALSE(compute_shadows(scene->prepared(), asked)->lights[0].fragments.empty());
+  asked.output = {};
+  asked.method.area = MethodId::kMerged;
+  EXPECT_EQ(chosen(), "merged");
+}
+
 TEST(ComputeShadows, EveryKernelSaysWhatItIs) {
   const auto scene = box_on_floor();
   for (const KernelInfo& kernel : kernel_list()) {

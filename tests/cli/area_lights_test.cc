@@ -153,10 +153,14 @@ TEST(AreaLights, AlgorithmsAndWhatTheyAreRefusedFor) {
     arguments.insert(arguments.end(), options.begin(), options.end());
     return std::string(parsed(run(arguments))["algorithm"].GetString());
   };
-  EXPECT_EQ(algorithm({}), "receiver");
+  EXPECT_EQ(algorithm({}), "contour");
+  EXPECT_EQ(algorithm({"--fragments"}), "receiver");
+  EXPECT_EQ(algorithm({"--exact-fractions"}), "receiver");
+  EXPECT_EQ(algorithm({"--kernel", "rational"}), "receiver");
   EXPECT_EQ(algorithm({"--algorithm", "sectors"}), "receiver");
   EXPECT_EQ(algorithm({"--algorithm", "receiver"}), "receiver");
-  EXPECT_EQ(algorithm({"--point=1,2,90"}), "contour+receiver");
+  EXPECT_EQ(algorithm({"--point=1,2,90"}), "contour");
+  EXPECT_EQ(algorithm({"--point=1,2,90", "--fragments"}), "sectors+receiver");
   EXPECT_EQ(algorithm({"--point=1,2,90", "--algorithm", "svbsp"}), "svbsp+receiver");
   EXPECT_EQ(algorithm({"--point=1,2,90", "--algorithm", "receiver"}), "receiver");
   expect_refused({"shadows", scene, "--algorithm", "magic"}, {"receiver", "merged"});

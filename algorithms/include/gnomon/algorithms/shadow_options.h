@@ -28,7 +28,7 @@ struct KernelPolicy {
 /// The methods, and what changes their work but not the areas that they find.
 struct MethodChoice {
   MethodId point = MethodId::kAutomatic;  // for point and directional lights
-  MethodId area = MethodId::kReceiver;    // for area lights
+  MethodId area = MethodId::kAutomatic;   // for area lights
   bool prefix = true;                     // balanced prefix of light space
   std::uint64_t seed = 1;                 // of the root choice of the scene BSP
   MethodOptionValues options;             // each method reads its own
