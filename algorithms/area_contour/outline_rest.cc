@@ -119,6 +119,20 @@ void OutlineUnion::sharpen(const Carrier& carrier, Lengths& rest) {
   rest.perhaps = std::min(rest.perhaps, sharp.perhaps);
 }
 
+/// Whether covers certainly hold all of an edge, one after another. What bounds leave open about
+/// where they meet is not asked.
+bool OutlineUnion::is_hidden(const Edge& edge) {
+  std::ranges::sort(covers_, {}, [](const Stretch& cover) { return cover.low.inner; });
+  double at = edge.from;
+  for (const Stretch& cover : covers_) {
+    if (!cover.certainly_is()) continue;
+    if (cover.low.inner > at) return false;
+    at = std::max(at, cover.high.inner);
+    if (at >= edge.to) return true;
+  }
+  return false;
+}
+
 /// What the covers leave of a stretch.
 OutlineUnion::Lengths OutlineUnion::rest_of(const Carrier& carrier, const Stretch& stretch) {
   Lengths rest;
