@@ -55,13 +55,50 @@ GNOMON_FOR_AVX2 bool OutlineUnion::trim(const Edge& own, const Outline& outline)
     const Doubles radius = half + 0x1p-49 * ((place < 0 ? -place : place) + half);
     // Else they may be parallel, and the place none.
     const Bits crosses = (slope < 0 ? -slope : slope) * receiver_->reach > 8 * error;
+    const unsigned turns = lanes_of(((slope > 0) & kFirst) | (crosses & kSecond));
     for (unsigned left = open; left != 0; left &= left - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
-      trimmings_.push_back(
-          {place[k], radius[k], 4 * i + k, (near >> k & 1) != 0, slope[k] > 0, crosses[k] != 0});
+      trimmings_.push_back({place[k], radius[k], 4 * i + k, (near >> k & 1) != 0,
+                            (turns >> k & 1) != 0, (turns >> k & 16) != 0});
     }
   }
   return true;
+}
+
+/// Cuts a stretch of an outline's line by its other lines, as cut_by_own() does, but finds its
+/// outer ends alone. kNear: one of them may be the same line, and nothing is said.
+GNOMON_FOR_AVX2 OutlineUnion::OwnCut OutlineUnion::cut_ends(const Outline& outline,
+                                                            Edge& own) const {
+  constexpr Bits kFirst = {0x1, 0x2, 0x4, 0x8}, kSecond = {0x10, 0x20, 0x40, 0x80};
+  const double own_error = own.error + slack_;
+  Doubles from = {own.from, own.from, own.from, own.from}, to = {own.to, own.to, own.to, own.to};
+  bool is_missed = false;
+  for (std::uint32_t i = outline.first; i < outline.end; ++i) {
+    const LineBlock& block = blocks_[i];
+    const Doubles &a = row(block.a), &b = row(block.b);
+    const Doubles start = row(block.c) - own.c * (a * own.a + b * own.b);
+    const Doubles slope = a * own.b - b * own.a;
+    const Doubles error = row(block.error) + own_error;
+    const Doubles first = start + slope * own.from, last = start + slope * own.to;
+    const Bits inside = (first > error) & (last > error);
+    const Bits outside = (first < -error) & (last < -error);
+    const Bits near = (first >= -error) & (first <= error) & (last >= -error) & (last <= error);
+    const unsigned lanes = lanes_of((near & kFirst) | (outside & kSecond));
+    const unsigned itself = own.line / 4 == i ? 1U << own.line % 4 : 0;
+    if ((lanes & 15 & ~itself) != 0) return OwnCut::kNear;
+    is_missed = is_missed || lanes >> 4 != 0;
+    const Doubles place = -start / slope, quotient = error / slope;
+    const Doubles half = quotient < 0 ? -quotient : quotient;
+    const Doubles radius = half + 0x1p-49 * ((place < 0 ? -place : place) + half);
+    const Bits cuts = ~inside & ~near;
+    const Doubles begin = place - radius, end = place + radius;
+    from = cuts & (slope > 0) & (begin > from) ? begin : from;
+    to = cuts & ~(slope > 0) & (end < to) ? end : to;
+  }
+  if (is_missed) return OwnCut::kNothing;
+  own.from = std::max(std::max(from[0], from[1]), std::max(from[2], from[3]));
+  own.to = std::min(std::min(to[0], to[1]), std::min(to[2], to[3]));
+  return own.from < own.to ? OwnCut::kSome : OwnCut::kNothing;
 }
 
 /// How much of an edge another outline holds on its outer side, and where if it is some of it.

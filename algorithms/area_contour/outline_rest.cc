@@ -95,6 +95,20 @@ void OutlineUnion::sharpen(const Carrier& carrier, End& end) const {
   end.outer = end.outer == least ? low : high;
 }
 
+/// Whether covers certainly hold all of an edge, one after another. What bounds leave open about
+/// where they meet is not asked.
+bool OutlineUnion::is_hidden(const Edge& edge) {
+  std::ranges::sort(covers_, {}, [](const Stretch& cover) { return cover.low.inner; });
+  double at = edge.from;
+  for (const Stretch& cover : covers_) {
+    if (!cover.certainly_is()) continue;
+    if (cover.low.inner > at) return false;
+    at = std::max(at, cover.high.inner);
+    if (at >= edge.to) return true;
+  }
+  return false;
+}
+
 /// Finds those ends again that have a part in what perhaps is seen; others change nothing of it.
 void OutlineUnion::sharpen(const Carrier& carrier, Stretch& stretch) {
   const auto matters = [&](const End& end) {

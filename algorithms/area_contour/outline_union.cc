@@ -206,13 +206,21 @@ void OutlineUnion::add(std::span<const OutlineLine> lines) {
   is_flat_ = false;
   for (std::uint32_t i = 0; i < count && !is_flat_; ++i) {
     const std::uint32_t line = 4 * outline.first + i;
-    Stretch stretch;
-    if (!cut_by_own(outline, line, stretch) || is_flat_) continue;
-    const double from = stretch.low.outer, to = stretch.high.outer;
+    Edge edge = edge_on(line, number, 0, 0);
+    Stretch stretch = in_receiver(edge);
+    edge.from = stretch.low.outer;
+    edge.to = stretch.high.outer;
+    const OwnCut cut = cut_ends(outline, edge);
+    if (cut == OwnCut::kNothing) continue;
+    if (cut == OwnCut::kNear) {
+      if (!cut_by_own(outline, line, stretch) || is_flat_) continue;
+      edge.from = stretch.low.outer;
+      edge.to = stretch.high.outer;
+    }
+    const double a = edge.a, b = edge.b, c = edge.c, from = edge.from, to = edge.to;
     LineBlock& block = blocks_[line / 4];
     block.from[line % 4] = from;
     block.to[line % 4] = to;
-    const double a = block.a[line % 4], b = block.b[line % 4], c = block.c[line % 4];
     grow(-c * a + from * b, -c * b - from * a);
     grow(-c * a + to * b, -c * b - to * a);
     has_edge = true;
@@ -341,6 +349,7 @@ void OutlineUnion::add_borders() {
 
 /// Adds what covers leave of an edge, of which a part may be at hand.
 void OutlineUnion::add_rest(const Edge& edge) {
+  if (is_hidden(edge)) return;
   Stretch stretch;
   cut_by_own(outlines_[edge.outline], edge.line, stretch);
   if (edge.from > stretch.low.outer) {  // there cells meet

@@ -184,6 +184,8 @@ class OutlineUnion {
   Stretch in_receiver(const Edge& line) const;
   CornerMask edges_of_border(std::span<const OutlineLine> lines) const;
   bool trim(const Edge& own, const Outline& outline);
+  enum class OwnCut : std::uint8_t { kNothing, kSome, kNear };
+  OwnCut cut_ends(const Outline& outline, Edge& own) const;
   bool cut_by_own(const Outline& outline, std::uint32_t line, Stretch& stretch);
   Cover cover(const Edge& edge, std::uint32_t other, Stretch& stretch);
   bool hides(const Edge& edge, std::uint32_t other);
@@ -201,6 +203,7 @@ class OutlineUnion {
   void add_borders();
   void add_edge(const Edge& edge);
   void add_rest(const Edge& edge);
+  bool is_hidden(const Edge& edge);
   void add_cells();
   void sort_members();
   bool holds(const Outline& outline, const double (&low)[2], const double (&high)[2]) const;
