@@ -80,8 +80,8 @@ GNOMON_FOR_AVX2 void OutlineUnion::clip(const LineBlock& block, const Cell& cell
     const Doubles inverse = 1 / slope;
     const Doubles enters = (cell.low[axis] - origin) * inverse,
                   leaves = (cell.high[axis] - origin) * inverse;
-    from = rises & (enters > from) ? enters : falls & (leaves > from) ? leaves : from;
-    to = rises & (leaves < to) ? leaves : falls & (enters < to) ? enters : to;
+    from = (rises & (enters > from)) ? enters : (falls & (leaves > from)) ? leaves : from;
+    to = (rises & (leaves < to)) ? leaves : (falls & (enters < to)) ? enters : to;
     const Bits is_beside =
         ~rises & ~falls & ((origin <= cell.low[axis]) | (origin > cell.high[axis]));
     to = is_beside ? from : to;

@@ -92,8 +92,8 @@ GNOMON_FOR_AVX2 OutlineUnion::OwnCut OutlineUnion::cut_ends(const Outline& outli
     const Doubles radius = half + 0x1p-49 * ((place < 0 ? -place : place) + half);
     const Bits cuts = ~inside & ~near;
     const Doubles begin = place - radius, end = place + radius;
-    from = cuts & (slope > 0) & (begin > from) ? begin : from;
-    to = cuts & ~(slope > 0) & (end < to) ? end : to;
+    from = (cuts & (slope > 0) & (begin > from)) ? begin : from;
+    to = (cuts & ~(slope > 0) & (end < to)) ? end : to;
   }
   if (is_missed) return OwnCut::kNothing;
   own.from = std::max(std::max(from[0], from[1]), std::max(from[2], from[3]));

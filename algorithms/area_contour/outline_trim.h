@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
+// What OutlineUnion's files share and its header need not tell.
 #ifndef GNOMON_ALGORITHMS_AREA_CONTOUR_OUTLINE_TRIM_H
 #define GNOMON_ALGORITHMS_AREA_CONTOUR_OUTLINE_TRIM_H
 
