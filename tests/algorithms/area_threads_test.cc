@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "fuzz/generate/scene_pen.h"
 #include "gnomon/algorithms/shadows.h"
 #include "gnomon/scene/generate.h"
 #include "gnomon/scene/prepare.h"
@@ -18,20 +20,35 @@
 namespace gnomon::test {
 namespace {
 
-struct ThreadCase {
-  const char* generator;
-  std::map<std::string, std::int64_t> parameters;
-};
+Scene made(const char* generator, const std::map<std::string, std::int64_t>& parameters) {
+  Expected<Scene> scene = generate(generator, parameters, 3);
+  EXPECT_TRUE(scene) << to_string(scene.error());
+  return *std::move(scene);
+}
+
+/// A roof below the light that has all of a field of tiles in its umbra: cells of the umbra tree
+/// are full after its volume, the first one, and take no piece of later rounds.
+Scene roof() {
+  fuzz::ScenePen pen;
+  pen.polygon({{-90, -90, 190}, {90, -90, 190}, {90, 90, 190}, {-90, 90, 190}});
+  for (std::int64_t i = 0; i < 30; ++i) {
+    for (std::int64_t k = 0; k < 22; ++k) {
+      const std::int64_t x = 4 * i - 60, y = 4 * k - 44, z = (7 * i + 5 * k) % 23;
+      pen.polygon({{x, y, z}, {x + 3, y, z}, {x + 3, y + 3, z + 1}, {x, y + 3, z + 1}});
+    }
+  }
+  return pen.panel({{-5, -5, 200}, {-5, 5, 200}, {5, 5, 200}, {5, -5, 200}}).take();
+}
 
 /// Many small polygons under a small and a large light, whose planes cut the lights so that volumes
-/// have planes through cut corners, and boxes on a floor.
-std::vector<ThreadCase> thread_cases(KernelId kernel) {
-  const bool is_slow = kernel == KernelId::kRational || kernel == KernelId::kEpeck;
-  std::vector<ThreadCase> cases{{"quads", {{"n", 600}, {"area", 1}, {"area_size", 50}}}};
-  if (is_slow) return cases;
-  cases.push_back({"quads", {{"n", 1300}, {"area", 1}}});
-  cases.push_back({"city", {{"n", 250}, {"area", 1}}});
-  return cases;
+/// have planes through cut corners; boxes on a floor; and the roof.
+std::vector<Scene> scenes_for(KernelId kernel) {
+  std::vector<Scene> scenes{made("quads", {{"n", 600}, {"area", 1}, {"area_size", 50}})};
+  if (kernel == KernelId::kRational || kernel == KernelId::kEpeck) return scenes;  // they are slow
+  scenes.push_back(made("quads", {{"n", 1300}, {"area", 1}}));
+  scenes.push_back(made("city", {{"n", 250}, {"area", 1}}));
+  scenes.push_back(roof());
+  return scenes;
 }
 
 struct Answer {
@@ -69,18 +86,16 @@ ShadowOptions thread_options(KernelId kernel, MethodId method) {
   return options;
 }
 
-void expect_threads_change_nothing(const ThreadCase& own, ShadowOptions options) {
-  const Expected<Scene> scene = generate(own.generator, own.parameters, 3);
-  ASSERT_TRUE(scene) << to_string(scene.error());
-  const Expected<PreparedScene> prepared = prepare(*scene);
+void expect_threads_change_nothing(const Scene& scene, ShadowOptions options) {
+  const Expected<PreparedScene> prepared = prepare(scene);
   ASSERT_TRUE(prepared) << to_string(prepared.error());
   options.tuning.jobs = 1;
-  const Answer one = answer_of(*scene, *prepared, options);
+  const Answer one = answer_of(scene, *prepared, options);
   EXPECT_EQ(one.stages.total() > 0, options.output.stage_counts);
   for (const unsigned jobs : {2u, 4u, 8u}) {
     SCOPED_TRACE(std::to_string(jobs) + " threads");
     options.tuning.jobs = jobs;
-    const Answer many = answer_of(*scene, *prepared, options);
+    const Answer many = answer_of(scene, *prepared, options);
     EXPECT_TRUE(many.json == one.json);  // megabytes: no difference is printed
     EXPECT_TRUE(same_stages(one.stages, many.stages));
     ASSERT_EQ(one.lights.size(), many.lights.size());
@@ -95,11 +110,10 @@ void expect_threads_change_nothing(const ThreadCase& own, ShadowOptions options)
 class AreaThreads : public testing::TestWithParam<KernelId> {};
 
 TEST_P(AreaThreads, ChangeNothing) {
-  for (const ThreadCase& own : thread_cases(GetParam())) {
+  for (const Scene& scene : scenes_for(GetParam())) {
     for (const MethodId method : {MethodId::kReceiver, MethodId::kMerged, MethodId::kContour}) {
-      SCOPED_TRACE(std::string(own.generator) + ", method " +
-                   std::to_string(static_cast<int>(method)));
-      expect_threads_change_nothing(own, thread_options(GetParam(), method));
+      SCOPED_TRACE(scene.name + ", method " + std::to_string(static_cast<int>(method)));
+      expect_threads_change_nothing(scene, thread_options(GetParam(), method));
     }
   }
 }
@@ -118,17 +132,17 @@ TEST(AreaThreads, ChangeNothingOfLightsTogether) {
     ShadowOptions options = thread_options(KernelId::kPlane, method);
     options.output.combined = true;
     options.method.point = method;
-    expect_threads_change_nothing({"city", {{"n", 150}, {"area", 2}}}, options);
+    expect_threads_change_nothing(made("city", {{"n", 150}, {"area", 2}}), options);
   }
 }
 
 TEST(AreaThreads, ChangeNothingOfCapsAndInterleavedTrees) {
   ShadowOptions options = thread_options(KernelId::kPlane, MethodId::kMerged);
   options.method.options.caps = true;
-  expect_threads_change_nothing({"quads", {{"n", 700}, {"area", 1}}}, options);
+  expect_threads_change_nothing(made("quads", {{"n", 700}, {"area", 1}}), options);
   options.method.options.caps = false;
   options.method.options.interleaved = true;
-  expect_threads_change_nothing({"quads", {{"n", 300}, {"area", 1}}}, options);
+  expect_threads_change_nothing(made("quads", {{"n", 300}, {"area", 1}}), options);
 }
 
 }  // namespace
