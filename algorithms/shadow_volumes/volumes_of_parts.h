@@ -120,7 +120,17 @@ VolumesOfParts make_volumes_of_parts(Space& space, const Rules& rules, const Pre
   const auto parts = static_cast<std::uint32_t>(scene.parts.size());
   const auto on_one_thread = [&] {
     made.first.reserve(parts + std::size_t{1});
-    add_volumes_of_parts(space, rules, scene, light, casts, 0, parts, made);
+    const std::uint32_t before = space.plane_mark();
+    for (std::uint32_t begin = 0; begin < parts; begin += kPartsOfABlock) {
+      add_volumes_of_parts(space, rules, scene, light, casts, begin,
+                           std::min(parts, begin + kPartsOfABlock), made);
+      if (begin > 0) continue;
+      // The first parts tell how many planes there will be, about: a list that is moved while it
+      // grows takes twice its memory.
+      if constexpr (TakesPlanes<Space>) {
+        space.reserve_planes((space.plane_mark() - before) * std::size_t{parts} / kPartsOfABlock);
+      }
+    }
   };
   if constexpr (TakesPlanes<Space>) {
     if (jobs != 1 && parts > kPartsOfABlock) {
