@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "gnomon/algorithms/method.h"
 #include "gnomon/kernel/precision_plan.h"
@@ -61,6 +63,15 @@ std::string together_text(const ShadowResult& result) {
          " bytes, at most " + grouped(counts.tree_bytes_at_once) + " at one time\n";
 }
 
+/// What is counted of a light. Under area lights contour looks at volumes and at no intervals.
+std::span<const Counter> counters_of(const LoadedScene& loaded, const LightResult& light) {
+  static constexpr std::array kOfAreaByContour = {Counter::kVolumes, Counter::kVolumePlanes,
+                                                  Counter::kOpenPolygons};
+  const bool has_area = loaded.prepared.lights[light.light].has_area();
+  if (has_area && light.method == MethodId::kContour) return kOfAreaByContour;
+  return method_info(light.method).counters;
+}
+
 }  // namespace
 
 std::string statistics_text(const LoadedScene& loaded, const ShadowResult& result,
@@ -72,8 +83,8 @@ std::string statistics_text(const LoadedScene& loaded, const ShadowResult& resul
             grouped(result.bsp_nodes) + " nodes, depth " + grouped(result.bsp_depth) + '\n';
   }
   for (const LightResult& light : result.lights) {
-    const bool counts_nodes =
-        has_bsp || std::ranges::count(method_info(light.method).counters, Counter::kNodes) > 0;
+    const std::span<const Counter> counters = counters_of(loaded, light);
+    const bool counts_nodes = has_bsp || std::ranges::count(counters, Counter::kNodes) > 0;
     text += "light " + report::light_name(loaded.scene, loaded.prepared, light) + ": " +
             grouped(light.facing_parts) + " parts and " + grouped(light.facing_edges) +
             " edges face it";
@@ -82,7 +93,7 @@ std::string statistics_text(const LoadedScene& loaded, const ShadowResult& resul
               grouped(light.fragment_total) + " fragments";
     }
     text += '\n';
-    const std::string work = report::work_text(method_info(light.method).counters, light.work);
+    const std::string work = report::work_text(counters, light.work);
     if (!work.empty()) {
       text += report::wrapped("work: " + work, report::TextTable::kWidth, 2, 4);
     }
