@@ -205,6 +205,27 @@ TEST(OutlineUnion, CoverWithinTheBoundsOfAnEnd) {
   }
 }
 
+/// Two lines of one outline, both nearly along the edge, end what it holds within each other's
+/// bounds: the end is the inner one of the two, which integers tell.
+TEST(OutlineUnion, EndOfTwoLinesThatAreNearlyAlongTheEdge) {
+  constexpr long kFlat = 1 << 26, kSteep = kFlat / 2 * kFine;
+  for (int more = -12; more <= 12; ++more) {
+    for (const bool is_mirrored : {false, true}) {
+      const long turn = is_mirrored ? -1 : 1, shift = is_mirrored ? kSide : 0;
+      // x, or the side's length less x, is at most 4 and 4 + more / kFine where y is 5.
+      Convex held = {{-turn, -kFlat, 5 * kFlat + 4 + turn * shift},
+                     {-turn * kFine, -kSteep, 5 * kSteep + 4 * kFine + more + turn * shift * kFine},
+                     {0, 1, -2},
+                     {turn, 0, -2 - turn * shift}};
+      for (const bool is_first : {false, true}) {
+        std::vector<Convex> outlines{box(1, 1, 7, 5), held};
+        if (is_first) std::swap(outlines[0], outlines[1]);
+        check(outlines, covered(outlines), std::to_string(more), 1e-9);
+      }
+    }
+  }
+}
+
 /// Cells meet there, and what ends in one of them is not seen from the other.
 TEST(OutlineUnion, CellsMeetWithinTheBoundsOfAnEnd) {
   for (int more = -12; more <= 12; ++more) {
