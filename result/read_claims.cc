@@ -120,7 +120,7 @@ Expected<void> Reader::told_shares(const Json& value, const std::string& pointer
                                    ClaimedPolygon& polygon) const {
   if (shares_ == SharesAlone::kRefused) {
     return fields_.wrong(ErrorCode::kFormat, pointer, "key \"fragments\" is missing",
-                         "a result written with fragments");
+                         "a result written with --fragments");
   }
   auto shares = read_told_shares(fields_, value, pointer);
   if (!shares) return tl::unexpected(shares.error());

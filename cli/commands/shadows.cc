@@ -274,8 +274,10 @@ int run_shadows(const ShadowsOptions& options) {
     algorithm->area = MethodId::kAutomatic;
   }
   if (options.pieces) {
-    if (algorithm->point == MethodId::kReceiver) {
-      return report_usage("--pieces needs merged, not receiver", "--algorithm merged, or auto");
+    for (const MethodId other : {MethodId::kReceiver, MethodId::kContour}) {
+      if (algorithm->point != other) continue;
+      const std::string name(method_info(other).name);
+      return report_usage("--pieces needs merged, not " + name, "--algorithm merged, or auto");
     }
     algorithm->area = MethodId::kPieces;
   }

@@ -324,6 +324,27 @@ class ResultWriter {
     json_.end_object();
   }
 
+  /// Of a part's shares those that one number does not tell.
+  void write_enclosures(const ClassifiedSide& side, const PartSide& part) {
+    if (options_.exact_fractions) return;
+    bool is_open = false;
+    for (const LightState state : light_states(side.area_light)) {
+      const Interval& share = share_of(part, state);
+      if (!(share.upper - share.lower > kTight)) continue;
+      if (!is_open) {
+        json_.key("enclosures");
+        json_.begin_object(JsonLayout::kInline);
+        is_open = true;
+      }
+      json_.key(name_of(state));
+      json_.begin_array(JsonLayout::kInline);
+      json_.value(share.lower);
+      json_.value(share.upper);
+      json_.end_array();
+    }
+    if (is_open) json_.end_object();
+  }
+
   void write_parts(const ClassifiedSide& side) {
     json_.key("parts");
     json_.begin_array();
@@ -341,6 +362,7 @@ class ResultWriter {
           json_.member(name_of(state), share_of(part, state).middle());
         }
       }
+      write_enclosures(side, part);
       if (part.reason != ShadowReason::kNone) json_.member("reason", name_of(part.reason));
       json_.end_object();
     }

@@ -166,7 +166,9 @@ TEST(AreaLights, AlgorithmsAndWhatTheyAreRefusedFor) {
   expect_refused({"shadows", scene, "--algorithm", "magic"}, {"receiver", "merged"});
   expect_refused({"shadows", scene, "--algorithm", "receiver", "--no-merge"},
                  {"--no-merge", "svbsp"});
-  expect_refused({"shadows", scene, "--algorithm", "receiver", "--pieces"}, {"--pieces", "merged"});
+  for (const char* other : {"receiver", "contour"}) {
+    expect_refused({"shadows", scene, "--algorithm", other, "--pieces"}, {"--pieces", "merged"});
+  }
   expect_refused({"shadows", scene, "--area=1,1,1:2,2"}, {"--area"});
   expect_refused({"shadows", scene, "--area=0,0,90:9,0,90:9,9,91:0,9,90"}, {"planar"});
   expect_refused({"shadows", scene, "--light", "lamp"}, {"lamp", "panel"});

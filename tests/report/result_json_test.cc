@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidjson/document.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "gnomon/algorithms/shadows.h"
@@ -147,6 +148,25 @@ TEST(ResultJson, NumbersOfABentPolygon) {
     EXPECT_LT(polygons[3]["lit"]["enclosure"][0].GetDouble(), lit.get_d() + 1e-30);
     EXPECT_GT(polygons[3]["lit"]["enclosure"][1].GetDouble(), lit.get_d());
   }
+}
+
+TEST(ResultJson, PartsTellBoundsThatAreApart) {
+  Classified all = classify(kBentScene);
+  const std::uint32_t bent = all.prepared.first_part[3];
+  const auto part = std::ranges::find(all.result.lights[0].parts, bent, &PartResult::part);
+  ASSERT_NE(part, all.result.lights[0].parts.end());
+  const double lit = part->lit.middle();
+  part->lit = {lit - 1e-9, lit + 1e-9};
+  StringSink sink;
+  write_result_json(sink, all.scene, all.prepared, all.result, {});
+  rapidjson::Document json;
+  json.Parse<rapidjson::kParseFullPrecisionFlag>(sink.text().c_str());
+  ASSERT_FALSE(json.HasParseError());
+  const auto& parts = json["lights"][0]["polygons"][3]["parts"];
+  ASSERT_TRUE(parts[0].HasMember("enclosures"));
+  EXPECT_EQ(parts[0]["enclosures"]["lit"][0].GetDouble(), lit - 1e-9);
+  EXPECT_EQ(parts[0]["enclosures"]["lit"][1].GetDouble(), lit + 1e-9);
+  EXPECT_FALSE(parts[1].HasMember("enclosures"));
 }
 
 TEST(ResultJson, IsWellFormedAndListsEverything) {
