@@ -99,9 +99,13 @@ Expected<AlgorithmChoice> parse_algorithm_choice(std::string_view name,
   for (const NeedyOption& option : needs) {
     if (!option.given || method.*option.ability) continue;
     const std::string able(method_info(automatic_method({option})).name);
-    return fail(ErrorCode::kUsage,
-                std::string(option.name) + " needs " + able + ", not " + std::string(method.name),
-                "--algorithm " + able + ", or auto");
+    const bool receiver_can = method_info(MethodId::kReceiver).*option.ability;
+    const std::string of_area =
+        method.lights.area && receiver_can ? " (area lights: receiver)" : "";
+    return fail(
+        ErrorCode::kUsage,
+        std::string(option.name) + " needs " + able + of_area + ", not " + std::string(method.name),
+        "--algorithm " + able + ", or auto");
   }
   choice.point = selection->id;
   if (method.lights.area) choice.area = selection->id;
