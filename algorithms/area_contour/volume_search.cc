@@ -263,7 +263,7 @@ GNOMON_FOR_AVX2 bool VolumeSearch::try_blocking() {
   std::size_t tried = 0;
   std::vector<std::uint32_t> none;
   bool found = false;
-  ++blocking_tried_;
+  if (cut_ == nullptr) ++blocking_tried_;
   const auto goes_on = [&] { return !found && !all_penumbra_ && tried < kMostBlocking; };
   light_->tree_.find(
       [&](const BoxTree::Node& node, std::uint32_t) {
