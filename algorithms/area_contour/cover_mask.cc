@@ -2,7 +2,6 @@
 #include "algorithms/area_contour/cover_mask.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "algorithms/area_contour/outline_union.h"

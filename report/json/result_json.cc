@@ -258,8 +258,8 @@ class ResultWriter {
     json_.end_object();
   }
 
-  void write_enclosure(double lower, double upper) {
-    json_.key("enclosure");
+  void write_bounds(std::string_view key, double lower, double upper) {
+    json_.key(key);
     json_.begin_array(JsonLayout::kInline);
     json_.value(lower);
     json_.value(upper);
@@ -273,9 +273,10 @@ class ResultWriter {
     const double nearest = nearest_double(share);
     json_.member("fraction", nearest);
     if (share == 0) {
-      write_enclosure(0, 0);
+      write_bounds("enclosure", 0, 0);
     } else {
-      write_enclosure(std::nextafter(nearest, 0.0), std::min(1.0, std::nextafter(nearest, 2.0)));
+      write_bounds("enclosure", std::nextafter(nearest, 0.0),
+                   std::min(1.0, std::nextafter(nearest, 2.0)));
     }
     write_area_of(side, areas_.nearest(side.polygon, share), share);
   }
@@ -309,7 +310,9 @@ class ResultWriter {
              ": its " + std::string(name) + " fraction is not a number");
       }
       json_.member("fraction", share.middle());
-      if (share.upper - share.lower > kTight) write_enclosure(share.lower, share.upper);
+      if (share.upper - share.lower > kTight) {
+        write_bounds("enclosure", share.lower, share.upper);
+      }
     }
     if (share.lower == share.upper && (share.lower == 0 || share.lower == 1)) {
       write_area_of(side, share.lower == 0 ? 0.0 : area, share.lower);
@@ -336,11 +339,7 @@ class ResultWriter {
         json_.begin_object(JsonLayout::kInline);
         is_open = true;
       }
-      json_.key(name_of(state));
-      json_.begin_array(JsonLayout::kInline);
-      json_.value(share.lower);
-      json_.value(share.upper);
-      json_.end_array();
+      write_bounds(name_of(state), share.lower, share.upper);
     }
     if (is_open) json_.end_object();
   }
