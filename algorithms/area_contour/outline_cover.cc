@@ -101,8 +101,15 @@ GNOMON_FOR_AVX2 OutlineUnion::OwnCut OutlineUnion::cut_ends(const Outline& outli
   return own.from < own.to ? OwnCut::kSome : OwnCut::kNothing;
 }
 
-/// How much of an edge another outline holds on its outer side, and where if it is some of it.
-inline OutlineUnion::Cover OutlineUnion::cover(const Edge& edge, std::uint32_t other,
+/// How much of an edge lies in a stretch of its line that another outline holds.
+inline OutlineUnion::Cover OutlineUnion::cover_between(const Edge& edge, const Stretch& stretch) {
+  return stretch.low.outer < edge.to && stretch.high.outer > edge.from && stretch.may_be()
+             ? Cover::kSome
+             : Cover::kNothing;
+}
+
+/// What cover() says, for all kinds of lines.
+OutlineUnion::Cover OutlineUnion::cover_slowly(const Edge& edge, std::uint32_t other,
                                                Stretch& stretch) {
   if (!trim(edge, outlines_[other])) return Cover::kNothing;
   if (trimmings_.empty()) return Cover::kAll;
@@ -118,14 +125,79 @@ inline OutlineUnion::Cover OutlineUnion::cover(const Edge& edge, std::uint32_t o
       if (line.a * edge.a + line.b * edge.b > 0 && other > edge.outline) return Cover::kNothing;
     }
   }
-  stretch = trimmed.stretch();
-  return stretch.low.outer < edge.to && stretch.high.outer > edge.from && stretch.may_be()
-             ? Cover::kSome
-             : Cover::kNothing;
+  trimmed.put(stretch);
+  return cover_between(edge, stretch);
+}
+
+/// How much of an edge another outline holds on its outer side, and where if it is some of it. The
+/// values are those of trim(), but only where no line has all of the edge outside are places found,
+/// and no line is left in trimmings_.
+[[gnu::always_inline]] inline OutlineUnion::Cover OutlineUnion::cover(const Edge& edge, std::uint32_t other,
+                                                      Stretch& stretch) {
+  constexpr Bits kFirst = {0x1, 0x2, 0x4, 0x8}, kSecond = {0x10, 0x20, 0x40, 0x80};
+  constexpr int kMostOpen = 4;  // blocks
+  struct {
+    Doubles start, slope, error;
+    unsigned lanes;
+    std::uint32_t number;
+  } open[kMostOpen];
+  int count = 0;
+  const Outline& outline = outlines_[other];
+  const double own_error = edge.error + slack_;
+  for (std::uint32_t i = outline.first; i < outline.end; ++i) {
+    const LineBlock& block = blocks_[i];
+    const Doubles &a = row(block.a), &b = row(block.b);
+    const Doubles start = row(block.c) - edge.c * (a * edge.a + b * edge.b);
+    const Doubles slope = a * edge.b - b * edge.a;
+    const Doubles error = row(block.error) + own_error;
+    const Doubles first = start + slope * edge.from, last = start + slope * edge.to;
+    const Bits inside = (first > error) & (last > error);
+    const Bits outside = (first < -error) & (last < -error);
+    const unsigned lanes = lanes_of((~inside & kFirst) | (outside & kSecond));
+    if (lanes == 0) continue;
+    if (lanes >> 4 != 0) return Cover::kNothing;
+    const Bits near = (first >= -error) & (first <= error) & (last >= -error) & (last <= error);
+    if (any(near) || count == kMostOpen) return cover_slowly(edge, other, stretch);
+    open[count].start = start;
+    open[count].slope = slope;
+    open[count].error = error;
+    open[count].lanes = lanes;
+    open[count++].number = i;
+  }
+  if (count == 0) return Cover::kAll;
+  Trim trimmed;
+  for (int i = 0; i < count; ++i) {
+    const Doubles &start = open[i].start, &slope = open[i].slope, &error = open[i].error;
+    const Doubles place = -start / slope, quotient = error / slope;
+    const Doubles half = quotient < 0 ? -quotient : quotient;
+    const Doubles radius = half + 0x1p-49 * ((place < 0 ? -place : place) + half);
+    const Doubles least = place - radius, most = place + radius;
+    // Else they may be parallel, and the place none.
+    const Bits crosses = (slope < 0 ? -slope : slope) * receiver_->reach > 8 * error;
+    const unsigned turns = lanes_of(((slope > 0) & kFirst) | (crosses & kSecond));
+    for (unsigned left = open[i].lanes; left != 0; left &= left - 1) {
+      const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
+      const std::uint32_t line = (turns >> k & 16) != 0 ? 4 * open[i].number + k : kNoLine;
+      if ((turns >> k & 1) != 0) {
+        trimmed.begin_between(least[k], most[k], line);
+      } else {
+        trimmed.end_between(least[k], most[k], line);
+      }
+    }
+  }
+  trimmed.put(stretch);
+  return cover_between(edge, stretch);
+}
+
+/// Notes what an outline holds of an edge, unless another one certainly holds that, too: then it
+/// takes nothing of what certainly is seen, nor of what perhaps is.
+inline void OutlineUnion::note(const Stretch& cover) {
+  if (!covers_.empty() && covers_.front().certainly_holds(cover)) return;
+  covers_.push_back(cover);
 }
 
 /// Whether another outline certainly holds all of an edge; else notes what it holds of it.
-inline bool OutlineUnion::hides(const Edge& edge, std::uint32_t other) {
+[[gnu::always_inline]] inline bool OutlineUnion::hides(const Edge& edge, std::uint32_t other) {
   if (other == edge.outline) return false;
   Stretch stretch;
   const Cover cover = this->cover(edge, other, stretch);
@@ -135,7 +207,7 @@ inline bool OutlineUnion::hides(const Edge& edge, std::uint32_t other) {
     last_hider_ = other;
     return true;
   }
-  covers_.push_back(stretch);
+  note(stretch);
   return false;
 }
 

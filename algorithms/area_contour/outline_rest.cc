@@ -26,7 +26,7 @@ bool OutlineUnion::has_gap(const Carrier& carrier, const End& before, const End&
 
 /// The end of a stretch as that of what is outside of it.
 OutlineUnion::End OutlineUnion::outside(const End& end) {
-  return {end.outer, end.inner, end.line, end.other, end.begins};
+  return {end.outer, end.inner, end.line, end.other};
 }
 
 /// What certainly is seen: neither a cover nor one that perhaps is.
@@ -55,7 +55,7 @@ void OutlineUnion::find_perhaps(const Carrier& carrier, const Stretch& stretch, 
   const auto add = [&](const End& before, const End& after) {
     rest.perhaps += after.inner - before.inner;
     rest.perhaps_integral += carrier.integral(before.inner, after.inner);
-    perhaps_gaps_.push_back({before, after});
+    perhaps_gaps_.push_back({before.inner, after.inner});
   };
   perhaps_gaps_.clear();
   std::ranges::sort(covers_, {}, [](const Stretch& cover) { return cover.low.inner; });
@@ -72,9 +72,10 @@ void OutlineUnion::find_perhaps(const Carrier& carrier, const Stretch& stretch, 
   if (has_gap(carrier, at, end, true)) add(at, end);
 }
 
-/// Finds an end again from integers. Where the carrier was cut before the place, or behind it, the
+/// Finds an end again from integers; of the two places of one that begins a stretch the greater
+/// one is meant. Where the carrier was cut before the place, or behind it, the
 /// end is there: so a sharper place outside of what was known counts as that.
-void OutlineUnion::sharpen(const Carrier& carrier, End& end) const {
+void OutlineUnion::sharpen(const Carrier& carrier, End& end, bool begins) const {
   if (end.line == kNoLine || end.inner == end.outer) return;
   // The least and the greatest place.
   const auto place_of = [&](std::uint32_t line) -> std::array<double, 2> {
@@ -85,7 +86,7 @@ void OutlineUnion::sharpen(const Carrier& carrier, End& end) const {
   if (end.other != kNoLine) {
     const std::array<double, 2> other = place_of(end.other);
     for (std::size_t i = 0; i < 2; ++i) {
-      place[i] = end.begins ? std::max(place[i], other[i]) : std::min(place[i], other[i]);
+      place[i] = begins ? std::max(place[i], other[i]) : std::min(place[i], other[i]);
     }
   }
   const double least = std::min(end.inner, end.outer), most = std::max(end.inner, end.outer);
@@ -111,22 +112,19 @@ bool OutlineUnion::is_hidden(const Edge& edge) {
 
 /// Finds those ends again that have a part in what perhaps is seen; others change nothing of it.
 void OutlineUnion::sharpen(const Carrier& carrier, Stretch& stretch) {
-  const auto matters = [&](const End& end) {
-    return std::ranges::any_of(perhaps_gaps_, [&](const Gap& gap) {
-      return std::max(end.inner, end.outer) >= gap.before.inner &&
-             std::min(end.inner, end.outer) <= gap.after.inner;
+  const auto sharpen_if_it_matters = [&](End& end, bool begins) {
+    const bool matters = std::ranges::any_of(perhaps_gaps_, [&](const Gap& gap) {
+      return std::max(end.inner, end.outer) >= gap.before &&
+             std::min(end.inner, end.outer) <= gap.after;
     });
+    if (matters) sharpen(carrier, end, begins);
   };
-  sharpened_.clear();
-  for (End* end : {&stretch.low, &stretch.high}) {
-    if (matters(*end)) sharpened_.push_back(end);
-  }
+  sharpen_if_it_matters(stretch.low, true);
+  sharpen_if_it_matters(stretch.high, false);
   for (Stretch& cover : covers_) {
-    for (End* end : {&cover.low, &cover.high}) {
-      if (matters(*end)) sharpened_.push_back(end);
-    }
+    sharpen_if_it_matters(cover.low, true);
+    sharpen_if_it_matters(cover.high, false);
   }
-  for (End* end : sharpened_) sharpen(carrier, *end);
 }
 
 /// What the covers leave of a stretch. Where that leaves much open, which is so of a few edges that

@@ -24,52 +24,68 @@ struct OutlineUnion::Trim {
   }
 
   void begin_at(double place, double error, std::uint32_t line) {
-    low_.add({place + error, place - error, line, kNoLine, true},
-             [](double a, double b) { return a > b; });
+    low_.add(place + error, place - error, line);
   }
   void end_at(double place, double error, std::uint32_t line) {
-    high_.add({place - error, place + error, line}, [](double a, double b) { return a < b; });
+    high_.add(place - error, place + error, line);
+  }
+  /// The same by the bounds of the place.
+  void begin_between(double outer, double inner, std::uint32_t line) {
+    low_.add(inner, outer, line);
+  }
+  void end_between(double inner, double outer, std::uint32_t line) {
+    high_.add(inner, outer, line);
   }
   /// Of a stretch that was trimmed.
-  Stretch stretch() const {
-    return {low_.end([](double a, double b) { return a >= b; }),
-            high_.end([](double a, double b) { return a <= b; }), is_certain};
+  void put(Stretch& stretch) const {
+    low_.put(stretch.low);
+    high_.put(stretch.high);
+    stretch.is_certain = is_certain;
   }
 
  private:
+  struct Greater {
+    static bool is_inside(double a, double b) { return a > b; }
+  };
+  struct Less {
+    static bool is_inside(double a, double b) { return a < b; }
+  };
   /// The innermost places.
+  template <class Order>
   struct Innermost {
-    End first, second;
-    double third, outer;
+    double first, second, third, first_outer, outer;
+    std::uint32_t line = kNoLine, second_line = kNoLine;
 
     explicit Innermost(double beyond)
-        : first{beyond, beyond}, second{beyond, beyond}, third(beyond), outer(beyond) {}
-    template <class IsInside>
-    void add(const End& end, const IsInside& is_inside) {
-      if (is_inside(end.outer, outer)) outer = end.outer;
-      if (is_inside(end.inner, first.inner)) {
-        third = second.inner;
+        : first(beyond), second(beyond), third(beyond), first_outer(beyond), outer(beyond) {}
+    void add(double end_inner, double end_outer, std::uint32_t end_line) {
+      if (Order::is_inside(end_outer, outer)) outer = end_outer;
+      if (Order::is_inside(end_inner, first)) {
+        third = second;
         second = first;
-        first = end;
-      } else if (is_inside(end.inner, second.inner)) {
-        third = second.inner;
-        second = end;
-      } else if (is_inside(end.inner, third)) {
-        third = end.inner;
+        second_line = line;
+        first = end_inner;
+        first_outer = end_outer;
+        line = end_line;
+      } else if (Order::is_inside(end_inner, second)) {
+        third = second;
+        second = end_inner;
+        second_line = end_line;
+      } else if (Order::is_inside(end_inner, third)) {
+        third = end_inner;
       }
     }
-    template <class Reaches>
-    End end(const Reaches& reaches) const {
-      End result{first.inner, outer, first.line, kNoLine, first.begins};
-      if (first.line != kNoLine && reaches(second.inner, first.outer)) {
-        const bool is_one_of_two = second.line != kNoLine && !reaches(third, outer);
-        result.other = second.line;
-        if (!is_one_of_two) result.line = result.other = kNoLine;
-      }
-      return result;
+    void put(End& end) const {
+      end = {first, outer, line, kNoLine};
+      // Another one may reach as far.
+      if (line == kNoLine || Order::is_inside(first_outer, second)) return;
+      const bool is_one_of_two = second_line != kNoLine && Order::is_inside(outer, third);
+      end.line = is_one_of_two ? line : kNoLine;
+      end.other = is_one_of_two ? second_line : kNoLine;
     }
   };
-  Innermost low_{-kInfinity}, high_{kInfinity};
+  Innermost<Greater> low_{-kInfinity};
+  Innermost<Less> high_{kInfinity};
 };
 
 }  // namespace gnomon::area_contour

@@ -145,7 +145,8 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
     if (by.line < line || is_flat_) return false;
   }
   if (!is_left) return false;
-  const Stretch cut = trimmed.stretch();
+  Stretch cut;
+  trimmed.put(cut);
   stretch.is_certain = cut.is_certain;
   // Where the receiver's border may end the edge as well as a line, the place has no name.
   if (cut.low.inner > stretch.low.outer) {
@@ -268,7 +269,7 @@ bool OutlineUnion::cover_border(std::uint32_t corner, const Outline& outline,
       trim.end_at(share, radius, i);
     }
   }
-  stretch = trim.stretch();
+  trim.put(stretch);
   return stretch.may_be();
 }
 

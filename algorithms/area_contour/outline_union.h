@@ -79,7 +79,6 @@ class OutlineUnion {
     double inner = 0, outer = 0;
     std::uint32_t line = kNoLine;   // which makes the place, if that is known
     std::uint32_t other = kNoLine;  // or this one, whichever is farther inside
-    bool begins = false;            // a stretch: of two places the greater one is meant
 
     bool is_known() const { return line != kNoLine && other == kNoLine; }
   };
@@ -88,6 +87,10 @@ class OutlineUnion {
     bool is_certain = true;  // false: perhaps none of it is covered
     bool may_be() const { return low.outer < high.outer; }
     bool certainly_is() const { return is_certain && low.inner < high.inner; }
+    /// Whether it certainly is, and holds all that another one may be.
+    bool certainly_holds(const Stretch& other) const {
+      return certainly_is() && low.inner <= other.low.outer && high.inner >= other.high.outer;
+    }
   };
   /// Coordinates along the receiver and across it, so that a narrow one has small heights: what is
   /// not known of places along it then hardly matters. The integral over a border of the height
@@ -147,7 +150,7 @@ class OutlineUnion {
   };
   /// What lies between two places, the first of which ends a cover or begins the stretch.
   struct Gap {
-    End before, after;
+    double before, after;
   };
   struct Trim;
   /// The border of the covered part, as a walk that must come back to where it began: whoever has
@@ -188,6 +191,9 @@ class OutlineUnion {
   OwnCut cut_ends(const Outline& outline, Edge& own) const;
   bool cut_by_own(const Outline& outline, std::uint32_t line, Stretch& stretch);
   Cover cover(const Edge& edge, std::uint32_t other, Stretch& stretch);
+  Cover cover_slowly(const Edge& edge, std::uint32_t other, Stretch& stretch);
+  static Cover cover_between(const Edge& edge, const Stretch& stretch);
+  void note(const Stretch& cover);
   bool hides(const Edge& edge, std::uint32_t other);
   bool cover_border(std::uint32_t corner, const Outline& outline, Stretch& stretch) const;
   bool is_one(std::uint32_t a, std::uint32_t b) const;
@@ -196,7 +202,7 @@ class OutlineUnion {
   static End outside(const End& end);
   void find_certain(const Carrier& carrier, const Stretch& stretch, Lengths& rest);
   void find_perhaps(const Carrier& carrier, const Stretch& stretch, Lengths& rest);
-  void sharpen(const Carrier& carrier, End& end) const;
+  void sharpen(const Carrier& carrier, End& end, bool begins) const;
   void sharpen(const Carrier& carrier, Stretch& stretch);
   void set_frame();
   void add_integral(double along, double along_error, double height_error, const Lengths& lengths);
@@ -232,7 +238,6 @@ class OutlineUnion {
   std::vector<double> ends_;
   std::uint32_t last_hider_ = 0;   // the outline that hid the last edge that was hidden
   std::vector<Gap> perhaps_gaps_;  // of the stretch at hand
-  std::vector<End*> sharpened_;
   double sharpen_above_ = 0;  // what an edge may leave open of the area
   Walk walk_;
   double sum_ = 0, error_ = 0;  // of the covered area
