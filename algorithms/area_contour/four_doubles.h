@@ -14,6 +14,11 @@ typedef int FloatBits __attribute__((vector_size(32), may_alias));
 inline bool any(const Bits& bits) { return (bits[0] | bits[1] | bits[2] | bits[3]) != 0; }
 inline bool all(const Bits& bits) { return (bits[0] & bits[1] & bits[2] & bits[3]) != 0; }
 
+/// A bit for each of four.
+inline unsigned lanes_of(const Bits& bits) {
+  return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
+}
+
 inline const Doubles& row(const double* values) {
   return *reinterpret_cast<const Doubles*>(values);
 }

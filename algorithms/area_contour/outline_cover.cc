@@ -8,15 +8,6 @@
 #include "algorithms/area_contour/outline_union.h"
 
 namespace gnomon::area_contour {
-namespace {
-
-/// A bit for each of four lines.
-inline unsigned lanes_of(const Bits& bits) {
-  return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
-}
-
-}  // namespace
-
 /// Leaves in trimmings_ what lines of an outline do to a stretch of a line, but those that have all
 /// of it inside. False if one certainly leaves nothing: near ones before it are left then, too.
 ///
@@ -65,42 +56,6 @@ GNOMON_FOR_AVX2 bool OutlineUnion::trim(const Edge& own, const Outline& outline)
   return true;
 }
 
-/// Cuts a stretch of an outline's line by its other lines, as cut_by_own() does, but finds its
-/// outer ends alone. kNear: one of them may be the same line, and nothing is said.
-GNOMON_FOR_AVX2 OutlineUnion::OwnCut OutlineUnion::cut_ends(const Outline& outline,
-                                                            Edge& own) const {
-  constexpr Bits kFirst = {0x1, 0x2, 0x4, 0x8}, kSecond = {0x10, 0x20, 0x40, 0x80};
-  const double own_error = own.error + slack_;
-  Doubles from = {own.from, own.from, own.from, own.from}, to = {own.to, own.to, own.to, own.to};
-  bool is_missed = false;
-  for (std::uint32_t i = outline.first; i < outline.end; ++i) {
-    const LineBlock& block = blocks_[i];
-    const Doubles &a = row(block.a), &b = row(block.b);
-    const Doubles start = row(block.c) - own.c * (a * own.a + b * own.b);
-    const Doubles slope = a * own.b - b * own.a;
-    const Doubles error = row(block.error) + own_error;
-    const Doubles first = start + slope * own.from, last = start + slope * own.to;
-    const Bits inside = (first > error) & (last > error);
-    const Bits outside = (first < -error) & (last < -error);
-    const Bits near = (first >= -error) & (first <= error) & (last >= -error) & (last <= error);
-    const unsigned lanes = lanes_of((near & kFirst) | (outside & kSecond));
-    const unsigned itself = own.line / 4 == i ? 1U << own.line % 4 : 0;
-    if ((lanes & 15 & ~itself) != 0) return OwnCut::kNear;
-    is_missed = is_missed || lanes >> 4 != 0;
-    const Doubles place = -start / slope, quotient = error / slope;
-    const Doubles half = quotient < 0 ? -quotient : quotient;
-    const Doubles radius = half + 0x1p-49 * ((place < 0 ? -place : place) + half);
-    const Bits cuts = ~inside & ~near;
-    const Doubles begin = place - radius, end = place + radius;
-    from = (cuts & (slope > 0) & (begin > from)) ? begin : from;
-    to = (cuts & ~(slope > 0) & (end < to)) ? end : to;
-  }
-  if (is_missed) return OwnCut::kNothing;
-  own.from = std::max(std::max(from[0], from[1]), std::max(from[2], from[3]));
-  own.to = std::min(std::min(to[0], to[1]), std::min(to[2], to[3]));
-  return own.from < own.to ? OwnCut::kSome : OwnCut::kNothing;
-}
-
 /// How much of an edge lies in a stretch of its line that another outline holds.
 inline OutlineUnion::Cover OutlineUnion::cover_between(const Edge& edge, const Stretch& stretch) {
   return stretch.low.outer < edge.to && stretch.high.outer > edge.from && stretch.may_be()
@@ -132,8 +87,9 @@ OutlineUnion::Cover OutlineUnion::cover_slowly(const Edge& edge, std::uint32_t o
 /// How much of an edge another outline holds on its outer side, and where if it is some of it. The
 /// values are those of trim(), but only where no line has all of the edge outside are places found,
 /// and no line is left in trimmings_.
-[[gnu::always_inline]] inline OutlineUnion::Cover OutlineUnion::cover(const Edge& edge, std::uint32_t other,
-                                                      Stretch& stretch) {
+[[gnu::always_inline]] inline OutlineUnion::Cover OutlineUnion::cover(const Edge& edge,
+                                                                      std::uint32_t other,
+                                                                      Stretch& stretch) {
   constexpr Bits kFirst = {0x1, 0x2, 0x4, 0x8}, kSecond = {0x10, 0x20, 0x40, 0x80};
   constexpr int kMostOpen = 4;  // blocks
   struct {

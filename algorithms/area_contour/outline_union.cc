@@ -16,11 +16,6 @@ constexpr double kOpen = 0x1p-31, kLeastOpen = 0x1p-43;
 
 bool has(CornerMask mask, std::uint32_t corner) { return (mask >> corner & 1) != 0; }
 
-/// Of each corner what a mask says of the next one.
-CornerMask at_next(CornerMask mask, std::uint32_t corners) {
-  return mask >> 1 | (mask & 1) << (corners - 1);
-}
-
 }  // namespace
 
 void OutlineUnion::Walk::add(double dx, double dy, double middle, double radius) {
@@ -74,172 +69,6 @@ OutlineUnion::Box OutlineUnion::box_of(const Edge& edge) const {
                y[] = {y0 - edge.from * edge.a, y0 - edge.to * edge.a};
   return box_of(std::min(x[0], x[1]), std::min(y[0], y[1]), std::max(x[0], x[1]),
                 std::max(y[0], y[1]));
-}
-
-/// Which edges of the receiver the line meets, or in which corners, is told by the sides of the
-/// corners. It runs with its outline on the left, so that it leaves the receiver where corners, in
-/// their order, go over to the outline's side.
-OutlineUnion::Stretch OutlineUnion::in_receiver(const Edge& line) const {
-  const ReceiverChart& receiver = *receiver_;
-  const LineBlock& block = blocks_[line.line / 4];
-  const CornerMask before = block.before[line.line % 4], behind = block.behind[line.line % 4];
-  const double error = line.error + 2 * receiver.error + slack_;
-  Stretch stretch;
-  const auto along = [&](std::uint32_t k) {
-    return receiver.corners[k][0] * line.b - receiver.corners[k][1] * line.a;
-  };
-  const auto distance = [&](std::uint32_t k) {
-    return std::fabs(line.a * receiver.corners[k][0] + line.b * receiver.corners[k][1] + line.c);
-  };
-  const double place_error = 2 * receiver.error + slack_;
-  const CornerMask leaving = behind & ~at_next(behind, receiver.size());
-  const CornerMask entering = before & ~at_next(before, receiver.size());
-  for (CornerMask left = leaving | entering; left != 0; left &= left - 1) {
-    const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
-    const std::uint32_t next = receiver.next(k);
-    const bool leaves = has(leaving, k);
-    double place = along(next), radius = place_error;
-    if (has(leaves ? before : behind, next)) {  // else the corner is on the line
-      const double here = distance(k), there = distance(next), both = here + there;
-      const double from = along(k), length = place - from;
-      const double share = both > 8 * error ? here / both : 0.5;
-      radius += std::fabs(length) * (both > 8 * error ? std::min(4 * error / both, 1.0) : 0.5);
-      place = from + share * length;
-    }
-    if (leaves) {
-      stretch.high = {place - radius, place + radius};
-    } else {
-      stretch.low = {place + radius, place - radius};
-    }
-  }
-  return stretch;
-}
-
-bool OutlineUnion::is_one(std::uint32_t a, std::uint32_t b) const {
-  const OutlineLine p = line_of(a), q = line_of(b);
-  return exact_->is_known_same(p, q) || exact_->is_same(p, q);
-}
-
-/// False if certainly nothing is left of the edge.
-bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretch& stretch) {
-  Edge own = edge_on(line, 0, 0, 0);
-  stretch = in_receiver(own);
-  own.from = stretch.low.outer;
-  own.to = stretch.high.outer;
-  const bool is_left = trim(own, outline);
-  Trim trimmed;
-  for (const Trimming& by : trimmings_) {
-    if (by.line == line) continue;
-    if (!by.is_near) {
-      trimmed.add(by);
-      continue;
-    }
-    if (!is_one(line, by.line)) {
-      trimmed.is_certain = false;
-      continue;
-    }
-    // Of one line that is given twice the first is the edge; two that look away from each other
-    // have nothing between them.
-    const OutlineLine other = line_of(by.line);
-    is_flat_ = own.a * other.a + own.b * other.b < 0;
-    if (by.line < line || is_flat_) return false;
-  }
-  if (!is_left) return false;
-  Stretch cut;
-  trimmed.put(cut);
-  stretch.is_certain = cut.is_certain;
-  // Where the receiver's border may end the edge as well as a line, the place has no name.
-  if (cut.low.inner > stretch.low.outer) {
-    stretch.low = cut.low.outer > stretch.low.inner
-                      ? cut.low
-                      : End{std::max(stretch.low.inner, cut.low.inner),
-                            std::max(stretch.low.outer, cut.low.outer)};
-  }
-  if (cut.high.inner < stretch.high.outer) {
-    stretch.high = cut.high.outer < stretch.high.inner
-                       ? cut.high
-                       : End{std::min(stretch.high.inner, cut.high.inner),
-                             std::min(stretch.high.outer, cut.high.outer)};
-  }
-  return stretch.may_be();
-}
-
-/// Of the receiver's edges those of which an outline may hold some, by the corners behind them.
-CornerMask OutlineUnion::edges_of_border(std::span<const OutlineLine> lines) const {
-  const std::uint32_t n = receiver_->size();
-  CornerMask edges = ~CornerMask{0} >> (kMostCorners - n);
-  for (const OutlineLine& line : lines) {
-    const CornerMask next_before = at_next(line.before, n), next_behind = at_next(line.behind, n);
-    edges &= (~line.behind & ~next_behind) | (line.behind & next_before) |
-             (~line.behind & next_behind & line.before);
-  }
-  return edges;
-}
-
-void OutlineUnion::add(std::span<const OutlineLine> lines) {
-  const ReceiverChart& receiver = *receiver_;
-  const auto count = static_cast<std::uint32_t>(lines.size());
-  const auto number = static_cast<std::uint32_t>(outlines_.size());
-  Outline outline;
-  outline.first = static_cast<std::uint32_t>(blocks_.size());
-  outline.end = outline.first + (count + 3) / 4;
-  blocks_.resize(outline.end);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const OutlineLine& line = lines[i];
-    LineBlock& block = blocks_[outline.first + i / 4];
-    block.a[i % 4] = line.a;
-    block.b[i % 4] = line.b;
-    block.c[i % 4] = line.c;
-    block.error[i % 4] = line.error;
-    block.plane[i % 4] = line.plane;
-    block.before[i % 4] = line.before;
-    block.behind[i % 4] = line.behind;
-    most_error_ = std::max(most_error_, line.error);
-  }
-  double low[] = {kInfinity, kInfinity}, high[] = {-kInfinity, -kInfinity};
-  const auto grow = [&](double x, double y) {
-    low[0] = std::min(low[0], x);
-    low[1] = std::min(low[1], y);
-    high[0] = std::max(high[0], x);
-    high[1] = std::max(high[1], y);
-  };
-  bool has_edge = false;
-  is_flat_ = false;
-  for (std::uint32_t i = 0; i < count && !is_flat_; ++i) {
-    const std::uint32_t line = 4 * outline.first + i;
-    Edge edge = edge_on(line, number, 0, 0);
-    Stretch stretch = in_receiver(edge);
-    edge.from = stretch.low.outer;
-    edge.to = stretch.high.outer;
-    const OwnCut cut = cut_ends(outline, edge);
-    if (cut == OwnCut::kNothing) continue;
-    if (cut == OwnCut::kNear) {
-      if (!cut_by_own(outline, line, stretch) || is_flat_) continue;
-      edge.from = stretch.low.outer;
-      edge.to = stretch.high.outer;
-    }
-    const double a = edge.a, b = edge.b, c = edge.c, from = edge.from, to = edge.to;
-    LineBlock& block = blocks_[line / 4];
-    block.from[line % 4] = from;
-    block.to[line % 4] = to;
-    grow(-c * a + from * b, -c * b - from * a);
-    grow(-c * a + to * b, -c * b - to * a);
-    has_edge = true;
-  }
-  if (!has_edge || is_flat_) {  // nothing of the receiver is inside
-    blocks_.resize(outline.first);
-    return;
-  }
-  CornerMask outside = 0;
-  for (const OutlineLine& line : lines) outside |= line.behind;
-  for (std::uint32_t k = 0; k < receiver.size(); ++k) {
-    if (!has(outside, k)) grow(receiver.corners[k][0], receiver.corners[k][1]);
-  }
-  outline.box = box_of(low[0], low[1], high[0], high[1]);
-  outlines_.push_back(outline);
-  if (const CornerMask edges = edges_of_border(lines); edges != 0) {
-    bordering_.push_back({number, edges});
-  }
 }
 
 /// The stretch of the receiver's edge behind a corner that an outline holds, in shares of the edge.
@@ -351,8 +180,7 @@ void OutlineUnion::add_borders() {
 /// Adds what covers leave of an edge, of which a part may be at hand.
 void OutlineUnion::add_rest(const Edge& edge) {
   if (is_hidden(edge)) return;
-  Stretch stretch;
-  cut_by_own(outlines_[edge.outline], edge.line, stretch);
+  Stretch stretch = own_stretch(edge);
   if (edge.from > stretch.low.outer) {  // there cells meet
     if (stretch.low.inner <= edge.from) stretch.low = {edge.from, edge.from};
     stretch.low.outer = edge.from;

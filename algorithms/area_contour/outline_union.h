@@ -119,11 +119,15 @@ class OutlineUnion {
   /// A line's number is that of its block times four and its place there.
   struct alignas(32) LineBlock {
     double a[4] = {}, b[4] = {}, c[4] = {kFar, kFar, kFar, kFar}, error[4] = {};
-    double from[4] = {}, to[4] = {};
-    CornerMask before[4] = {}, behind[4] = {};  // corners strictly on either side
+    double from[4] = {}, to[4] = {};              // outer ends; from >= to where no edge is
+    double inner_from[4] = {}, inner_to[4] = {};  // inner ends
+    double from_line[4] = {}, to_line[4] = {};    // that make ends, or one of those below
+    CornerMask before[4] = {}, behind[4] = {};    // corners strictly on either side
     PlaneRef plane[4];
     static constexpr double kFar = 0x1p100;
   };
+  static constexpr double kUnnamed = -1;  // no line, or it is not known which
+  static constexpr double kAsk = -2;      // cut_by_own() tells
   struct Outline {
     std::uint32_t first = 0, end = 0;  // of blocks_
     Box box;
@@ -184,11 +188,13 @@ class OutlineUnion {
 
   OutlineLine line_of(std::uint32_t line) const;
   Edge edge_on(std::uint32_t line, std::uint32_t outline, double from, double to) const;
-  Stretch in_receiver(const Edge& line) const;
+  struct FourStretches;
+  void in_receiver(const LineBlock& block, FourStretches& stretches) const;
+  unsigned find_ends(const Outline& outline, std::uint32_t count, std::uint32_t number);
+  bool find_edges(const Outline& outline, std::uint32_t count, double (&low)[2], double (&high)[2]);
+  Stretch own_stretch(const Edge& edge);
   CornerMask edges_of_border(std::span<const OutlineLine> lines) const;
   bool trim(const Edge& own, const Outline& outline);
-  enum class OwnCut : std::uint8_t { kNothing, kSome, kNear };
-  OwnCut cut_ends(const Outline& outline, Edge& own) const;
   bool cut_by_own(const Outline& outline, std::uint32_t line, Stretch& stretch);
   Cover cover(const Edge& edge, std::uint32_t other, Stretch& stretch);
   Cover cover_slowly(const Edge& edge, std::uint32_t other, Stretch& stretch);
@@ -238,7 +244,7 @@ class OutlineUnion {
   std::vector<double> ends_;
   std::uint32_t last_hider_ = 0;   // the outline that hid the last edge that was hidden
   std::vector<Gap> perhaps_gaps_;  // of the stretch at hand
-  double sharpen_above_ = 0;  // what an edge may leave open of the area
+  double sharpen_above_ = 0;       // what an edge may leave open of the area
   Walk walk_;
   double sum_ = 0, error_ = 0;  // of the covered area
   bool is_flat_ = false;        // the outline at hand has no area

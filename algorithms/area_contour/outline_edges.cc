@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Outlines as they are added: what the receiver and their own lines leave of each line, four lines
+// at a time.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "algorithms/area_contour/four_doubles.h"
+#include "algorithms/area_contour/outline_trim.h"
+#include "algorithms/area_contour/outline_union.h"
+
+namespace gnomon::area_contour {
+namespace {
+
+/// Of each corner what a mask says of the next one.
+CornerMask at_next(CornerMask mask, std::uint32_t corners) {
+  return mask >> 1 | (mask & 1) << (corners - 1);
+}
+
+}  // namespace
+
+/// Stretches of the four lines of a block. The places at either end: the least and the greatest.
+struct alignas(32) OutlineUnion::FourStretches {
+  double low_outer[4], low_inner[4], high_inner[4], high_outer[4];
+
+  Stretch of(std::uint32_t k) const {
+    return {{low_inner[k], low_outer[k]}, {high_inner[k], high_outer[k]}};
+  }
+};
+
+/// Which edges of the receiver a line meets, or in which corners, is told by the sides of the
+/// corners. It runs with its outline on the left, so that it leaves the receiver where corners, in
+/// their order, go over to the outline's side.
+[[gnu::always_inline]] inline void OutlineUnion::in_receiver(const LineBlock& block,
+                                                             FourStretches& stretches) const {
+  const ReceiverChart& receiver = *receiver_;
+  /// Of the receiver's edges that lines meet: the corners at their beginnings and ends.
+  struct alignas(32) {
+    double x[4] = {}, y[4] = {}, next_x[4] = {}, next_y[4] = {};
+    std::int64_t is_met[4] = {};  // that at its end: all bits
+  } met[2];                       // where lines enter, and where they leave
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    const CornerMask before = block.before[i], behind = block.behind[i];
+    if (behind == 0) continue;  // no line
+    for (const bool leaves : {false, true}) {
+      const CornerMask here = leaves ? behind : before;
+      const auto k =
+          static_cast<std::uint32_t>(std::countr_zero(here & ~at_next(here, receiver.size())));
+      const std::uint32_t next = receiver.next(k);
+      auto& at = met[leaves ? 1 : 0];
+      at.x[i] = receiver.corners[k][0];
+      at.y[i] = receiver.corners[k][1];
+      at.next_x[i] = receiver.corners[next][0];
+      at.next_y[i] = receiver.corners[next][1];
+      at.is_met[i] = ((leaves ? before : behind) >> next & 1) != 0 ? 0 : -1;
+    }
+  }
+  const Doubles &a = row(block.a), &b = row(block.b), &c = row(block.c);
+  const double place_error = 2 * receiver.error + slack_;
+  const Doubles error = row(block.error) + 2 * receiver.error + slack_;
+  for (const bool leaves : {false, true}) {
+    const auto& at = met[leaves ? 1 : 0];
+    const Doubles &x = row(at.x), &y = row(at.y), &next_x = row(at.next_x),
+                  &next_y = row(at.next_y);
+    const Doubles from = x * b - y * a, to = next_x * b - next_y * a, length = to - from;
+    const Doubles value = a * x + b * y + c, next_value = a * next_x + b * next_y + c;
+    const Doubles here = value < 0 ? -value : value,
+                  there = next_value < 0 ? -next_value : next_value;
+    const Doubles both = here + there, known = 4 * error / both;
+    const Bits is_known = both > 8 * error;
+    const Doubles share = is_known ? here / both : 0.5;
+    const Doubles share_error = is_known ? (known > 1 ? 1.0 : known) : 0.5;
+    const Doubles spread = (length < 0 ? -length : length) * share_error;
+    const Bits& is_met = *reinterpret_cast<const Bits*>(at.is_met);
+    const Doubles radius = is_met ? place_error : place_error + spread;
+    const Doubles place = is_met ? to : from + share * length;
+    row(leaves ? stretches.high_inner : stretches.low_outer) = place - radius;
+    row(leaves ? stretches.high_outer : stretches.low_inner) = place + radius;
+  }
+}
+
+bool OutlineUnion::is_one(std::uint32_t a, std::uint32_t b) const {
+  const OutlineLine p = line_of(a), q = line_of(b);
+  return exact_->is_known_same(p, q) || exact_->is_same(p, q);
+}
+
+/// False if certainly nothing is left of the edge.
+bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretch& stretch) {
+  FourStretches in;
+  in_receiver(blocks_[line / 4], in);
+  stretch = in.of(line % 4);
+  Edge own = edge_on(line, 0, 0, 0);
+  own.from = stretch.low.outer;
+  own.to = stretch.high.outer;
+  const bool is_left = trim(own, outline);
+  Trim trimmed;
+  for (const Trimming& by : trimmings_) {
+    if (by.line == line) continue;
+    if (!by.is_near) {
+      trimmed.add(by);
+      continue;
+    }
+    if (!is_one(line, by.line)) {
+      trimmed.is_certain = false;
+      continue;
+    }
+    // Of one line that is given twice the first is the edge; two that look away from each other
+    // have nothing between them.
+    const OutlineLine other = line_of(by.line);
+    is_flat_ = own.a * other.a + own.b * other.b < 0;
+    if (by.line < line || is_flat_) return false;
+  }
+  if (!is_left) return false;
+  Stretch cut;
+  trimmed.put(cut);
+  stretch.is_certain = cut.is_certain;
+  // Where the receiver's border may end the edge as well as a line, the place has no name.
+  if (cut.low.inner > stretch.low.outer) {
+    stretch.low = cut.low.outer > stretch.low.inner
+                      ? cut.low
+                      : End{std::max(stretch.low.inner, cut.low.inner),
+                            std::max(stretch.low.outer, cut.low.outer)};
+  }
+  if (cut.high.inner < stretch.high.outer) {
+    stretch.high = cut.high.outer < stretch.high.inner
+                       ? cut.high
+                       : End{std::min(stretch.high.inner, cut.high.inner),
+                             std::min(stretch.high.outer, cut.high.outer)};
+  }
+  return stretch.may_be();
+}
+
+/// Cuts the lines of a block by the others of their outline, as cut_by_own() does, and says of
+/// which that has to be asked, since another one may be the same line. So it is for names of ends
+/// that more than one line may make.
+[[gnu::always_inline]] inline unsigned OutlineUnion::find_ends(const Outline& outline,
+                                                               std::uint32_t count,
+                                                               std::uint32_t number) {
+  constexpr Bits kLanes = {0x1, 0x2, 0x4, 0x8};
+  constexpr Doubles kBeyond = {kInfinity, kInfinity, kInfinity, kInfinity};
+  LineBlock& own = blocks_[number];
+  FourStretches in;
+  in_receiver(own, in);
+  const Doubles &least = row(in.low_outer), &most = row(in.high_outer);
+  const long place_of_own = 4 * static_cast<long>(number - outline.first);
+  const Bits places = {place_of_own, place_of_own + 1, place_of_own + 2, place_of_own + 3};
+  const Doubles &own_a = row(own.a), &own_b = row(own.b), &own_c = row(own.c);
+  const Doubles own_error = row(own.error) + slack_;
+  Bits missed = places >= static_cast<long>(count), near = {};
+  // As Trim has it, but of the innermost places only two.
+  Doubles low_outer = -kBeyond, low = -kBeyond, outer_of_low = -kBeyond, second_low = -kBeyond;
+  Doubles high_outer = kBeyond, high = kBeyond, outer_of_high = kBeyond, second_high = kBeyond;
+  Doubles low_line = {}, high_line = {};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const LineBlock& block = blocks_[outline.first + i / 4];
+    const double a = block.a[i % 4], b = block.b[i % 4];
+    const Doubles start = block.c[i % 4] - own_c * (a * own_a + b * own_b);
+    const Doubles slope = a * own_b - b * own_a;
+    const Doubles error = block.error[i % 4] + own_error;
+    const Doubles first = start + slope * least, last = start + slope * most;
+    const Bits cuts = ~((first > error) & (last > error)) & (places != static_cast<long>(i));
+    if (!any(cuts)) continue;
+    missed |= cuts & (first < -error) & (last < -error);
+    near |= cuts & (first >= -error) & (first <= error) & (last >= -error) & (last <= error);
+    const Doubles place = -start / slope, quotient = error / slope;
+    const Doubles half = quotient < 0 ? -quotient : quotient;
+    const Doubles radius = half + 0x1p-49 * ((place < 0 ? -place : place) + half);
+    const Doubles before = place - radius, behind = place + radius;
+    // Else they may be parallel, and the place none.
+    const Bits crosses = (slope < 0 ? -slope : slope) * receiver_->reach > 8 * error;
+    const Doubles line = crosses ? static_cast<double>(4 * outline.first + i) : kUnnamed;
+    const Bits begins = cuts & (slope > 0), ends = cuts & ~(slope > 0);
+    const Bits is_low = begins & (behind > low), is_high = ends & (before < high);
+    low_outer = (begins & (before > low_outer)) ? before : low_outer;
+    second_low = is_low ? low : (begins & (behind > second_low)) ? behind : second_low;
+    low = is_low ? behind : low;
+    outer_of_low = is_low ? before : outer_of_low;
+    low_line = is_low ? line : low_line;
+    high_outer = (ends & (behind < high_outer)) ? behind : high_outer;
+    second_high = is_high ? high : (ends & (before < second_high)) ? before : second_high;
+    high = is_high ? before : high;
+    outer_of_high = is_high ? behind : outer_of_high;
+    high_line = is_high ? line : high_line;
+  }
+  low_line = ((low_line >= 0) & (second_low >= outer_of_low)) ? kAsk : low_line;
+  high_line = ((high_line >= 0) & (second_high <= outer_of_high)) ? kAsk : high_line;
+  // Where the receiver's border may end the edge as well as a line, the place has no name.
+  const Doubles &least_in = row(in.low_inner), &most_in = row(in.high_inner);
+  const Bits low_alone = (low > least) & (low_outer > least_in),
+             high_alone = (high < most) & (high_outer < most_in);
+  row(own.inner_from) = (low_alone | (low > least_in)) ? low : least_in;
+  row(own.inner_to) = (high_alone | (high < most_in)) ? high : most_in;
+  row(own.from_line) = low_alone ? low_line : kUnnamed;
+  row(own.to_line) = high_alone ? high_line : kUnnamed;
+  row(own.from) = missed ? 0.0 : low_outer > least ? low_outer : least;
+  row(own.to) = missed ? 0.0 : high_outer < most ? high_outer : most;
+  return lanes_of(near & kLanes & (places < static_cast<long>(count)));
+}
+
+/// What the receiver and the lines of its outline leave of an edge's line.
+OutlineUnion::Stretch OutlineUnion::own_stretch(const Edge& edge) {
+  const LineBlock& block = blocks_[edge.line / 4];
+  const std::uint32_t k = edge.line % 4;
+  const double from_line = block.from_line[k], to_line = block.to_line[k];
+  if (from_line == kAsk || to_line == kAsk) {
+    Stretch stretch;
+    cut_by_own(outlines_[edge.outline], edge.line, stretch);
+    return stretch;
+  }
+  const auto number = [](double line) {
+    return line == kUnnamed ? kNoLine : static_cast<std::uint32_t>(line);
+  };
+  return {{block.inner_from[k], block.from[k], number(from_line)},
+          {block.inner_to[k], block.to[k], number(to_line)}};
+}
+
+/// Finds the edges of an outline, and a rectangle around them. False if it has none, or no area.
+GNOMON_FOR_AVX2 bool OutlineUnion::find_edges(const Outline& outline, std::uint32_t count,
+                                              double (&low)[2], double (&high)[2]) {
+  constexpr Doubles kBeyond = {kInfinity, kInfinity, kInfinity, kInfinity};
+  Doubles low_x = kBeyond, low_y = kBeyond, high_x = -kBeyond, high_y = -kBeyond;
+  Bits has_edge = {};
+  for (std::uint32_t i = outline.first; i < outline.end; ++i) {
+    LineBlock& block = blocks_[i];
+    for (unsigned left = find_ends(outline, count, i); left != 0; left &= left - 1) {
+      const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
+      Stretch stretch;
+      const bool is_left = cut_by_own(outline, 4 * i + k, stretch);
+      if (is_flat_) return false;
+      block.from[k] = is_left ? stretch.low.outer : 0;
+      block.to[k] = is_left ? stretch.high.outer : 0;
+      block.from_line[k] = kAsk;
+    }
+    const Doubles &a = row(block.a), &b = row(block.b), &c = row(block.c);
+    const Doubles &from = row(block.from), &to = row(block.to);
+    const Bits is_edge = from < to;
+    const Doubles x = -c * a, y = -c * b;
+    const Doubles from_x = x + from * b, from_y = y - from * a, to_x = x + to * b,
+                  to_y = y - to * a;
+    const Doubles least_x = from_x < to_x ? from_x : to_x, most_x = from_x < to_x ? to_x : from_x;
+    const Doubles least_y = from_y < to_y ? from_y : to_y, most_y = from_y < to_y ? to_y : from_y;
+    low_x = (is_edge & (least_x < low_x)) ? least_x : low_x;
+    low_y = (is_edge & (least_y < low_y)) ? least_y : low_y;
+    high_x = (is_edge & (most_x > high_x)) ? most_x : high_x;
+    high_y = (is_edge & (most_y > high_y)) ? most_y : high_y;
+    has_edge |= is_edge;
+  }
+  low[0] = std::min(std::min(low_x[0], low_x[1]), std::min(low_x[2], low_x[3]));
+  low[1] = std::min(std::min(low_y[0], low_y[1]), std::min(low_y[2], low_y[3]));
+  high[0] = std::max(std::max(high_x[0], high_x[1]), std::max(high_x[2], high_x[3]));
+  high[1] = std::max(std::max(high_y[0], high_y[1]), std::max(high_y[2], high_y[3]));
+  return any(has_edge);
+}
+
+/// Of the receiver's edges those of which an outline may hold some, by the corners behind them.
+CornerMask OutlineUnion::edges_of_border(std::span<const OutlineLine> lines) const {
+  const std::uint32_t n = receiver_->size();
+  CornerMask edges = ~CornerMask{0} >> (kMostCorners - n);
+  for (const OutlineLine& line : lines) {
+    const CornerMask next_before = at_next(line.before, n), next_behind = at_next(line.behind, n);
+    edges &= (~line.behind & ~next_behind) | (line.behind & next_before) |
+             (~line.behind & next_behind & line.before);
+  }
+  return edges;
+}
+
+void OutlineUnion::add(std::span<const OutlineLine> lines) {
+  const ReceiverChart& receiver = *receiver_;
+  const auto count = static_cast<std::uint32_t>(lines.size());
+  const auto number = static_cast<std::uint32_t>(outlines_.size());
+  Outline outline;
+  outline.first = static_cast<std::uint32_t>(blocks_.size());
+  outline.end = outline.first + (count + 3) / 4;
+  blocks_.resize(outline.end);
+  CornerMask outside = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const OutlineLine& line = lines[i];
+    LineBlock& block = blocks_[outline.first + i / 4];
+    block.a[i % 4] = line.a;
+    block.b[i % 4] = line.b;
+    block.c[i % 4] = line.c;
+    block.error[i % 4] = line.error;
+    block.plane[i % 4] = line.plane;
+    block.before[i % 4] = line.before;
+    block.behind[i % 4] = line.behind;
+    most_error_ = std::max(most_error_, line.error);
+    outside |= line.behind;
+  }
+  double low[2], high[2];
+  is_flat_ = false;
+  if (!find_edges(outline, count, low, high)) {  // nothing of the receiver is inside
+    blocks_.resize(outline.first);
+    return;
+  }
+  for (std::uint32_t k = 0; k < receiver.size(); ++k) {
+    if ((outside >> k & 1) != 0) continue;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      low[axis] = std::min(low[axis], receiver.corners[k][axis]);
+      high[axis] = std::max(high[axis], receiver.corners[k][axis]);
+    }
+  }
+  outline.box = box_of(low[0], low[1], high[0], high[1]);
+  outlines_.push_back(outline);
+  if (const CornerMask edges = edges_of_border(lines); edges != 0) {
+    bordering_.push_back({number, edges});
+  }
+}
+}  // namespace gnomon::area_contour
