@@ -17,10 +17,11 @@ class ChunkedList {
   const T& operator[](std::size_t i) const { return chunks_[i / kChunk][i % kChunk]; }
   T& operator[](std::size_t i) { return chunks_[i / kChunk][i % kChunk]; }
   void clear() { size_ = 0; }
-  /// New elements are as T makes them.
+  /// New elements hold anything.
   void resize(std::size_t size) {
-    while (chunks_.size() * kChunk < size) chunks_.push_back(std::make_unique<T[]>(kChunk));
-    for (; size_ < size; ++size_) (*this)[size_] = T{};
+    while (chunks_.size() * kChunk < size) {
+      chunks_.push_back(std::make_unique_for_overwrite<T[]>(kChunk));
+    }
     size_ = size;
   }
 

@@ -139,14 +139,14 @@ void OutlineUnion::add_leaf(const Cell& cell, bool is_cut) {
     const std::uint32_t k = (i - cell.first) % 8;
     if (k == 0) {
       BoxBlock& block = leaf_.emplace_back();
-      std::ranges::fill(block.low_x, std::numeric_limits<float>::infinity());
+      std::ranges::fill(block.x[0], std::numeric_limits<float>::infinity());
     }
     BoxBlock& block = leaf_.back();
     const auto& [box, outline] = members_[i];
-    block.low_x[k] = box.low[0];
-    block.low_y[k] = box.low[1];
-    block.high_x[k] = box.high[0];
-    block.high_y[k] = box.high[1];
+    block.x[0][k] = box.low[0];
+    block.y[0][k] = box.low[1];
+    block.x[1][k] = box.high[0];
+    block.y[1][k] = box.high[1];
     block.outline[k] = outline;
   }
   LineBlock part;

@@ -84,19 +84,23 @@ OutlineUnion::Cover OutlineUnion::cover_slowly(const Edge& edge, std::uint32_t o
   return cover_between(edge, stretch);
 }
 
-/// How much of an edge another outline holds on its outer side, and where if it is some of it. The
-/// values are those of trim(), but only where no line has all of the edge outside are places found,
-/// and no line is left in trimmings_.
-[[gnu::always_inline]] inline OutlineUnion::Cover OutlineUnion::cover(const Edge& edge,
-                                                                      std::uint32_t other,
-                                                                      Stretch& stretch) {
-  constexpr Bits kFirst = {0x1, 0x2, 0x4, 0x8}, kSecond = {0x10, 0x20, 0x40, 0x80};
-  constexpr int kMostOpen = 4;  // blocks
-  struct {
-    Doubles start, slope, error;
+/// Blocks of lines that do not have all of an edge inside.
+struct OutlineUnion::OpenLines {
+  static constexpr int kMost = 4;
+  struct alignas(32) Block {
+    double start[4], slope[4], error[4];
     unsigned lanes;
     std::uint32_t number;
-  } open[kMostOpen];
+  } blocks[kMost];
+  int count;
+};
+
+/// How much of an edge another outline holds on its outer side. The values are those of trim().
+/// kSome: it may be some of it, as `open` tells. kUnknown: that is for cover_slowly().
+[[gnu::always_inline]] inline OutlineUnion::Cover OutlineUnion::find_open(const Edge& edge,
+                                                                          std::uint32_t other,
+                                                                          OpenLines& open) const {
+  constexpr Bits kFirst = {0x1, 0x2, 0x4, 0x8}, kSecond = {0x10, 0x20, 0x40, 0x80};
   int count = 0;
   const Outline& outline = outlines_[other];
   const double own_error = edge.error + slack_;
@@ -113,27 +117,37 @@ OutlineUnion::Cover OutlineUnion::cover_slowly(const Edge& edge, std::uint32_t o
     if (lanes == 0) continue;
     if (lanes >> 4 != 0) return Cover::kNothing;
     const Bits near = (first >= -error) & (first <= error) & (last >= -error) & (last <= error);
-    if (any(near) || count == kMostOpen) return cover_slowly(edge, other, stretch);
-    open[count].start = start;
-    open[count].slope = slope;
-    open[count].error = error;
-    open[count].lanes = lanes;
-    open[count++].number = i;
+    if (any(near) || count == OpenLines::kMost) return Cover::kUnknown;
+    OpenLines::Block& at = open.blocks[count++];
+    row(at.start) = start;
+    row(at.slope) = slope;
+    row(at.error) = error;
+    at.lanes = lanes;
+    at.number = i;
   }
-  if (count == 0) return Cover::kAll;
+  open.count = count;
+  return count == 0 ? Cover::kAll : Cover::kSome;
+}
+
+/// Where what an outline holds of an edge's line ends.
+GNOMON_FOR_AVX2 OutlineUnion::Cover OutlineUnion::cover(const Edge& edge, const OpenLines& open,
+                                                        Stretch& stretch) const {
+  constexpr Bits kFirst = {0x1, 0x2, 0x4, 0x8}, kSecond = {0x10, 0x20, 0x40, 0x80};
+  const double reach = receiver_->reach;
   Trim trimmed;
-  for (int i = 0; i < count; ++i) {
-    const Doubles &start = open[i].start, &slope = open[i].slope, &error = open[i].error;
-    const Doubles place = -start / slope, quotient = error / slope;
+  for (int i = 0; i < open.count; ++i) {
+    const OpenLines::Block& at = open.blocks[i];
+    const Doubles &slope = row(at.slope), &error = row(at.error);
+    const Doubles place = -row(at.start) / slope, quotient = error / slope;
     const Doubles half = quotient < 0 ? -quotient : quotient;
     const Doubles radius = half + 0x1p-49 * ((place < 0 ? -place : place) + half);
     const Doubles least = place - radius, most = place + radius;
     // Else they may be parallel, and the place none.
-    const Bits crosses = (slope < 0 ? -slope : slope) * receiver_->reach > 8 * error;
+    const Bits crosses = (slope < 0 ? -slope : slope) * reach > 8 * error;
     const unsigned turns = lanes_of(((slope > 0) & kFirst) | (crosses & kSecond));
-    for (unsigned left = open[i].lanes; left != 0; left &= left - 1) {
+    for (unsigned left = at.lanes; left != 0; left &= left - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
-      const std::uint32_t line = (turns >> k & 16) != 0 ? 4 * open[i].number + k : kNoLine;
+      const std::uint32_t line = (turns >> k & 16) != 0 ? 4 * at.number + k : kNoLine;
       if ((turns >> k & 1) != 0) {
         trimmed.begin_between(least[k], most[k], line);
       } else {
@@ -146,25 +160,32 @@ OutlineUnion::Cover OutlineUnion::cover_slowly(const Edge& edge, std::uint32_t o
 }
 
 /// Notes what an outline holds of an edge, unless another one certainly holds that, too: then it
-/// takes nothing of what certainly is seen, nor of what perhaps is.
-inline void OutlineUnion::note(const Stretch& cover) {
-  if (!covers_.empty() && covers_.front().certainly_holds(cover)) return;
-  covers_.push_back(cover);
-}
-
-/// Whether another outline certainly holds all of an edge; else notes what it holds of it.
-[[gnu::always_inline]] inline bool OutlineUnion::hides(const Edge& edge, std::uint32_t other) {
-  if (other == edge.outline) return false;
+/// takes nothing of what certainly is seen, nor of what perhaps is. True if it is all of the edge.
+bool OutlineUnion::hides_or_note(const Edge& edge, std::uint32_t other, const OpenLines* open) {
   Stretch stretch;
-  const Cover cover = this->cover(edge, other, stretch);
+  const Cover cover =
+      open != nullptr ? this->cover(edge, *open, stretch) : cover_slowly(edge, other, stretch);
   if (cover == Cover::kNothing) return false;
   if (cover == Cover::kAll ||
       (stretch.certainly_is() && stretch.low.inner <= edge.from && stretch.high.inner >= edge.to)) {
     last_hider_ = other;
     return true;
   }
-  note(stretch);
+  if (covers_.empty() || !covers_.front().certainly_holds(stretch)) covers_.push_back(stretch);
   return false;
+}
+
+/// Whether another outline certainly holds all of an edge; else notes what it holds of it.
+[[gnu::always_inline]] inline bool OutlineUnion::hides(const Edge& edge, std::uint32_t other) {
+  if (other == edge.outline) return false;
+  OpenLines open;
+  const Cover found = find_open(edge, other, open);
+  if (found == Cover::kNothing) return false;
+  if (found == Cover::kAll) {
+    last_hider_ = other;
+    return true;
+  }
+  return hides_or_note(edge, other, found == Cover::kSome ? &open : nullptr);
 }
 
 /// Adds what outlines of the cell leave of an edge. It meets only those whose box meets its own and
@@ -172,6 +193,7 @@ inline void OutlineUnion::note(const Stretch& cover) {
 /// by less than 2^-19 of that.
 GNOMON_FOR_AVX2 void OutlineUnion::add_edge(const Edge& edge) {
   constexpr FloatBits kLanes = {0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80};
+  covers_.clear();
   if (hides(edge, last_hider_)) return;
   covers_.clear();
   const Box box = box_of(edge);
@@ -179,14 +201,14 @@ GNOMON_FOR_AVX2 void OutlineUnion::add_edge(const Edge& edge) {
   const float margin = 0x1p-16F * static_cast<float>(receiver_->reach);
   const float low_c = static_cast<float>(edge.c) - margin,
               high_c = static_cast<float>(edge.c) + margin;
+  // Which corner of a box is the farthest to the line's right.
+  const int right_x = a > 0 ? 0 : 1, right_y = b > 0 ? 0 : 1;
   for (const BoxBlock& block : leaf_) {
-    const Floats &low_x = row(block.low_x), &high_x = row(block.high_x);
-    const Floats &low_y = row(block.low_y), &high_y = row(block.high_y);
-    const Floats least = a * (a > 0 ? low_x : high_x) + b * (b > 0 ? low_y : high_y) + low_c;
-    const Floats most = a * (a > 0 ? high_x : low_x) + b * (b > 0 ? high_y : low_y) + high_c;
-    const FloatBits meets = (low_x <= box.high[0]) & (high_x >= box.low[0]) &
-                            (low_y <= box.high[1]) & (high_y >= box.low[1]) & (least <= 0) &
-                            (most >= 0) & kLanes;
+    const Floats least = a * row(block.x[right_x]) + b * row(block.y[right_y]) + low_c;
+    const Floats most = a * row(block.x[1 - right_x]) + b * row(block.y[1 - right_y]) + high_c;
+    const FloatBits meets = (row(block.x[0]) <= box.high[0]) & (row(block.x[1]) >= box.low[0]) &
+                            (row(block.y[0]) <= box.high[1]) & (row(block.y[1]) >= box.low[1]) &
+                            (least <= 0) & (most >= 0) & kLanes;
     const Bits pairs = reinterpret_cast<const Bits&>(meets);
     const long both = pairs[0] | pairs[1] | pairs[2] | pairs[3];
     for (auto left = static_cast<unsigned>(both | both >> 32) & 255; left != 0; left &= left - 1) {

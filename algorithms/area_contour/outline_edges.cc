@@ -40,7 +40,7 @@ struct alignas(32) OutlineUnion::FourStretches {
     std::int64_t is_met[4] = {};  // that at its end: all bits
   } met[2];                       // where lines enter, and where they leave
   for (std::uint32_t i = 0; i < 4; ++i) {
-    const CornerMask before = block.before[i], behind = block.behind[i];
+    const auto& [before, behind] = sides_[block.sides[i]];
     if (behind == 0) continue;  // no line
     for (const bool leaves : {false, true}) {
       const CornerMask here = leaves ? behind : before;
@@ -137,6 +137,7 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
                                                                std::uint32_t count,
                                                                std::uint32_t number) {
   constexpr Bits kLanes = {0x1, 0x2, 0x4, 0x8};
+  constexpr Bits kNoLines = {kUnnamed, kUnnamed, kUnnamed, kUnnamed};
   constexpr Doubles kBeyond = {kInfinity, kInfinity, kInfinity, kInfinity};
   LineBlock& own = blocks_[number];
   FourStretches in;
@@ -150,7 +151,7 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
   // As Trim has it, but of the innermost places only two.
   Doubles low_outer = -kBeyond, low = -kBeyond, outer_of_low = -kBeyond, second_low = -kBeyond;
   Doubles high_outer = kBeyond, high = kBeyond, outer_of_high = kBeyond, second_high = kBeyond;
-  Doubles low_line = {}, high_line = {};
+  Bits low_line = kNoLines, high_line = kNoLines;
   for (std::uint32_t i = 0; i < count; ++i) {
     const LineBlock& block = blocks_[outline.first + i / 4];
     const double a = block.a[i % 4], b = block.b[i % 4];
@@ -168,7 +169,7 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
     const Doubles before = place - radius, behind = place + radius;
     // Else they may be parallel, and the place none.
     const Bits crosses = (slope < 0 ? -slope : slope) * receiver_->reach > 8 * error;
-    const Doubles line = crosses ? static_cast<double>(4 * outline.first + i) : kUnnamed;
+    const Bits line = crosses ? static_cast<long>(i < kAsk ? i : kAsk) : long{kUnnamed};
     const Bits begins = cuts & (slope > 0), ends = cuts & ~(slope > 0);
     const Bits is_low = begins & (behind > low), is_high = ends & (before < high);
     low_outer = (begins & (before > low_outer)) ? before : low_outer;
@@ -182,16 +183,20 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
     outer_of_high = is_high ? behind : outer_of_high;
     high_line = is_high ? line : high_line;
   }
-  low_line = ((low_line >= 0) & (second_low >= outer_of_low)) ? kAsk : low_line;
-  high_line = ((high_line >= 0) & (second_high <= outer_of_high)) ? kAsk : high_line;
+  low_line = ((low_line != kUnnamed) & (second_low >= outer_of_low)) ? long{kAsk} : low_line;
+  high_line = ((high_line != kUnnamed) & (second_high <= outer_of_high)) ? long{kAsk} : high_line;
   // Where the receiver's border may end the edge as well as a line, the place has no name.
   const Doubles &least_in = row(in.low_inner), &most_in = row(in.high_inner);
   const Bits low_alone = (low > least) & (low_outer > least_in),
              high_alone = (high < most) & (high_outer < most_in);
   row(own.inner_from) = (low_alone | (low > least_in)) ? low : least_in;
   row(own.inner_to) = (high_alone | (high < most_in)) ? high : most_in;
-  row(own.from_line) = low_alone ? low_line : kUnnamed;
-  row(own.to_line) = high_alone ? high_line : kUnnamed;
+  low_line = low_alone ? low_line : long{kUnnamed};
+  high_line = high_alone ? high_line : long{kUnnamed};
+  for (std::size_t k = 0; k < 4; ++k) {
+    own.from_line[k] = static_cast<std::uint8_t>(low_line[k]);
+    own.to_line[k] = static_cast<std::uint8_t>(high_line[k]);
+  }
   row(own.from) = missed ? 0.0 : low_outer > least ? low_outer : least;
   row(own.to) = missed ? 0.0 : high_outer < most ? high_outer : most;
   return lanes_of(near & kLanes & (places < static_cast<long>(count)));
@@ -201,14 +206,15 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
 OutlineUnion::Stretch OutlineUnion::own_stretch(const Edge& edge) {
   const LineBlock& block = blocks_[edge.line / 4];
   const std::uint32_t k = edge.line % 4;
-  const double from_line = block.from_line[k], to_line = block.to_line[k];
+  const int from_line = block.from_line[k], to_line = block.to_line[k];
   if (from_line == kAsk || to_line == kAsk) {
     Stretch stretch;
     cut_by_own(outlines_[edge.outline], edge.line, stretch);
     return stretch;
   }
-  const auto number = [](double line) {
-    return line == kUnnamed ? kNoLine : static_cast<std::uint32_t>(line);
+  const std::uint32_t first = 4 * outlines_[edge.outline].first;
+  const auto number = [&](int line) {
+    return line == kUnnamed ? kNoLine : first + static_cast<std::uint32_t>(line);
   };
   return {{block.inner_from[k], block.from[k], number(from_line)},
           {block.inner_to[k], block.to[k], number(to_line)}};
@@ -264,6 +270,20 @@ CornerMask OutlineUnion::edges_of_border(std::span<const OutlineLine> lines) con
   return edges;
 }
 
+/// The number of what lines have on their sides, the last one first, since few kinds follow
+/// another.
+inline std::uint16_t OutlineUnion::number_of(const Sides& sides) {
+  std::size_t i = sides_.size();
+  while (i > 0 && (sides_[i - 1].before != sides.before || sides_[i - 1].behind != sides.behind)) {
+    --i;
+  }
+  if (i == 0) {
+    sides_.push_back(sides);
+    i = sides_.size();
+  }
+  return static_cast<std::uint16_t>(i - 1);
+}
+
 void OutlineUnion::add(std::span<const OutlineLine> lines) {
   const ReceiverChart& receiver = *receiver_;
   const auto count = static_cast<std::uint32_t>(lines.size());
@@ -272,19 +292,21 @@ void OutlineUnion::add(std::span<const OutlineLine> lines) {
   outline.first = static_cast<std::uint32_t>(blocks_.size());
   outline.end = outline.first + (count + 3) / 4;
   blocks_.resize(outline.end);
+  constexpr OutlineLine kFiller{0, 0, kFar, 0, {}, 0, 0};
   CornerMask outside = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const OutlineLine& line = lines[i];
-    LineBlock& block = blocks_[outline.first + i / 4];
-    block.a[i % 4] = line.a;
-    block.b[i % 4] = line.b;
-    block.c[i % 4] = line.c;
-    block.error[i % 4] = line.error;
-    block.plane[i % 4] = line.plane;
-    block.before[i % 4] = line.before;
-    block.behind[i % 4] = line.behind;
-    most_error_ = std::max(most_error_, line.error);
-    outside |= line.behind;
+  for (std::uint32_t i = outline.first, k = 0; i < outline.end; ++i) {
+    LineBlock& block = blocks_[i];
+    for (std::uint32_t lane = 0; lane < 4; ++lane, ++k) {
+      const OutlineLine& line = k < count ? lines[k] : kFiller;
+      block.a[lane] = line.a;
+      block.b[lane] = line.b;
+      block.c[lane] = line.c;
+      block.error[lane] = line.error;
+      block.plane[lane] = line.plane;
+      block.sides[lane] = k < count ? number_of({line.before, line.behind}) : 0;
+      most_error_ = std::max(most_error_, line.error);
+      outside |= line.behind;
+    }
   }
   double low[2], high[2];
   is_flat_ = false;

@@ -115,19 +115,25 @@ class OutlineUnion {
     float low[2], high[2];
   };
   /// Four lines of an outline, and its edges on them: what its own lines and the receiver leave of
-  /// each, between outer ends. What fills up the last block is positive everywhere and no edge.
-  /// A line's number is that of its block times four and its place there.
+  /// each. What fills up the last block is positive everywhere and no edge. A line's number is that
+  /// of its block times four and its place there. As small as can be: there may be 100,000.
   struct alignas(32) LineBlock {
-    double a[4] = {}, b[4] = {}, c[4] = {kFar, kFar, kFar, kFar}, error[4] = {};
-    double from[4] = {}, to[4] = {};              // outer ends; from >= to where no edge is
-    double inner_from[4] = {}, inner_to[4] = {};  // inner ends
-    double from_line[4] = {}, to_line[4] = {};    // that make ends, or one of those below
-    CornerMask before[4] = {}, behind[4] = {};    // corners strictly on either side
+    double a[4], b[4], c[4], error[4];
+    double from[4], to[4];                  // outer ends; from >= to where no edge is
+    double inner_from[4], inner_to[4];      // inner ends
+    std::uint8_t from_line[4], to_line[4];  // that make ends: places in the outline
+    std::uint16_t sides[4];                 // of sides_
     PlaneRef plane[4];
-    static constexpr double kFar = 0x1p100;
   };
-  static constexpr double kUnnamed = -1;  // no line, or it is not known which
-  static constexpr double kAsk = -2;      // cut_by_own() tells
+  static constexpr double kFar = 0x1p100;
+  /// Instead of a line that makes an end: none, or it is not known which; cut_by_own() tells.
+  static constexpr int kUnnamed = 255, kAsk = 254;
+  /// Corners strictly on either side of a line. Of a convex receiver with n corners there are at
+  /// most (2n)^2 kinds: sides change at two corners, or between two.
+  struct Sides {
+    CornerMask before = 0, behind = 0;
+  };
+  static_assert(4 * kMostCorners * kMostCorners < 0xffff);
   struct Outline {
     std::uint32_t first = 0, end = 0;  // of blocks_
     Box box;
@@ -146,7 +152,7 @@ class OutlineUnion {
     bool begins = false;    // what is inside begins there
     bool is_known = false;  // the lines certainly cross
   };
-  enum class Cover : std::uint8_t { kNothing, kSome, kAll };
+  enum class Cover : std::uint8_t { kNothing, kSome, kAll, kUnknown };
   /// Of stretches: their lengths, and the integrals of their heights.
   struct Lengths {
     double certain = 0, perhaps = 0;
@@ -169,9 +175,9 @@ class OutlineUnion {
     Box box;
     std::uint32_t outline = 0;
   };
-  /// Boxes of eight outlines of a cell.
+  /// Boxes of eight outlines of a cell: their least and greatest coordinates.
   struct alignas(32) BoxBlock {
-    float low_x[8], low_y[8], high_x[8], high_y[8];
+    float x[2][8], y[2][8];
     std::uint32_t outline[8];
   };
   /// An outline that may hold some of the receiver's border: of its edges behind those corners.
@@ -187,6 +193,7 @@ class OutlineUnion {
   };
 
   OutlineLine line_of(std::uint32_t line) const;
+  std::uint16_t number_of(const Sides& sides);
   Edge edge_on(std::uint32_t line, std::uint32_t outline, double from, double to) const;
   struct FourStretches;
   void in_receiver(const LineBlock& block, FourStretches& stretches) const;
@@ -196,10 +203,12 @@ class OutlineUnion {
   CornerMask edges_of_border(std::span<const OutlineLine> lines) const;
   bool trim(const Edge& own, const Outline& outline);
   bool cut_by_own(const Outline& outline, std::uint32_t line, Stretch& stretch);
-  Cover cover(const Edge& edge, std::uint32_t other, Stretch& stretch);
+  struct OpenLines;
+  Cover find_open(const Edge& edge, std::uint32_t other, OpenLines& open) const;
+  Cover cover(const Edge& edge, const OpenLines& open, Stretch& stretch) const;
   Cover cover_slowly(const Edge& edge, std::uint32_t other, Stretch& stretch);
   static Cover cover_between(const Edge& edge, const Stretch& stretch);
-  void note(const Stretch& cover);
+  bool hides_or_note(const Edge& edge, std::uint32_t other, const OpenLines* open);
   bool hides(const Edge& edge, std::uint32_t other);
   bool cover_border(std::uint32_t corner, const Outline& outline, Stretch& stretch) const;
   bool is_one(std::uint32_t a, std::uint32_t b) const;
@@ -233,6 +242,7 @@ class OutlineUnion {
   double slack_ = 0, most_error_ = 0;  // of lines
   double margin_ = 0;                  // of places in a cell
   ChunkedList<LineBlock> blocks_;
+  std::vector<Sides> sides_;
   std::vector<Outline> outlines_;
   std::vector<Bordering> bordering_;
   std::vector<Trimming> trimmings_;  // of the line at hand, in the order of lines
