@@ -109,6 +109,7 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
     const OutlineLine other = line_of(by.line);
     is_flat_ = own.a * other.a + own.b * other.b < 0;
     if (by.line < line || is_flat_) return false;
+    twins_.push_back(by.line);
   }
   if (!is_left) return false;
   Stretch cut;
@@ -220,21 +221,57 @@ OutlineUnion::Stretch OutlineUnion::own_stretch(const Edge& edge) {
           {block.inner_to[k], block.to[k], number(to_line)}};
 }
 
-/// Finds the edges of an outline, and a rectangle around them. False if it has none, or no area.
-GNOMON_FOR_AVX2 bool OutlineUnion::find_edges(const Outline& outline, std::uint32_t count,
+/// Drops the lines of an outline that have no edge. Requires: some edge certainly is, so that the
+/// outline has an area. What the other lines leave of the receiver is convex, and such a line meets
+/// it in a point at most: so all of it lies on one side of the line, and since some does on the
+/// outline's, all of it is the outline.
+void OutlineUnion::drop_lines(Outline& outline, std::uint32_t count) {
+  std::array<std::uint8_t, 256> places;
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const LineBlock& block = blocks_[outline.first + i / 4];
+    const std::uint32_t k = i % 4;
+    const bool is_edge = block.from[k] < block.to[k];
+    if (i < kAsk) places[i] = static_cast<std::uint8_t>(is_edge ? kept : kAsk);
+    if (is_edge && kept < i) blocks_[outline.first + kept / 4].take(kept % 4, block, k);
+    if (is_edge) ++kept;
+  }
+  if (kept == count) return;
+  outline.end = outline.first + (kept + 3) / 4;
+  const auto rename = [&](std::uint8_t& line) {
+    if (line < kAsk) line = places[line];
+  };
+  for (std::uint32_t i = 0; i < 4 * (outline.end - outline.first); ++i) {
+    LineBlock& block = blocks_[outline.first + i / 4];
+    if (i < kept) {
+      rename(block.from_line[i % 4]);
+      rename(block.to_line[i % 4]);
+    } else {
+      block.fill(i % 4);
+    }
+  }
+  blocks_.resize(outline.end);
+}
+
+/// Finds the edges of an outline, and a rectangle around them; leaves only lines that have edges if
+/// one certainly is. False if it has none, or no area.
+GNOMON_FOR_AVX2 bool OutlineUnion::find_edges(Outline& outline, std::uint32_t count,
                                               double (&low)[2], double (&high)[2]) {
   constexpr Doubles kBeyond = {kInfinity, kInfinity, kInfinity, kInfinity};
   Doubles low_x = kBeyond, low_y = kBeyond, high_x = -kBeyond, high_y = -kBeyond;
-  Bits has_edge = {};
+  Bits has_edge = {}, has_certain = {};
+  twins_.clear();
   for (std::uint32_t i = outline.first; i < outline.end; ++i) {
     LineBlock& block = blocks_[i];
     for (unsigned left = find_ends(outline, count, i); left != 0; left &= left - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
       Stretch stretch;
-      const bool is_left = cut_by_own(outline, 4 * i + k, stretch);
+      const bool is_left = std::ranges::find(twins_, 4 * i + k) == twins_.end() &&
+                           cut_by_own(outline, 4 * i + k, stretch);
       if (is_flat_) return false;
       block.from[k] = is_left ? stretch.low.outer : 0;
       block.to[k] = is_left ? stretch.high.outer : 0;
+      block.inner_from[k] = block.inner_to[k] = 0;
       block.from_line[k] = kAsk;
     }
     const Doubles &a = row(block.a), &b = row(block.b), &c = row(block.c);
@@ -250,7 +287,9 @@ GNOMON_FOR_AVX2 bool OutlineUnion::find_edges(const Outline& outline, std::uint3
     high_x = (is_edge & (most_x > high_x)) ? most_x : high_x;
     high_y = (is_edge & (most_y > high_y)) ? most_y : high_y;
     has_edge |= is_edge;
+    has_certain |= is_edge & (row(block.inner_from) < row(block.inner_to));
   }
+  if (any(has_certain)) drop_lines(outline, count);
   low[0] = std::min(std::min(low_x[0], low_x[1]), std::min(low_x[2], low_x[3]));
   low[1] = std::min(std::min(low_y[0], low_y[1]), std::min(low_y[2], low_y[3]));
   high[0] = std::max(std::max(high_x[0], high_x[1]), std::max(high_x[2], high_x[3]));
@@ -268,6 +307,29 @@ CornerMask OutlineUnion::edges_of_border(std::span<const OutlineLine> lines) con
              (~line.behind & next_behind & line.before);
   }
   return edges;
+}
+
+/// What fills up a block.
+void OutlineUnion::LineBlock::fill(std::uint32_t k) {
+  a[k] = b[k] = error[k] = 0;
+  c[k] = kFar;
+  from[k] = to[k] = 0;
+  sides[k] = 0;
+}
+
+void OutlineUnion::LineBlock::take(std::uint32_t k, const LineBlock& block, std::uint32_t i) {
+  a[k] = block.a[i];
+  b[k] = block.b[i];
+  c[k] = block.c[i];
+  error[k] = block.error[i];
+  from[k] = block.from[i];
+  to[k] = block.to[i];
+  inner_from[k] = block.inner_from[i];
+  inner_to[k] = block.inner_to[i];
+  from_line[k] = block.from_line[i];
+  to_line[k] = block.to_line[i];
+  sides[k] = block.sides[i];
+  plane[k] = block.plane[i];
 }
 
 /// The number of what lines have on their sides, the last one first, since few kinds follow
@@ -292,22 +354,21 @@ void OutlineUnion::add(std::span<const OutlineLine> lines) {
   outline.first = static_cast<std::uint32_t>(blocks_.size());
   outline.end = outline.first + (count + 3) / 4;
   blocks_.resize(outline.end);
-  constexpr OutlineLine kFiller{0, 0, kFar, 0, {}, 0, 0};
   CornerMask outside = 0;
-  for (std::uint32_t i = outline.first, k = 0; i < outline.end; ++i) {
-    LineBlock& block = blocks_[i];
-    for (std::uint32_t lane = 0; lane < 4; ++lane, ++k) {
-      const OutlineLine& line = k < count ? lines[k] : kFiller;
-      block.a[lane] = line.a;
-      block.b[lane] = line.b;
-      block.c[lane] = line.c;
-      block.error[lane] = line.error;
-      block.plane[lane] = line.plane;
-      block.sides[lane] = k < count ? number_of({line.before, line.behind}) : 0;
-      most_error_ = std::max(most_error_, line.error);
-      outside |= line.behind;
-    }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const OutlineLine& line = lines[i];
+    LineBlock& block = blocks_[outline.first + i / 4];
+    const std::uint32_t k = i % 4;
+    block.a[k] = line.a;
+    block.b[k] = line.b;
+    block.c[k] = line.c;
+    block.error[k] = line.error;
+    block.plane[k] = line.plane;
+    block.sides[k] = number_of({line.before, line.behind});
+    most_error_ = std::max(most_error_, line.error);
+    outside |= line.behind;
   }
+  for (std::uint32_t k = count % 4; k != 0 && k < 4; ++k) blocks_[outline.end - 1].fill(k);
   double low[2], high[2];
   is_flat_ = false;
   if (!find_edges(outline, count, low, high)) {  // nothing of the receiver is inside
@@ -327,4 +388,5 @@ void OutlineUnion::add(std::span<const OutlineLine> lines) {
     bordering_.push_back({number, edges});
   }
 }
+
 }  // namespace gnomon::area_contour

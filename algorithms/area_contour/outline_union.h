@@ -124,6 +124,9 @@ class OutlineUnion {
     std::uint8_t from_line[4], to_line[4];  // that make ends: places in the outline
     std::uint16_t sides[4];                 // of sides_
     PlaneRef plane[4];
+
+    void fill(std::uint32_t k);
+    void take(std::uint32_t k, const LineBlock& block, std::uint32_t i);
   };
   static constexpr double kFar = 0x1p100;
   /// Instead of a line that makes an end: none, or it is not known which; cut_by_own() tells.
@@ -198,7 +201,8 @@ class OutlineUnion {
   struct FourStretches;
   void in_receiver(const LineBlock& block, FourStretches& stretches) const;
   unsigned find_ends(const Outline& outline, std::uint32_t count, std::uint32_t number);
-  bool find_edges(const Outline& outline, std::uint32_t count, double (&low)[2], double (&high)[2]);
+  void drop_lines(Outline& outline, std::uint32_t count);
+  bool find_edges(Outline& outline, std::uint32_t count, double (&low)[2], double (&high)[2]);
   Stretch own_stretch(const Edge& edge);
   CornerMask edges_of_border(std::span<const OutlineLine> lines) const;
   bool trim(const Edge& own, const Outline& outline);
@@ -245,8 +249,9 @@ class OutlineUnion {
   std::vector<Sides> sides_;
   std::vector<Outline> outlines_;
   std::vector<Bordering> bordering_;
-  std::vector<Trimming> trimmings_;  // of the line at hand, in the order of lines
-  std::vector<Stretch> covers_;      // of the edge at hand
+  std::vector<std::uint32_t> twins_;  // lines that an earlier one of the outline at hand is, too
+  std::vector<Trimming> trimmings_;   // of the line at hand, in the order of lines
+  std::vector<Stretch> covers_;       // of the edge at hand
   std::vector<Member> members_, high_members_;
   std::vector<Cell> cells_;     // that are left
   std::vector<BoxBlock> leaf_;  // the cell at hand
