@@ -48,9 +48,9 @@ bool ReceiverChart::make(const Point3& n, const std::vector<Point3>& loop, doubl
 
 // With slopes s of the receiver's dropped coordinate w against the others, the plane on it is
 // (n_u - n_w s_u) u + (n_v - n_w s_v) v plus its value at the origin. A slope is off by 5u of
-// itself and at most 1; so each coefficient by 2u |n_u| + 8u |n_w| + 2u < 14u (its sum has two
-// rounded terms of at most 1), and the sum of two products with coordinates of at most `reach` by
-// less than 40u of that.
+// itself and at most 1; so a product n_w s by 8u of itself with its rounding, and a coefficient by
+// 3u |n_u| + 9u |n_w| with that of the difference: less than 12u. That is 12u (|u| + |v|) of the
+// sum, at most 12u sqrt(2) = 17u of `reach`.
 //
 // The value at the origin is n . (x - p) for a point p of the plane: factors are off by 2u and 2u,
 // and by the errors of two points, products round by u and sums by 2u: 8u of the sum of magnitudes,
@@ -79,9 +79,10 @@ bool ReceiverChart::add_line(const PlaneDoubles& plane, CornerMask before, Corne
   line.a = a / slope;
   line.b = b / slope;
   line.c = sign * value / slope;
-  // Roundings of the quotients: 5u each of numbers of at most `reach` and a sum of them.
+  // What `slope` itself is off by is a factor of all. The quotients round by u of numbers whose sum
+  // is at most 2 reach.
   line.error =
-      (value_error + 48 * Ball::kUnit * reach) / slope * (1 + 0x1p-40) + 32 * Ball::kUnit * reach;
+      (value_error + 17.1 * Ball::kUnit * reach) / slope * (1 + 0x1p-40) + 4 * Ball::kUnit * reach;
   line.plane = plane.plane;
   line.before = before;
   line.behind = behind;

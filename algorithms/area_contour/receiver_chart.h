@@ -22,8 +22,9 @@ using CornerMask = std::uint64_t;
 inline constexpr std::uint32_t kMostCorners = 64;
 
 /// A line of the chart that passes through the receiver: a x + b y + c with (a, b) of length 1, its
-/// outline where that is positive. For every point of the receiver the true distance is within
-/// `error` of the value.
+/// outline where that is positive. For every point of the receiver the value is within `error` of
+/// the true distance times a factor, the same for all; and the direction is off by at most `error`
+/// over the receiver's reach.
 struct OutlineLine {
   double a = 0, b = 0, c = 0, error = 0;
   PlaneRef plane;                     // with the outline in front
