@@ -95,22 +95,38 @@ struct OutlineUnion::OpenLines {
   int count;
 };
 
+/// An edge for four lines at a time.
+struct alignas(32) OutlineUnion::EdgeLanes {
+  double a[4], b[4], c[4], error[4], from[4], to[4];
+
+  EdgeLanes(const Edge& edge, double slack) {
+    for (int k = 0; k < 4; ++k) {
+      a[k] = edge.a;
+      b[k] = edge.b;
+      c[k] = edge.c;
+      error[k] = edge.error + slack;
+      from[k] = edge.from;
+      to[k] = edge.to;
+    }
+  }
+};
+
 /// How much of an edge another outline holds on its outer side. The values are those of trim().
 /// kSome: it may be some of it, as `open` tells. kUnknown: that is for cover_slowly().
-[[gnu::always_inline]] inline OutlineUnion::Cover OutlineUnion::find_open(const Edge& edge,
+[[gnu::always_inline]] inline OutlineUnion::Cover OutlineUnion::find_open(const EdgeLanes& edge,
                                                                           std::uint32_t other,
                                                                           OpenLines& open) const {
   constexpr Bits kFirst = {0x1, 0x2, 0x4, 0x8}, kSecond = {0x10, 0x20, 0x40, 0x80};
   int count = 0;
   const Outline& outline = outlines_[other];
-  const double own_error = edge.error + slack_;
+  const Doubles &own_a = row(edge.a), &own_b = row(edge.b);
   for (std::uint32_t i = outline.first; i < outline.end; ++i) {
     const LineBlock& block = blocks_[i];
     const Doubles &a = row(block.a), &b = row(block.b);
-    const Doubles start = row(block.c) - edge.c * (a * edge.a + b * edge.b);
-    const Doubles slope = a * edge.b - b * edge.a;
-    const Doubles error = row(block.error) + own_error;
-    const Doubles first = start + slope * edge.from, last = start + slope * edge.to;
+    const Doubles start = row(block.c) - row(edge.c) * (a * own_a + b * own_b);
+    const Doubles slope = a * own_b - b * own_a;
+    const Doubles error = row(block.error) + row(edge.error);
+    const Doubles first = start + slope * row(edge.from), last = start + slope * row(edge.to);
     const Bits inside = (first > error) & (last > error);
     const Bits outside = (first < -error) & (last < -error);
     const unsigned lanes = lanes_of((~inside & kFirst) | (outside & kSecond));
@@ -171,15 +187,20 @@ bool OutlineUnion::hides_or_note(const Edge& edge, std::uint32_t other, const Op
     last_hider_ = other;
     return true;
   }
-  if (covers_.empty() || !covers_.front().certainly_holds(stretch)) covers_.push_back(stretch);
+  if (covers_.empty() || !covers_.front().certainly_holds(stretch)) {
+    covers_.push_back(stretch);
+    // The first one is the longest.
+    if (stretch.length() > covers_.front().length()) std::swap(covers_.front(), covers_.back());
+  }
   return false;
 }
 
 /// Whether another outline certainly holds all of an edge; else notes what it holds of it.
-[[gnu::always_inline]] inline bool OutlineUnion::hides(const Edge& edge, std::uint32_t other) {
+[[gnu::always_inline]] inline bool OutlineUnion::hides(const Edge& edge, const EdgeLanes& lanes,
+                                                       std::uint32_t other) {
   if (other == edge.outline) return false;
   OpenLines open;
-  const Cover found = find_open(edge, other, open);
+  const Cover found = find_open(lanes, other, open);
   if (found == Cover::kNothing) return false;
   if (found == Cover::kAll) {
     last_hider_ = other;
@@ -193,8 +214,9 @@ bool OutlineUnion::hides_or_note(const Edge& edge, std::uint32_t other, const Op
 /// by less than 2^-19 of that.
 GNOMON_FOR_AVX2 void OutlineUnion::add_edge(const Edge& edge) {
   constexpr FloatBits kLanes = {0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80};
+  const EdgeLanes lanes(edge, slack_);
   covers_.clear();
-  if (hides(edge, last_hider_)) return;
+  if (hides(edge, lanes, last_hider_)) return;
   covers_.clear();
   const Box box = box_of(edge);
   const float a = static_cast<float>(edge.a), b = static_cast<float>(edge.b);
@@ -212,7 +234,7 @@ GNOMON_FOR_AVX2 void OutlineUnion::add_edge(const Edge& edge) {
     const Bits pairs = reinterpret_cast<const Bits&>(meets);
     const long both = pairs[0] | pairs[1] | pairs[2] | pairs[3];
     for (auto left = static_cast<unsigned>(both | both >> 32) & 255; left != 0; left &= left - 1) {
-      if (hides(edge, block.outline[std::countr_zero(left)])) return;
+      if (hides(edge, lanes, block.outline[std::countr_zero(left)])) return;
     }
   }
   add_rest(edge);

@@ -7,6 +7,29 @@
 #include "algorithms/area_contour/outline_union.h"
 
 namespace gnomon::area_contour {
+namespace {
+
+/// Mostly there are few, and in another order already.
+template <class T, class Key>
+void sort_by(std::vector<T>& values, const Key& key) {
+  constexpr std::size_t kFew = 16;
+  if (values.size() > kFew) {
+    std::ranges::sort(values, {}, key);
+    return;
+  }
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    if (!(key(values[i]) < key(values[i - 1]))) continue;
+    const T value = values[i];
+    std::size_t k = i;
+    do {
+      values[k] = values[k - 1];
+      --k;
+    } while (k > 0 && key(value) < key(values[k - 1]));
+    values[k] = value;
+  }
+}
+
+}  // namespace
 
 /// Whether there may be something between the place where a cover ends, or the stretch begins, and
 /// one where the next begins, or the stretch ends (`is_end`). Where the bounds leave that open,
@@ -36,7 +59,7 @@ void OutlineUnion::find_certain(const Carrier& carrier, const Stretch& stretch, 
     rest.certain_integral += carrier.integral(before.outer, after.outer);
   };
   if (!stretch.certainly_is()) return;
-  std::ranges::sort(covers_, {}, [](const Stretch& cover) { return cover.low.outer; });
+  sort_by(covers_, [](const Stretch& cover) { return cover.low.outer; });
   End at = outside(stretch.low);
   for (const Stretch& cover : covers_) {
     if (at.outer >= stretch.high.inner) return;
@@ -58,7 +81,7 @@ void OutlineUnion::find_perhaps(const Carrier& carrier, const Stretch& stretch, 
     perhaps_gaps_.push_back({before.inner, after.inner});
   };
   perhaps_gaps_.clear();
-  std::ranges::sort(covers_, {}, [](const Stretch& cover) { return cover.low.inner; });
+  sort_by(covers_, [](const Stretch& cover) { return cover.low.inner; });
   // Up to here all is covered. The stretch begins where a cover of what is before it would end.
   End at = outside(stretch.low);
   const End end = outside(stretch.high);
@@ -99,7 +122,8 @@ void OutlineUnion::sharpen(const Carrier& carrier, End& end, bool begins) const 
 /// Whether covers certainly hold all of an edge, one after another. What bounds leave open about
 /// where they meet is not asked.
 bool OutlineUnion::is_hidden(const Edge& edge) {
-  std::ranges::sort(covers_, {}, [](const Stretch& cover) { return cover.low.inner; });
+  if (covers_.size() < 2) return false;  // hides() has asked
+  sort_by(covers_, [](const Stretch& cover) { return cover.low.inner; });
   double at = edge.from;
   for (const Stretch& cover : covers_) {
     if (!cover.certainly_is()) continue;

@@ -87,6 +87,7 @@ class OutlineUnion {
     bool is_certain = true;  // false: perhaps none of it is covered
     bool may_be() const { return low.outer < high.outer; }
     bool certainly_is() const { return is_certain && low.inner < high.inner; }
+    double length() const { return high.inner - low.inner; }
     /// Whether it certainly is, and holds all that another one may be.
     bool certainly_holds(const Stretch& other) const {
       return certainly_is() && low.inner <= other.low.outer && high.inner >= other.high.outer;
@@ -208,12 +209,13 @@ class OutlineUnion {
   bool trim(const Edge& own, const Outline& outline);
   bool cut_by_own(const Outline& outline, std::uint32_t line, Stretch& stretch);
   struct OpenLines;
-  Cover find_open(const Edge& edge, std::uint32_t other, OpenLines& open) const;
+  struct EdgeLanes;
+  Cover find_open(const EdgeLanes& edge, std::uint32_t other, OpenLines& open) const;
   Cover cover(const Edge& edge, const OpenLines& open, Stretch& stretch) const;
   Cover cover_slowly(const Edge& edge, std::uint32_t other, Stretch& stretch);
   static Cover cover_between(const Edge& edge, const Stretch& stretch);
   bool hides_or_note(const Edge& edge, std::uint32_t other, const OpenLines* open);
-  bool hides(const Edge& edge, std::uint32_t other);
+  bool hides(const Edge& edge, const EdgeLanes& lanes, std::uint32_t other);
   bool cover_border(std::uint32_t corner, const Outline& outline, Stretch& stretch) const;
   bool is_one(std::uint32_t a, std::uint32_t b) const;
   bool has_gap(const Carrier& carrier, const End& before, const End& after, bool is_end) const;
