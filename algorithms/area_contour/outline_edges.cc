@@ -40,7 +40,7 @@ struct alignas(32) OutlineUnion::FourStretches {
     std::int64_t is_met[4] = {};  // that at its end: all bits
   } met[2];                       // where lines enter, and where they leave
   for (std::uint32_t i = 0; i < 4; ++i) {
-    const auto& [before, behind] = sides_[block.sides[i]];
+    const auto [before, behind] = sides_of(block.sides[i]);
     if (behind == 0) continue;  // no line
     for (const bool leaves : {false, true}) {
       const CornerMask here = leaves ? behind : before;
@@ -163,6 +163,7 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
     const Bits cuts = ~((first > error) & (last > error)) & (places != static_cast<long>(i));
     if (!any(cuts)) continue;
     missed |= cuts & (first < -error) & (last < -error);
+    if (all(missed)) break;
     near |= cuts & (first >= -error) & (first <= error) & (last >= -error) & (last <= error);
     const Doubles place = -start / slope, quotient = error / slope;
     const Doubles half = quotient < 0 ? -quotient : quotient;
@@ -259,7 +260,9 @@ GNOMON_FOR_AVX2 bool OutlineUnion::find_edges(Outline& outline, std::uint32_t co
                                               double (&low)[2], double (&high)[2]) {
   constexpr Doubles kBeyond = {kInfinity, kInfinity, kInfinity, kInfinity};
   Doubles low_x = kBeyond, low_y = kBeyond, high_x = -kBeyond, high_y = -kBeyond;
-  Bits has_edge = {}, has_certain = {};
+  constexpr Bits kLanes = {0x1, 0x2, 0x4, 0x8};
+  Bits has_certain = {};
+  std::uint32_t edges = 0;
   twins_.clear();
   for (std::uint32_t i = outline.first; i < outline.end; ++i) {
     LineBlock& block = blocks_[i];
@@ -286,15 +289,17 @@ GNOMON_FOR_AVX2 bool OutlineUnion::find_edges(Outline& outline, std::uint32_t co
     low_y = (is_edge & (least_y < low_y)) ? least_y : low_y;
     high_x = (is_edge & (most_x > high_x)) ? most_x : high_x;
     high_y = (is_edge & (most_y > high_y)) ? most_y : high_y;
-    has_edge |= is_edge;
+    edges += static_cast<std::uint32_t>(std::popcount(lanes_of(is_edge & kLanes)));
     has_certain |= is_edge & (row(block.inner_from) < row(block.inner_to));
   }
-  if (any(has_certain)) drop_lines(outline, count);
+  // Where no block is spared it would cost more, but for lines that are others, too.
+  const bool is_worth = (edges + 3) / 4 < outline.end - outline.first || !twins_.empty();
+  if (is_worth && any(has_certain)) drop_lines(outline, count);
   low[0] = std::min(std::min(low_x[0], low_x[1]), std::min(low_x[2], low_x[3]));
   low[1] = std::min(std::min(low_y[0], low_y[1]), std::min(low_y[2], low_y[3]));
   high[0] = std::max(std::max(high_x[0], high_x[1]), std::max(high_x[2], high_x[3]));
   high[1] = std::max(std::max(high_y[0], high_y[1]), std::max(high_y[2], high_y[3]));
-  return any(has_edge);
+  return edges != 0;
 }
 
 /// Of the receiver's edges those of which an outline may hold some, by the corners behind them.
@@ -332,18 +337,18 @@ void OutlineUnion::LineBlock::take(std::uint32_t k, const LineBlock& block, std:
   plane[k] = block.plane[i];
 }
 
-/// The number of what lines have on their sides, the last one first, since few kinds follow
-/// another.
+/// A number for what lines have on their sides: the bits of few corners, else a place in sides_,
+/// which begins with what fills up blocks.
 inline std::uint16_t OutlineUnion::number_of(const Sides& sides) {
-  std::size_t i = sides_.size();
-  while (i > 0 && (sides_[i - 1].before != sides.before || sides_[i - 1].behind != sides.behind)) {
-    --i;
+  if (receiver_->size() <= kFewCorners) {
+    return static_cast<std::uint16_t>(sides.before | sides.behind << kFewCorners);
   }
-  if (i == 0) {
-    sides_.push_back(sides);
-    i = sides_.size();
-  }
-  return static_cast<std::uint16_t>(i - 1);
+  const auto known = std::ranges::find_if(sides_, [&](const Sides& other) {
+    return other.before == sides.before && other.behind == sides.behind;
+  });
+  const auto number = static_cast<std::uint16_t>(known - sides_.begin());
+  if (known == sides_.end()) sides_.push_back(sides);
+  return number;
 }
 
 void OutlineUnion::add(std::span<const OutlineLine> lines) {
@@ -356,7 +361,8 @@ void OutlineUnion::add(std::span<const OutlineLine> lines) {
   blocks_.resize(outline.end);
   CornerMask outside = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const OutlineLine& line = lines[i];
+    // The first one, mostly the caster's own plane, is the least likely to have an edge.
+    const OutlineLine& line = lines[i + 1 < count ? i + 1 : 0];
     LineBlock& block = blocks_[outline.first + i / 4];
     const std::uint32_t k = i % 4;
     block.a[k] = line.a;

@@ -43,13 +43,8 @@ void OutlineUnion::begin(const ReceiverChart& receiver, ExactLines& exact) {
 OutlineLine OutlineUnion::line_of(std::uint32_t line) const {
   const LineBlock& block = blocks_[line / 4];
   const std::uint32_t k = line % 4;
-  return {block.a[k],
-          block.b[k],
-          block.c[k],
-          block.error[k],
-          block.plane[k],
-          sides_[block.sides[k]].before,
-          sides_[block.sides[k]].behind};
+  const auto [before, behind] = sides_of(block.sides[k]);
+  return {block.a[k], block.b[k], block.c[k], block.error[k], block.plane[k], before, behind};
 }
 
 OutlineUnion::Edge OutlineUnion::edge_on(std::uint32_t line, std::uint32_t outline, double from,
@@ -85,7 +80,7 @@ bool OutlineUnion::cover_border(std::uint32_t corner, const Outline& outline,
   Trim trim;
   for (std::uint32_t i = 4 * outline.first; i < 4 * outline.end; ++i) {
     const LineBlock& block = blocks_[i / 4];
-    const auto& [before, behind] = sides_[block.sides[i % 4]];
+    const auto [before, behind] = sides_of(block.sides[i % 4]);
     const bool from_behind = has(behind, corner), to_behind = has(behind, next);
     if (!from_behind && !to_behind) continue;
     if (!has(before, from_behind ? next : corner)) return false;

@@ -123,7 +123,7 @@ class OutlineUnion {
     double from[4], to[4];                  // outer ends; from >= to where no edge is
     double inner_from[4], inner_to[4];      // inner ends
     std::uint8_t from_line[4], to_line[4];  // that make ends: places in the outline
-    std::uint16_t sides[4];                 // of sides_
+    std::uint16_t sides[4];                 // as number_of() has them
     PlaneRef plane[4];
 
     void fill(std::uint32_t k);
@@ -132,11 +132,13 @@ class OutlineUnion {
   static constexpr double kFar = 0x1p100;
   /// Instead of a line that makes an end: none, or it is not known which; cut_by_own() tells.
   static constexpr int kUnnamed = 255, kAsk = 254;
-  /// Corners strictly on either side of a line. Of a convex receiver with n corners there are at
-  /// most (2n)^2 kinds: sides change at two corners, or between two.
+  /// Corners strictly on either side of a line.
   struct Sides {
     CornerMask before = 0, behind = 0;
   };
+  static constexpr std::uint32_t kFewCorners = 8;
+  // Of a convex receiver with n corners there are at most (2n)^2 kinds: sides change at two
+  // corners, or between two.
   static_assert(4 * kMostCorners * kMostCorners < 0xffff);
   struct Outline {
     std::uint32_t first = 0, end = 0;  // of blocks_
@@ -198,6 +200,12 @@ class OutlineUnion {
 
   OutlineLine line_of(std::uint32_t line) const;
   std::uint16_t number_of(const Sides& sides);
+  /// Of a line, by number.
+  Sides sides_of(std::uint16_t number) const {
+    constexpr std::uint16_t kMask = (1 << kFewCorners) - 1;
+    if (receiver_->size() > kFewCorners) return sides_[number];
+    return {CornerMask{number} & kMask, CornerMask{number} >> kFewCorners};
+  }
   Edge edge_on(std::uint32_t line, std::uint32_t outline, double from, double to) const;
   struct FourStretches;
   void in_receiver(const LineBlock& block, FourStretches& stretches) const;
