@@ -14,7 +14,7 @@ namespace {
 
 /// Cells with more outlines are halved if that keeps some apart, in the middle of some of their
 /// ends.
-constexpr std::uint32_t kLeaf = 192, kAsked = 64, kHolders = 3;
+constexpr std::uint32_t kLeaf = 128, kAsked = 64, kHolders = 3;
 constexpr int kDeepest = 40, kMostInVain = 4;
 /// Of the receiver's size: cells do not meet where outlines end.
 constexpr double kAside = 0.7351e-7;
@@ -22,6 +22,10 @@ constexpr double kAside = 0.7351e-7;
 constexpr double kAlong = 0x1p-900;
 
 }  // namespace
+
+inline float OutlineUnion::size_of(const Box& box) {
+  return (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
+}
 
 /// Whether all of a rectangle is certainly inside of an outline.
 GNOMON_FOR_AVX2 bool OutlineUnion::holds(const Outline& outline, const double (&low)[2],
@@ -53,8 +57,11 @@ bool OutlineUnion::drop_held(Cell& cell) {
   constexpr Box kEverything = {
       {-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()},
       {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()}};
+  const double area = (cell.high[0] - cell.low[0]) * (cell.high[1] - cell.low[1]);
   for (std::uint32_t i = cell.first; i < cell.end; ++i) {
     const Outline& holder = outlines_[members_[i].outline];
+    // The largest come first, and sizes are rounded by far less than that.
+    if (i >= cell.first + kHolders && size_of(members_[i].box) < 0.999 * area) break;
     if (!is_outside(holder, cell, kEverything)) return true;
     if (i >= cell.first + kHolders) continue;
     std::uint32_t end = i + 1;
@@ -169,8 +176,7 @@ void OutlineUnion::add_leaf(const Cell& cell, bool is_cut) {
 void OutlineUnion::sort_members() {
   sizes_.clear();
   for (std::uint32_t i = 0; i < outlines_.size(); ++i) {
-    const Box& box = outlines_[i].box;
-    const float size = (box.high[0] - box.low[0]) * (box.high[1] - box.low[1]);
+    const float size = size_of(outlines_[i].box);
     // The bits of numbers that are not negative are in their order.
     sizes_.push_back(std::uint64_t{~std::bit_cast<std::uint32_t>(size)} << 32 | i);
   }

@@ -184,6 +184,7 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
     high = is_high ? before : high;
     outer_of_high = is_high ? behind : outer_of_high;
     high_line = is_high ? line : high_line;
+    missed |= low_outer >= high_outer;
   }
   low_line = ((low_line != kUnnamed) & (second_low >= outer_of_low)) ? long{kAsk} : low_line;
   high_line = ((high_line != kUnnamed) & (second_high <= outer_of_high)) ? long{kAsk} : high_line;

@@ -241,6 +241,7 @@ class OutlineUnion {
   bool is_hidden(const Edge& edge);
   void add_cells();
   void sort_members();
+  static float size_of(const Box& box);
   bool holds(const Outline& outline, const double (&low)[2], const double (&high)[2]) const;
   bool is_outside(const Outline& outline, const Cell& cell, const Box& box) const;
   bool drop_held(Cell& cell);
