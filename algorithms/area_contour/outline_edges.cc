@@ -163,7 +163,7 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
     const Bits cuts = ~((first > error) & (last > error)) & (places != static_cast<long>(i));
     if (!any(cuts)) continue;
     missed |= cuts & (first < -error) & (last < -error);
-    if (all(missed)) break;
+    if (all(missed)) break;  // whatever the others do
     near |= cuts & (first >= -error) & (first <= error) & (last >= -error) & (last <= error);
     const Doubles place = -start / slope, quotient = error / slope;
     const Doubles half = quotient < 0 ? -quotient : quotient;
@@ -223,10 +223,11 @@ OutlineUnion::Stretch OutlineUnion::own_stretch(const Edge& edge) {
           {block.inner_to[k], block.to[k], number(to_line)}};
 }
 
-/// Drops the lines of an outline that have no edge. Requires: some edge certainly is, so that the
-/// outline has an area. What the other lines leave of the receiver is convex, and such a line meets
-/// it in a point at most: so all of it lies on one side of the line, and since some does on the
-/// outline's, all of it is the outline.
+/// Drops the lines of an outline that have no edge, and those that an earlier one is, too.
+/// Requires: some edge certainly is, so that the outline has an area. What the other lines leave of
+/// the receiver is convex, and a line without an edge meets it in a point at most: so all of it
+/// lies on one side of the line, and since some does on the outline's, all of it is the outline.
+/// That holds of one line after another, since each leaves the outline as it was.
 void OutlineUnion::drop_lines(Outline& outline, std::uint32_t count) {
   std::array<std::uint8_t, 256> places;
   std::uint32_t kept = 0;
