@@ -12,6 +12,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon::area_contour {
@@ -55,10 +56,11 @@ mpq_class area(const std::vector<Point>& loop) {
   return twice / 2;
 }
 
-mpq_class covered(const std::vector<Convex>& outlines) {
+mpq_class covered(const std::vector<Convex>& outlines,
+                  const std::vector<Point>& receiver = square()) {
   mpq_class sum = 0;
   for (unsigned set = 1; set < 1u << outlines.size(); ++set) {
-    std::vector<Point> loop = square();
+    std::vector<Point> loop = receiver;
     int count = 0;
     for (std::size_t i = 0; i < outlines.size(); ++i) {
       if ((set >> i & 1) == 0) continue;
@@ -67,12 +69,13 @@ mpq_class covered(const std::vector<Convex>& outlines) {
     }
     sum += count % 2 == 1 ? area(loop) : mpq_class(-area(loop));
   }
-  return sum / (kSide * kSide);
+  return sum / area(receiver);
 }
 
 /// Lines are numbered by their planes here.
 class Lattice final : public ExactLines {
  public:
+  explicit Lattice(std::vector<Point> receiver) : receiver_(std::move(receiver)) {}
   std::vector<HalfPlane> lines;
 
   bool is_known_same(const OutlineLine& a, const OutlineLine& b) override {
@@ -87,8 +90,10 @@ class Lattice final : public ExactLines {
   }
   Side side_at_border(const OutlineLine& line, const OutlineLine& a,
                       std::uint32_t corner) override {
-    constexpr HalfPlane kBorder[] = {{0, 1, 0}, {-1, 0, kSide}, {0, -1, kSide}, {1, 0, 0}};
-    return side(of(line), meet(of(a), kBorder[corner]));
+    const Point &p = receiver_[corner], &q = receiver_[(corner + 1) % receiver_.size()];
+    const long px = p[0].get_num().get_si(), py = p[1].get_num().get_si();
+    const long dx = q[0].get_num().get_si() - px, dy = q[1].get_num().get_si() - py;
+    return side(of(line), meet(of(a), {-dy, dx, dy * px - dx * py}));
   }
   Ball place_on(const OutlineLine& line, const OutlineLine& by) override {
     const Point p = meet(of(line), of(by));
@@ -106,20 +111,22 @@ class Lattice final : public ExactLines {
     const int sign = sgn(value(line, p));
     return sign > 0 ? Side::kFront : sign < 0 ? Side::kBack : Side::kOn;
   }
+
+  std::vector<Point> receiver_;  // of integers
 };
 
-ReceiverChart chart() {
+ReceiverChart chart(const std::vector<Point>& receiver) {
   ReceiverChart result;
-  result.corners = {{0, 0}, {kSide, 0}, {kSide, kSide}, {0, kSide}};
+  for (const Point& p : receiver) result.corners.push_back({p[0].get_d(), p[1].get_d()});
   result.reach = kSide * 1.5;
   return result;
 }
 
-/// What a union says, or nothing where some outline holds all of the square.
+/// What a union says, or nothing where some outline holds all of the receiver.
 void check(const std::vector<Convex>& outlines, const mpq_class& truth, const std::string& what,
-           double most_error = 1e-9) {
-  const ReceiverChart receiver = chart();
-  Lattice exact;
+           double most_error = 1e-9, const std::vector<Point>& corners = square()) {
+  const ReceiverChart receiver = chart(corners);
+  Lattice exact(corners);
   OutlineUnion outline_union;
   outline_union.begin(receiver, exact);
   for (const Convex& outline : outlines) {
@@ -135,8 +142,7 @@ void check(const std::vector<Convex>& outlines, const mpq_class& truth, const st
       const auto number = static_cast<std::uint32_t>(exact.lines.size());
       line.plane = PlaneRef(number);
       exact.lines.push_back(half);
-      const std::vector<Point> corners = square();
-      for (std::uint32_t k = 0; k < 4; ++k) {
+      for (std::uint32_t k = 0; k < corners.size(); ++k) {
         const int sign = sgn(value(half, corners[k]));
         line.before |= static_cast<CornerMask>(sign > 0) << k;
         line.behind |= static_cast<CornerMask>(sign < 0) << k;
@@ -177,6 +183,36 @@ TEST(OutlineUnion, OneEdgeOfSeveralActs) {
   check({box(1, 1, 5, 5), box(1, 1, 5, 5)}, "twice");
   check({box(1, 1, 5, 5), box(1, 2, 4, 7), box(1, 3, 6, 4)}, "on one line");
   check({box(1, 1, 5, 5), box(1, 1, 5, 5), box(5, 1, 7, 5)}, "twice beside one");
+}
+
+/// Of 4 * `count` tangents of a circle around (x, y), by Pythagorean triples.
+Convex disc(long x, long y, long radius, long count) {
+  Convex result;
+  for (long i = 1; i <= count; ++i) {
+    const long a = count * count - i * i, b = 2 * count * i, c = count * count + i * i;
+    for (const auto& [p, q] : {std::array{a, b}, {-b, a}, {-a, -b}, {b, -a}}) {
+      result.push_back({-p, -q, radius * c + p * x + q * y});
+    }
+  }
+  return result;
+}
+
+/// More lines than have numbers of eight bits, and more corners than bits for both of a line's
+/// sides.
+TEST(OutlineUnion, ManyLinesAndManyCorners) {
+  const std::vector<Point> twelve = {{3, 0}, {5, 0}, {7, 1}, {8, 3}, {8, 5}, {7, 7},
+                                     {5, 8}, {3, 8}, {1, 7}, {0, 5}, {0, 3}, {1, 1}};
+  for (const std::vector<Point>& receiver : {square(), twelve}) {
+    for (const long count : {3, 40, 70}) {
+      for (const std::vector<Convex>& outlines :
+           {std::vector<Convex>{disc(4, 4, 3, count)},
+            {disc(4, 4, 3, count), disc(4, 4, 3, count), disc(6, 3, 4, count)},
+            {disc(0, 0, 6, count), box(5, 1, 8, 7), disc(8, 8, 3, 5)},
+            {box(3, -1, 5, 9), disc(3, 4, 2, count), disc(5, 4, 2, count), box(2, 3, 6, 5)}}) {
+        check(outlines, covered(outlines, receiver), std::to_string(count), 1e-9, receiver);
+      }
+    }
+  }
 }
 
 constexpr int kFine = 1 << 20;
