@@ -3,8 +3,8 @@
 // number, and what is known by identity. The arithmetic is the derived kernel's.
 //
 // Planes [0, planes) are the scene's support planes, [planes, planes + edges) name input edges and
-// are never asked, and all others are a stack of each fork's own, so that forks share nothing that
-// changes.
+// are never asked, and all others are a stack of each fork's own, above those that forks share, so
+// that they share nothing that changes.
 //
 // Identities: (1) a corner is on the support plane of its loop and on the planes of its edges;
 // (2) a plane contains the three corners that it was made from, input vertices and made ones alike;
@@ -26,6 +26,7 @@
 #include "gnomon/kernel/sign.h"
 #include "gnomon/kernel/stage_counts.h"
 #include "kernel/concept/plane_takeover.h"
+#include "kernel/concept/shared_stack.h"
 #include "kernel/signs/corner.h"
 
 namespace gnomon {
@@ -73,15 +74,14 @@ class ConstructedVolumeSpace {
     return push(self().axis_plane(axis, value), {kNoPoint, kNoPoint, kNoPoint});
   }
   std::uint32_t plane_mark() const { return static_cast<std::uint32_t>(own_.size()); }
-  void release_planes(std::uint32_t mark) {
-    own_.erase(own_.begin() + static_cast<std::ptrdiff_t>(mark), own_.end());
-  }
+  void release_planes(std::uint32_t mark) { own_.truncate(mark); }
 
   /// As TakesPlanes has them.
   void reserve_planes(std::size_t more) { own_.reserve(own_.size() + more); }
+  void share_planes() { own_.share(); }
   PlaneShift take_planes(Derived fork) {
     const PlaneShift shift{first_own_, plane_mark()};
-    for (OwnPlane& own : static_cast<ConstructedVolumeSpace&>(fork).own_) {
+    for (OwnPlane& own : static_cast<ConstructedVolumeSpace&>(fork).own_.take()) {
       for (PointName& point : own.points) {
         if (point[1] == kNone) continue;  // an input vertex, or none
         for (std::uint32_t& plane : point) plane += plane < shift.first ? 0 : shift.by;
@@ -198,7 +198,7 @@ class ConstructedVolumeSpace {
   bool identity_;
   std::uint32_t planes_;
   std::uint32_t first_own_;
-  std::vector<OwnPlane> own_;
+  SharedStack<OwnPlane> own_;
 };
 
 }  // namespace gnomon

@@ -29,10 +29,12 @@ struct PlaneShift {
 ///  - take_planes(fork) adds the planes that were added to a fork, in their order, and tells their
 ///    numbers here. Requires: the fork had released all planes (mark 0) before these were added.
 ///  - reserve_planes(more) makes room for so many more.
+///  - share_planes(): forks that are made from now on have those that are there in common.
 template <class S>
 concept TakesPlanes = S::kParallel && requires(S& space, S fork, std::size_t more) {
   { space.take_planes(std::move(fork)) } -> std::same_as<PlaneShift>;
   space.reserve_planes(more);
+  space.share_planes();
 };
 
 }  // namespace gnomon

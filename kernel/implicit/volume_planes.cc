@@ -5,7 +5,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "kernel/implicit/scaled_doubles.h"
@@ -122,14 +121,15 @@ PlaneRef VolumePlanes::add_explicit(ExactPlane<mpz_class> exact) {
 PlaneShift VolumePlanes::take_planes(VolumePlanes fork) {
   const PlaneShift shift{first_own(), plane_mark()};
   const auto first_wide = static_cast<std::uint32_t>(wide_.size());
-  own_.insert(own_.end(), fork.own_.begin(), fork.own_.end());
-  for (Explicit& given : fork.explicit_) {
+  std::vector<Plane> planes = fork.own_.take();
+  for (Explicit& given : fork.explicit_.take()) {
+    planes[given.owner].source = VolumePlaneSource::of_integers(explicit_.size());
     given.owner += shift.by;
-    own_[given.owner].source = VolumePlaneSource::of_integers(explicit_.size());
     if (given.is_wide()) given.wide += first_wide;
     explicit_.push_back(given);
   }
-  std::ranges::move(fork.wide_, std::back_inserter(wide_));
+  for (const Plane& plane : planes) own_.push_back(plane);
+  for (ExactPlane<mpz_class>& plane : fork.wide_.take()) wide_.push_back(std::move(plane));
   return shift;
 }
 

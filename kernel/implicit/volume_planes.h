@@ -6,7 +6,7 @@
 // all are), or explicit integers without a common divisor where 128 bits do not hold them as they
 // are (planes through corners of a cut light, along a direction, and of axes). Planes [0, planes)
 // are the scene's support planes, [planes, planes + edges) name input edges and have no integers,
-// and all others are a stack of each fork's own.
+// and all others are a stack of each fork's own, above those that forks share.
 //
 // Guarantee: every bound is proven (VolumeBounds). Coordinates are scaled to [0, 1] and normals so
 // that the largest component is in [1/2, 1). Reference: docs/exactness.md, "Shadow volumes".
@@ -23,6 +23,7 @@
 #include "gnomon/kernel/geometry.h"
 #include "gnomon/kernel/precision_plan.h"
 #include "kernel/concept/plane_takeover.h"
+#include "kernel/concept/shared_stack.h"
 #include "kernel/implicit/exact_geometry.h"
 #include "kernel/implicit/filter_bounds.h"
 #include "kernel/implicit/plane_provenance.h"
@@ -38,15 +39,26 @@ class VolumePlanes {
 
   std::uint32_t plane_mark() const { return static_cast<std::uint32_t>(own_.size()); }
   void release_planes(std::uint32_t mark) {
-    own_.resize(mark);
-    while (!explicit_.empty() && explicit_.back().owner >= mark) {
-      if (explicit_.back().is_wide()) wide_.pop_back();
-      explicit_.pop_back();
+    own_.truncate(mark);
+    std::size_t kept = explicit_.size(), wide = wide_.size();
+    while (kept > 0 && explicit_[kept - 1].owner >= mark) {
+      if (explicit_[--kept].is_wide()) --wide;
     }
+    if (kept == explicit_.size()) return;
+    explicit_.truncate(kept);
+    wide_.truncate(wide);
   }
 
   /// As TakesPlanes has them.
-  void reserve_planes(std::size_t more) { own_.reserve(own_.size() + more); }
+  void reserve_planes(std::size_t more) {
+    if (own_.size() > 0) explicit_.reserve(explicit_.size() + explicit_.size() * more / own_.size());
+    own_.reserve(own_.size() + more);
+  }
+  void share_planes() {
+    own_.share();
+    explicit_.share();
+    wide_.share();
+  }
   PlaneShift take_planes(VolumePlanes fork);
 
   /// A plane and its doubles, to test many vertices against.
@@ -58,6 +70,12 @@ class VolumePlanes {
   LoadedPlane load(PlaneRef ref) const {
     const Plane& plane = plane_at(ref.index());
     return {plane.n, plane.d, ref};
+  }
+  /// The value of a plane at an input vertex, in a measure of the plane's own: off by at most 4u of
+  /// itself. Requires: not the name of an input edge.
+  double value_at(PlaneRef ref, VertexId v) const {
+    const double value = accurate_value(plane_at(ref.index()), v);
+    return ref.flipped() ? -value : value;
   }
   /// What a plane was made from. Requires: not the name of an input edge.
   const VolumePlaneSource& source_of(PlaneRef ref) const { return plane_at(ref.index()).source; }
@@ -207,9 +225,9 @@ class VolumePlanes {
   }
 
   std::shared_ptr<const Shared> shared_;
-  std::vector<Plane> own_;  // a stack
-  std::vector<Explicit> explicit_;
-  std::vector<ExactPlane<mpz_class>> wide_;
+  SharedStack<Plane> own_;
+  SharedStack<Explicit> explicit_;
+  SharedStack<ExactPlane<mpz_class>> wide_;
 };
 
 template <class Factor>
