@@ -53,10 +53,11 @@ class CoverMask {
 
  private:
   static constexpr int kCells = 32;  // along each axis
+  static constexpr std::size_t kMostLines = 32;  // of an outline; one with more is not marked
   struct Line {
     double a, b, c;  // inside where a x + b y + c > 0
   };
-  std::uint32_t inside(int row, std::span<const Line> lines) const;
+  void mark(std::span<const Line> lines, int first, int last);
   int cell_of(double x, int axis) const;
 
   std::array<std::uint32_t, kCells> rows_{};

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -36,19 +37,11 @@ class LinesInSpace final : public ExactLines {
   bool is_known_same(const OutlineLine& a, const OutlineLine& b) override {
     return name_of(a.plane) == name_of(b.plane);
   }
-  /// A line is another one if that holds both points in which it meets the receiver's border.
-  bool is_same(const OutlineLine& a, const OutlineLine& b) override {
-    const auto n = static_cast<std::uint32_t>(corners_.size());
-    for (std::uint32_t k = 0; k < n; ++k) {
-      const bool is_before = (a.before >> k & 1) != 0, is_behind = (a.behind >> k & 1) != 0;
-      const std::uint32_t next = k + 1 == n ? 0 : k + 1;
-      if (!is_before && !is_behind) {
-        if (space_.side_of_plane(b.plane, corners_[k]) != Side::kOn) return false;
-      } else if (((is_before ? a.behind : a.before) >> next & 1) != 0) {
-        if (side_at_border(b, a, k) != Side::kOn) return false;
-      }
-    }
-    return true;
+  Side side_of_corner(const OutlineLine& line, std::uint32_t corner) override {
+    return space_.side_of_plane(line.plane, corners_[corner]);
+  }
+  double distance_of(const OutlineLine& line, std::uint32_t corner) override {
+    return std::fabs(space_.value_at(line.plane, corners_[corner].vertex.source));
   }
   Side side_of_meet(const OutlineLine& line, const OutlineLine& a, const OutlineLine& b) override {
     return space_.side_of_plane(line.plane,

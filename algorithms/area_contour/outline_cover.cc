@@ -72,13 +72,14 @@ OutlineUnion::Cover OutlineUnion::cover_slowly(const Edge& edge, std::uint32_t o
   for (const Trimming& by : trimmings_) {
     if (!by.is_near) {
       trimmed.add(by);
-    } else if (!is_one(edge.line, by.line)) {
-      trimmed.is_certain = false;
-    } else {
-      // One line: on the other side it hides, on this one if it acts before.
-      const OutlineLine line = line_of(by.line);
-      if (line.a * edge.a + line.b * edge.b > 0 && other > edge.outline) return Cover::kNothing;
+      continue;
     }
+    const Near near = resolve(edge.line, by.line, trimmed);
+    if (near == Near::kOutside) return Cover::kNothing;
+    if (near != Near::kSame) continue;
+    // One line: on the other side it hides, on this one if it acts before.
+    const OutlineLine line = line_of(by.line);
+    if (line.a * edge.a + line.b * edge.b > 0 && other > edge.outline) return Cover::kNothing;
   }
   trimmed.put(stretch);
   return cover_between(edge, stretch);

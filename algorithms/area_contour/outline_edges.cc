@@ -31,13 +31,15 @@ struct alignas(32) OutlineUnion::FourStretches {
 /// Which edges of the receiver a line meets, or in which corners, is told by the sides of the
 /// corners. It runs with its outline on the left, so that it leaves the receiver where corners, in
 /// their order, go over to the outline's side.
-[[gnu::always_inline]] inline void OutlineUnion::in_receiver(const LineBlock& block,
+[[gnu::always_inline]] inline void OutlineUnion::in_receiver(std::uint32_t number,
                                                              FourStretches& stretches) const {
   const ReceiverChart& receiver = *receiver_;
+  const LineBlock& block = blocks_[number];
   /// Of the receiver's edges that lines meet: the corners at their beginnings and ends.
   struct alignas(32) {
     double x[4] = {}, y[4] = {}, next_x[4] = {}, next_y[4] = {};
     std::int64_t is_met[4] = {};  // that at its end: all bits
+    std::uint32_t corner[4] = {};  // at its beginning
   } met[2];                       // where lines enter, and where they leave
   for (std::uint32_t i = 0; i < 4; ++i) {
     const auto [before, behind] = sides_of(block.sides[i]);
@@ -48,6 +50,7 @@ struct alignas(32) OutlineUnion::FourStretches {
           static_cast<std::uint32_t>(std::countr_zero(here & ~at_next(here, receiver.size())));
       const std::uint32_t next = receiver.next(k);
       auto& at = met[leaves ? 1 : 0];
+      at.corner[i] = k;
       at.x[i] = receiver.corners[k][0];
       at.y[i] = receiver.corners[k][1];
       at.next_x[i] = receiver.corners[next][0];
@@ -67,9 +70,14 @@ struct alignas(32) OutlineUnion::FourStretches {
     const Doubles here = value < 0 ? -value : value,
                   there = next_value < 0 ? -next_value : next_value;
     const Doubles both = here + there, known = 4 * error / both;
-    const Bits is_known = both > 8 * error;
-    const Doubles share = is_known ? here / both : 0.5;
-    const Doubles share_error = is_known ? (known > 1 ? 1.0 : known) : 0.5;
+    const bool is_known = all(known < kKnownShare);  // of no line it is no number
+    Doubles share = here / both, share_error = known + 0x1p-49;
+    for (std::uint32_t i = 0; i < 4 && !is_known; ++i) {
+      if (known[i] < kKnownShare || sides_of(block.sides[i]).behind == 0) continue;
+      const BorderShare own = share_of_border(line_of(4 * number + i), at.corner[i]);
+      share[i] = own.share;
+      share_error[i] = own.radius;
+    }
     const Doubles spread = (length < 0 ? -length : length) * share_error;
     const Bits& is_met = *reinterpret_cast<const Bits*>(at.is_met);
     const Doubles radius = is_met ? place_error : place_error + spread;
@@ -79,15 +87,47 @@ struct alignas(32) OutlineUnion::FourStretches {
   }
 }
 
-bool OutlineUnion::is_one(std::uint32_t a, std::uint32_t b) const {
-  const OutlineLine p = line_of(a), q = line_of(b);
-  return exact_->is_known_same(p, q) || exact_->is_same(p, q);
+std::array<Side, 2> ExactLines::sides_at_ends(const OutlineLine& line, const OutlineLine& along,
+                                              std::uint32_t corners) {
+  std::array<Side, 2> sides = {Side::kOn, Side::kOn};
+  // It has its outline on the left, and enters where corners go over to its other side.
+  for (std::uint32_t k = 0; k < corners; ++k) {
+    const std::uint32_t next = k + 1 == corners ? 0 : k + 1, last = k == 0 ? corners - 1 : k - 1;
+    if (!has(along.before | along.behind, k)) {
+      sides[has(along.before, last) ? 0 : 1] = side_of_corner(line, k);
+    } else if (has(along.before, k) && has(along.behind, next)) {
+      sides[0] = side_at_border(line, along, k);
+    } else if (has(along.behind, k) && has(along.before, next)) {
+      sides[1] = side_at_border(line, along, k);
+    }
+  }
+  return sides;
+}
+
+/// By integers. A line that cuts the stretch is added to what trims it.
+OutlineUnion::Near OutlineUnion::resolve(std::uint32_t line, std::uint32_t by,
+                                         Trim& trimmed) const {
+  const OutlineLine own = line_of(line), other = line_of(by);
+  if (exact_->is_known_same(own, other)) return Near::kSame;
+  const auto [low, high] = exact_->sides_at_ends(other, own, receiver_->size());
+  if (low == Side::kOn && high == Side::kOn) return Near::kSame;
+  if (low != Side::kBack && high != Side::kBack) return Near::kInside;
+  if (low != Side::kFront && high != Side::kFront) return Near::kOutside;
+  const Ball place = exact_->place_on(own, other);
+  if (!place.is_finite()) {
+    trimmed.is_certain = false;
+  } else if (low == Side::kBack) {
+    trimmed.begin_between(place.lower(), place.upper(), by);
+  } else {
+    trimmed.end_between(place.lower(), place.upper(), by);
+  }
+  return Near::kCuts;
 }
 
 /// False if certainly nothing is left of the edge.
 bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretch& stretch) {
   FourStretches in;
-  in_receiver(blocks_[line / 4], in);
+  in_receiver(line / 4, in);
   stretch = in.of(line % 4);
   Edge own = edge_on(line, 0, 0, 0);
   own.from = stretch.low.outer;
@@ -100,10 +140,9 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
       trimmed.add(by);
       continue;
     }
-    if (!is_one(line, by.line)) {
-      trimmed.is_certain = false;
-      continue;
-    }
+    const Near near = resolve(line, by.line, trimmed);
+    if (near == Near::kOutside) return false;
+    if (near != Near::kSame) continue;
     // Of one line that is given twice the first is the edge; two that look away from each other
     // have nothing between them.
     const OutlineLine other = line_of(by.line);
@@ -142,7 +181,7 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
   constexpr Doubles kBeyond = {kInfinity, kInfinity, kInfinity, kInfinity};
   LineBlock& own = blocks_[number];
   FourStretches in;
-  in_receiver(own, in);
+  in_receiver(number, in);
   const Doubles &least = row(in.low_outer), &most = row(in.high_outer);
   const long place_of_own = 4 * static_cast<long>(number - outline.first);
   const Bits places = {place_of_own, place_of_own + 1, place_of_own + 2, place_of_own + 3};

@@ -14,8 +14,6 @@ namespace {
 /// Choices, not bounds: of a share, and of that for an edge among many.
 constexpr double kOpen = 0x1p-31, kLeastOpen = 0x1p-43;
 
-bool has(CornerMask mask, std::uint32_t corner) { return (mask >> corner & 1) != 0; }
-
 }  // namespace
 
 void OutlineUnion::Walk::add(double dx, double dy, double middle, double radius) {
@@ -84,15 +82,7 @@ bool OutlineUnion::cover_border(std::uint32_t corner, const Outline& outline,
     const bool from_behind = has(behind, corner), to_behind = has(behind, next);
     if (!from_behind && !to_behind) continue;
     if (!has(before, from_behind ? next : corner)) return false;
-    const Edge line = edge_on(i, 0, 0, 0);
-    const auto distance = [&](std::uint32_t k) {
-      return std::fabs(line.a * receiver.corners[k][0] + line.b * receiver.corners[k][1] + line.c);
-    };
-    const double here = distance(corner), both = here + distance(next);
-    const double error = line.error + 2 * receiver.error + slack_;
-    const bool is_known = both > 8 * error;
-    const double share = is_known ? here / both : 0.5;
-    const double radius = (is_known ? 4 * error / both : 0.5) + 8 * Ball::kUnit;
+    const auto [share, radius] = share_of_border(line_of(i), corner);
     if (from_behind) {
       trim.begin_at(share, radius, i);
     } else {
@@ -101,6 +91,23 @@ bool OutlineUnion::cover_border(std::uint32_t corner, const Outline& outline,
   }
   trim.put(stretch);
   return stretch.may_be();
+}
+
+/// Where a line that crosses an edge of the receiver, or nearly does, meets it. By integers if
+/// doubles say little.
+OutlineUnion::BorderShare OutlineUnion::share_of_border(const OutlineLine& line,
+                                                        std::uint32_t corner) const {
+  const ReceiverChart& receiver = *receiver_;
+  const std::uint32_t next = receiver.next(corner);
+  const auto distance = [&](std::uint32_t k) {
+    return std::fabs(line.a * receiver.corners[k][0] + line.b * receiver.corners[k][1] + line.c);
+  };
+  const double here = distance(corner), both = here + distance(next);
+  const double radius = 4 * (line.error + 2 * receiver.error + slack_) / both;
+  if (radius < kKnownShare) return {here / both, radius + 8 * Ball::kUnit};
+  // Two sums and a quotient of numbers that are off by 4u: below 16u.
+  const double exact = exact_->distance_of(line, corner);
+  return {exact / (exact + exact_->distance_of(line, next)), 16 * Ball::kUnit};
 }
 
 /// Along the longest edge of the receiver, from the middle of its heights.

@@ -39,8 +39,8 @@ class ExactLines {
   virtual ~ExactLines() = default;
   /// Whether two lines are known to be one by what they were made from. False: they may be.
   virtual bool is_known_same(const OutlineLine& a, const OutlineLine& b) = 0;
-  /// Whether two lines are one.
-  virtual bool is_same(const OutlineLine& a, const OutlineLine& b) = 0;
+  /// On which side of a line is a corner of the receiver.
+  virtual Side side_of_corner(const OutlineLine& line, std::uint32_t corner) = 0;
   /// On which side of `line` is the point where two others meet. Requires: they cross.
   virtual Side side_of_meet(const OutlineLine& line, const OutlineLine& a,
                             const OutlineLine& b) = 0;
@@ -51,11 +51,20 @@ class ExactLines {
   /// Where another line meets a line, sharply: along the direction (b, -a) of that, as seen from
   /// the chart's origin. Requires: they cross.
   virtual Ball place_on(const OutlineLine& line, const OutlineLine& by) = 0;
+
+  /// How far a corner is from a line, in some measure of that line: off by less than 4u of itself.
+  virtual double distance_of(const OutlineLine& line, std::uint32_t corner) = 0;
+
+  /// On which sides of a line are the points in which another one enters and leaves a receiver of
+  /// so many corners. On it are both only if the two are one.
+  std::array<Side, 2> sides_at_ends(const OutlineLine& line, const OutlineLine& along,
+                                    std::uint32_t corners);
 };
 
 struct UnionShare {
   double covered = 0, error = 0;  // of the receiver's area
   bool hidden = false;            // all of it is covered
+  bool some = false;              // something certainly is; the union itself does not say so
 };
 
 class OutlineUnion {
@@ -158,6 +167,13 @@ class OutlineUnion {
     bool begins = false;    // what is inside begins there
     bool is_known = false;  // the lines certainly cross
   };
+  /// Where a line meets an edge of the receiver, as a share of that.
+  struct BorderShare {
+    double share = 0, radius = 0;
+  };
+  /// What a line is to a stretch that it may be the line of: the same, or with all of that inside
+  /// or outside, or one that cuts it.
+  enum class Near : std::uint8_t { kSame, kInside, kOutside, kCuts };
   enum class Cover : std::uint8_t { kNothing, kSome, kAll, kUnknown };
   /// Of stretches: their lengths, and the integrals of their heights.
   struct Lengths {
@@ -208,7 +224,7 @@ class OutlineUnion {
   }
   Edge edge_on(std::uint32_t line, std::uint32_t outline, double from, double to) const;
   struct FourStretches;
-  void in_receiver(const LineBlock& block, FourStretches& stretches) const;
+  void in_receiver(std::uint32_t number, FourStretches& stretches) const;
   unsigned find_ends(const Outline& outline, std::uint32_t count, std::uint32_t number);
   void drop_lines(Outline& outline, std::uint32_t count);
   bool find_edges(Outline& outline, std::uint32_t count, double (&low)[2], double (&high)[2]);
@@ -225,7 +241,8 @@ class OutlineUnion {
   bool hides_or_note(const Edge& edge, std::uint32_t other, const OpenLines* open);
   bool hides(const Edge& edge, const EdgeLanes& lanes, std::uint32_t other);
   bool cover_border(std::uint32_t corner, const Outline& outline, Stretch& stretch) const;
-  bool is_one(std::uint32_t a, std::uint32_t b) const;
+  BorderShare share_of_border(const OutlineLine& line, std::uint32_t corner) const;
+  Near resolve(std::uint32_t line, std::uint32_t by, Trim& trimmed) const;
   bool has_gap(const Carrier& carrier, const End& before, const End& after, bool is_end) const;
   Lengths rest_of(const Carrier& carrier, Stretch stretch);
   static End outside(const End& end);

@@ -21,8 +21,9 @@ void PlacedVolumes::place(const FoundVolume& found, std::span<const Point3> cast
   boxes.penumbra.clip(penumbras.box());
   boxes.umbra.clip(penumbras.box());
   volume.found.umbra = found.umbra && !boxes.umbra.is_empty();
+  volume.found.penumbra = found.penumbra && !umbra_alone;
   if (boxes.place == ShadowBoxes::Place::kBehind || boxes.penumbra.is_empty() ||
-      (umbra_alone && !volume.found.umbra)) {
+      !(volume.found.umbra || volume.found.penumbra)) {
     return;
   }
   volumes_.push_back(volume);
@@ -31,7 +32,9 @@ void PlacedVolumes::place(const FoundVolume& found, std::span<const Point3> cast
 /// Where outlines are so small that they hide little, neighbours in space stay neighbours: that is
 /// how they lie in memory.
 std::span<const PlacedVolume> PlacedVolumes::largest_first() {
-  const auto area = [](const PlacedVolume& volume) { return volume.boxes.penumbra.area(); };
+  const auto area = [](const PlacedVolume& volume) {
+    return (volume.found.penumbra ? volume.boxes.penumbra : volume.boxes.umbra).area();
+  };
   const double least = penumbras.box().area() / kSmall;
   const auto small = std::ranges::stable_partition(
       volumes_, [&](const PlacedVolume& volume) { return area(volume) > least; });

@@ -53,9 +53,15 @@ LightVolumes light_volumes(const Space& space, const LightGeometry& geometry,
                            const CasterTree& tree, const LightInSpace<Space>& light,
                            unsigned jobs) {
   const PreparedScene& scene = light.scene();
+  const auto parts = static_cast<std::uint32_t>(scene.parts.size());
   std::vector<Box> boxes;
-  boxes.reserve(scene.parts.size());
-  for (std::uint32_t part = 0; part < scene.parts.size(); ++part) boxes.push_back(tree.box(part));
+  boxes.reserve(parts + std::size_t{light.shell_count()});
+  for (std::uint32_t part = 0; part < parts; ++part) boxes.push_back(tree.box(part));
+  for (std::uint32_t shell = parts; shell < parts + light.shell_count(); ++shell) {
+    Box box;
+    for (const std::uint32_t part : light.shell(shell).parts) box.add(boxes[part]);
+    boxes.push_back(box);
+  }
   Box box;
   std::vector<Point3> corners;
   double bound = 0;
@@ -66,9 +72,26 @@ LightVolumes light_volumes(const Space& space, const LightGeometry& geometry,
   }
   LightVolumes result(std::move(boxes), box, std::move(corners), bound);
   const VolumeStore& store = light.volumes();
-  for (std::uint32_t i = 0; i < store.size(); ++i) {
-    const std::uint32_t part = store[i].caster;
-    result.add(i, part, scene.parts[part].plane, store[i].penumbra_count, store[i].umbra_count);
+  const auto add_umbras = [&](std::uint32_t part, std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      result.add_umbra(i, part, scene.parts[part].plane, store[i].umbra_count);
+    }
+  };
+  for (std::uint32_t part = 0; part < parts; ++part) {
+    if (light.shell_of(part) != ShellCasters::kNone) continue;
+    for (auto [i, end] = light.volumes_of(part); i < end; ++i) {
+      result.add(i, part, store[i].penumbra_count);
+      add_umbras(part, i, i + 1);
+    }
+  }
+  for (std::uint32_t shell = parts; shell < parts + light.shell_count(); ++shell) {
+    const auto [begin, end] = light.volumes_of(shell);
+    if (begin == end) continue;
+    result.add(begin, shell, store[begin].penumbra_count);
+    for (const std::uint32_t part : light.shell(shell).parts) {
+      const auto [first, last] = light.volumes_of(part);
+      add_umbras(part, first, last);
+    }
   }
   result.finish(jobs, [&](std::uint32_t volume, bool umbra, std::vector<PlaneDoubles>& planes) {
     planes.clear();
@@ -107,16 +130,19 @@ class ReceiverShares {
                                  const LightVolumes& volumes, PlaneRef receiving,
                                  const LightShape<Vertex>& cut);
   void set_cut_light(const Space& space, const LightInSpace<Space>& light, const Loop& loop);
-  bool blocks(Workspace& workspace, PlaneRef receiving, const PreparedScene& scene,
+  bool blocks(Workspace& workspace, PlaneRef receiving, const LightInSpace<Space>& light,
               std::uint32_t caster);
   Verdict add_cut_volume(Workspace& workspace, const LightInSpace<Space>& light, PlaneRef receiving,
                          const LightShape<Vertex>& cut, const FoundVolume& found);
   std::optional<Shares> find_masked(Workspace& workspace, const LightInSpace<Space>& light,
                                     const LightVolumes& volumes, PlaneRef receiving);
-  Verdict add_volume(Space& space, const VolumeStore& store, const VolumeToCut& cut,
-                     bool penumbra = true);
-  std::optional<Shares> shares();
-  Relation relate(Space& space, std::span<const PlaneRef> planes, Border border);
+  Verdict add_volume(Space& space, const VolumeStore& store, const FoundVolume& found);
+  /// Whether some area of the receiver is inside of a penumbra that was added, or of an umbra.
+  bool has_inside(Workspace& workspace, const LightInSpace<Space>& light, bool umbra);
+  std::optional<UnionShare> share_of(Workspace& workspace, const LightInSpace<Space>& light,
+                                     bool umbra);
+  std::optional<Shares> shares(Workspace& workspace, const LightInSpace<Space>& light);
+  Relation relate(Space& space, std::span<const PlaneRef> planes, OpenPlanes open, Border border);
 
   PlaneRef support_;
   std::vector<Corner<Vertex>> corners_;  // in the chart's order
@@ -130,6 +156,9 @@ class ReceiverShares {
   const ShadowBoxes* masked_ = nullptr;  // of what is being added, if masks are kept
   std::vector<Point3> caster_;
   OutlineUnion penumbras_, umbras_;
+  const Loop* whole_ = nullptr;
+  bool is_whole_ = false;                                     // the receiver's plane cuts no light
+  std::vector<std::uint32_t> added_penumbras_, added_umbras_;  // then: volumes of the light's store
 };
 
 template <VolumeSpaceModel Space>
@@ -151,13 +180,16 @@ bool ReceiverShares<Space>::make_chart(const Space& space, const Loop& whole) {
   return true;
 }
 
-/// Leaves the lines that cross the receiver in lines_.
+/// Leaves the lines that cross the receiver in lines_. The receiver is in front of all planes that
+/// are not `open`.
 template <VolumeSpaceModel Space>
 typename ReceiverShares<Space>::Relation ReceiverShares<Space>::relate(
-    Space& space, std::span<const PlaneRef> planes, Border border) {
+    Space& space, std::span<const PlaneRef> planes, OpenPlanes open, Border border) {
   lines_.clear();
   bool is_open = false;
-  for (const PlaneRef plane : planes) {
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    if (!open.has(i)) continue;
+    const PlaneRef plane = planes[i];
     const auto loaded = space.load(plane);
     CornerMask before = 0, behind = 0;
     for (std::uint32_t k = 0; k < corners_.size(); ++k) {
@@ -182,49 +214,85 @@ typename ReceiverShares<Space>::Relation ReceiverShares<Space>::relate(
   return lines_.empty() ? Relation::kInside : Relation::kCrossing;
 }
 
+/// `found`: a volume of the store, and what of it is to be added.
 template <VolumeSpaceModel Space>
-typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_volume(Space& space,
-                                                                          const VolumeStore& store,
-                                                                          const VolumeToCut& cut,
-                                                                          bool penumbra) {
-  const ShadowVolume& volume = store[cut.volume];
-  if (!all_penumbra_ && penumbra) {
-    const Relation relation = relate(space, store.penumbra(volume), Border::kOpen);
+typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_volume(
+    Space& space, const VolumeStore& store, const FoundVolume& found) {
+  const ShadowVolume& volume = store[found.number];
+  if (!all_penumbra_ && found.penumbra) {
+    const Relation relation =
+        relate(space, store.penumbra(volume), found.of_penumbra, Border::kOpen);
     if (relation == Relation::kOutside) return Verdict::kGoesOn;
     if (relation == Relation::kOpen) return Verdict::kOpen;
     all_penumbra_ = relation == Relation::kInside;
     if (!all_penumbra_) {
       penumbras_.add(lines_);
+      if (is_whole_) added_penumbras_.push_back(found.number);
       if (masked_ != nullptr) placed_.penumbras.add(lines_, masked_->penumbra);
     }
   }
-  if (!cut.umbra || volume.umbra_count == 0) return Verdict::kGoesOn;
-  const Relation relation = relate(space, store.umbra(volume), Border::kClosed);
+  if (!found.umbra || volume.umbra_count == 0) return Verdict::kGoesOn;
+  const Relation relation = relate(space, store.umbra(volume), found.of_umbra, Border::kClosed);
   if (relation == Relation::kOpen) return Verdict::kOpen;
   if (relation == Relation::kInside) return Verdict::kAllUmbra;
   if (relation == Relation::kCrossing) {
     umbras_.add(lines_);
+    if (is_whole_) added_umbras_.push_back(found.number);
     if (masked_ != nullptr) placed_.umbras.add(lines_, masked_->umbra);
   }
   return Verdict::kGoesOn;
 }
 
 template <VolumeSpaceModel Space>
-std::optional<Shares> ReceiverShares<Space>::shares() {
-  const auto share = [](OutlineUnion& outlines) -> std::optional<UnionShare> {
-    if (outlines.size() == 0) return std::nullopt;
-    return outlines.share();
-  };
-  return shares_of(all_penumbra_ ? std::nullopt : share(penumbras_), all_penumbra_, share(umbras_));
+bool ReceiverShares<Space>::has_inside(Workspace& workspace, const LightInSpace<Space>& light,
+                                       bool umbra) {
+  const VolumeStore& store = light.volumes();
+  return std::ranges::any_of(umbra ? added_umbras_ : added_penumbras_, [&](std::uint32_t number) {
+    const ShadowVolume& volume = store[number];
+    return workspace.cutter.has_inside(
+        *whole_, umbra ? store.umbra(volume) : store.penumbra(volume), umbra);
+  });
+}
+
+/// None: no outline has any area. Where bounds do not tell whether one has, which is so of slivers
+/// beside a caster that is nearly in the receiver's plane, it is asked exactly, if all outlines are
+/// those of the whole light's volumes.
+template <VolumeSpaceModel Space>
+std::optional<UnionShare> ReceiverShares<Space>::share_of(Workspace& workspace,
+                                                          const LightInSpace<Space>& light,
+                                                          bool umbra) {
+  OutlineUnion& outlines = umbra ? umbras_ : penumbras_;
+  if (outlines.size() == 0) return std::nullopt;
+  UnionShare share = outlines.share();
+  const std::size_t known = (umbra ? added_umbras_ : added_penumbras_).size();
+  if (known == outlines.size() && may_be_nothing(share)) {
+    share.some = has_inside(workspace, light, umbra);
+    if (!share.some) return std::nullopt;
+  }
+  return share;
+}
+
+template <VolumeSpaceModel Space>
+std::optional<Shares> ReceiverShares<Space>::shares(Workspace& workspace,
+                                                    const LightInSpace<Space>& light) {
+  return shares_of(all_penumbra_ ? std::nullopt : share_of(workspace, light, false), all_penumbra_,
+                   share_of(workspace, light, true));
 }
 
 /// Whether a caster is partly in front of the receiver.
 template <VolumeSpaceModel Space>
 bool ReceiverShares<Space>::blocks(Workspace& workspace, PlaneRef receiving,
-                                   const PreparedScene& scene, std::uint32_t caster) {
-  const Loop loop = part_loop(workspace.space, scene, caster, workspace.caster);
+                                   const LightInSpace<Space>& light, std::uint32_t caster) {
+  Space& space = workspace.space;
+  if (light.is_solid(caster)) {
+    return std::ranges::any_of(light.shell(caster).vertices, [&](VertexId id) {
+      const Vertex vertex = space.input_vertex(id);
+      return space.side_of_plane(receiving, lone_corner(vertex)) == Side::kFront;
+    });
+  }
+  const Loop loop = part_loop(space, light.scene(), caster, workspace.caster);
   for (std::uint32_t i = 0; i < loop.size(); ++i) {
-    if (workspace.space.side_of_plane(receiving, loop.corner(i)) == Side::kFront) return true;
+    if (space.side_of_plane(receiving, loop.corner(i)) == Side::kFront) return true;
   }
   return false;
 }
@@ -242,13 +310,12 @@ std::optional<Shares> ReceiverShares<Space>::find_whole(Workspace& workspace,
     return find_masked(workspace, light, volumes, receiving);
   }
   for (const FoundVolume& found : search_.found()) {
-    if (!blocks(workspace, receiving, light.scene(), found.part)) continue;
-    const Verdict verdict =
-        add_volume(workspace.space, light.volumes(), {found.number, found.umbra});
+    if (!blocks(workspace, receiving, light, found.caster)) continue;
+    const Verdict verdict = add_volume(workspace.space, light.volumes(), found);
     if (verdict == Verdict::kOpen) return std::nullopt;
     if (verdict == Verdict::kAllUmbra) return kAllUmbra;
   }
-  return shares();
+  return shares(workspace, light);
 }
 
 /// The same of many volumes, the largest outlines first, without those that lie where others are
@@ -259,35 +326,34 @@ std::optional<Shares> ReceiverShares<Space>::find_masked(Workspace& workspace,
                                                          const LightVolumes& volumes,
                                                          PlaneRef receiving) {
   const Space& space = workspace.space;
-  const PreparedScene& scene = light.scene();
   const auto plane = space.load(support_);
   const double sign = receiving.flipped() ? -1 : 1;
   placed_.begin(chart_, {sign * plane.n[0], sign * plane.n[1], sign * plane.n[2]}, sign * plane.d,
                 volumes);
   for (const FoundVolume& found : search_.found()) {
     caster_.clear();
-    for (const VertexId vertex : scene.loop(scene.parts[found.part])) {
+    for (const VertexId vertex : light.vertices_of(found.caster)) {
       caster_.push_back(space.input_vertex(vertex).x);
     }
     placed_.place(found, caster_, all_penumbra_);
   }
   for (const PlacedVolume& volume : placed_.largest_first()) {
-    const FoundVolume& found = volume.found;
-    const bool umbra = found.umbra && !placed_.umbras.holds(volume.boxes.umbra);
-    const bool penumbra = !all_penumbra_ && !placed_.penumbras.holds(volume.boxes.penumbra);
-    if (!umbra && !penumbra) continue;
+    FoundVolume found = volume.found;
+    found.umbra = found.umbra && !placed_.umbras.holds(volume.boxes.umbra);
+    found.penumbra = found.penumbra && !all_penumbra_ &&
+                     !placed_.penumbras.holds(volume.boxes.penumbra);
+    if (!found.umbra && !found.penumbra) continue;
     if (volume.boxes.place != ShadowBoxes::Place::kInFront &&
-        !blocks(workspace, receiving, scene, found.part)) {
+        !blocks(workspace, receiving, light, found.caster)) {
       continue;
     }
     masked_ = &volume.boxes;
-    const Verdict verdict =
-        add_volume(workspace.space, light.volumes(), {found.number, umbra}, penumbra);
+    const Verdict verdict = add_volume(workspace.space, light.volumes(), found);
     if (verdict == Verdict::kOpen) return std::nullopt;
-    if (verdict == Verdict::kAllUmbra || (umbra && placed_.umbras.is_full())) return kAllUmbra;
+    if (verdict == Verdict::kAllUmbra || (found.umbra && placed_.umbras.is_full())) return kAllUmbra;
     all_penumbra_ = all_penumbra_ || placed_.penumbras.is_full();
   }
-  return shares();
+  return shares(workspace, light);
 }
 
 /// Of a light that it cuts: by the volumes of the part in front, which are made here.
@@ -297,7 +363,7 @@ std::optional<Shares> ReceiverShares<Space>::find_cut(Workspace& workspace,
                                                       const LightVolumes& volumes,
                                                       PlaneRef receiving,
                                                       const LightShape<Vertex>& cut) {
-  if (cut.loop.size() < 3) return shares();
+  if (cut.loop.size() < 3) return shares(workspace, light);
   set_cut_light(workspace.space, light, cut.loop);
   if (search_.begin_cut(volumes, searched_, cut_light_) || search_.find_blocking()) {
     return kAllUmbra;
@@ -310,7 +376,7 @@ std::optional<Shares> ReceiverShares<Space>::find_cut(Workspace& workspace,
       if (verdict == Verdict::kAllUmbra) return kAllUmbra;
     }
   }
-  return shares();
+  return shares(workspace, light);
 }
 
 template <VolumeSpaceModel Space>
@@ -325,19 +391,22 @@ template <VolumeSpaceModel Space>
 typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_cut_volume(
     Workspace& workspace, const LightInSpace<Space>& light, PlaneRef receiving,
     const LightShape<Vertex>& cut, const FoundVolume& found) {
-  if (all_penumbra_ && !found.umbra) return Verdict::kGoesOn;
+  const bool penumbra = found.penumbra && !all_penumbra_;
+  if (!penumbra && !found.umbra) return Verdict::kGoesOn;
+  if (!blocks(workspace, receiving, light, found.caster)) return Verdict::kGoesOn;
   const PreparedScene& scene = light.scene();
-  if (!blocks(workspace, receiving, scene, found.part)) return Verdict::kGoesOn;
-  // The first plane of each volume is its caster's own, seen from behind.
-  const VolumeStore& store = light.volumes();
-  const PlaneRef side = -store.penumbra(store[found.number])[0];
-  const Part& part = scene.parts[found.part];
   workspace.own.clear();
-  workspace.builder.add(part_loop(workspace.space, scene, found.part, workspace.caster), side,
-                        side.flipped() != part.flipped, cut, workspace.own,
-                        all_penumbra_ ? VolumesWanted::kUmbra : VolumesWanted::kBoth);
+  if (light.is_solid(found.caster)) {
+    workspace.shells.add(scene, light.shell(found.caster), found.caster, cut, workspace.own);
+  } else {
+    const Part& part = scene.parts[found.caster];
+    const PlaneRef side = light.volumes()[found.number].side;
+    workspace.builder.add(part_loop(workspace.space, scene, found.caster, workspace.caster), side,
+                          side.flipped() != part.flipped, cut, workspace.own,
+                          penumbra ? VolumesWanted::kBoth : VolumesWanted::kUmbra);
+  }
   if (workspace.own.size() == 0) return Verdict::kGoesOn;
-  return add_volume(workspace.space, workspace.own, {0, found.umbra});
+  return add_volume(workspace.space, workspace.own, {0, found.caster, penumbra, found.umbra, {}, {}});
 }
 
 template <VolumeSpaceModel Space>
@@ -352,20 +421,27 @@ std::optional<Shares> ReceiverShares<Space>::find(Workspace& workspace,
   if (!make_chart(space, whole)) return std::nullopt;
   searched_.part = part;
   searched_.support = receiving.index();
+  const std::uint32_t shell = light.shell_of(part);
+  searched_.behind = side == Side::kFront && shell != ShellCasters::kNone ? shell : part;
   LinesInSpace<Space> exact(space, whole, corners_, chart_);
   penumbras_.begin(chart_, exact);
   umbras_.begin(chart_, exact);
   all_penumbra_ = false;
   masked_ = nullptr;
+  whole_ = &whole;
+  added_penumbras_.clear();
+  added_umbras_.clear();
   // What is behind the light gets nothing, as if it were in every umbra.
   const PlaneRef behind = -light.plane();
-  const Relation relation = relate(space, {&behind, 1}, Border::kClosed);
+  const Relation relation = relate(space, {&behind, 1}, {}, Border::kClosed);
   if (relation == Relation::kOpen) return std::nullopt;
   if (relation == Relation::kCrossing) {
     penumbras_.add(lines_);
     umbras_.add(lines_);
   }
-  if (const auto cut = light.cut_by(workspace, receiving)) {
+  const auto cut = light.cut_by(workspace, receiving);
+  is_whole_ = !cut;
+  if (cut) {
     return find_cut(workspace, light, volumes, receiving, *cut);
   }
   return find_whole(workspace, light, volumes, receiving);

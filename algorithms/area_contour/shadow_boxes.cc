@@ -13,6 +13,9 @@ namespace {
 /// worse, are not asked.
 constexpr double kLeastGap = 0x1p-16, kMostWidth = 0x1p-24;
 
+double least_of(const Doubles& x) { return std::min(std::min(x[0], x[1]), std::min(x[2], x[3])); }
+double most_of(const Doubles& x) { return std::max(std::max(x[0], x[1]), std::max(x[2], x[3])); }
+
 }  // namespace
 
 void ShadowProjection::begin(const ReceiverChart& receiver, const Point3& n, double d, double error,
@@ -52,14 +55,14 @@ GNOMON_FOR_AVX2 ShadowBoxes ShadowProjection::boxes(std::span<const Point3> cast
     return result;
   }
   if (highest > error_) result.place = ShadowBoxes::Place::kInFront;
-  ChartBox penumbra, umbra = ChartBox::everything();
-  double gap = 2, largest = 0;
+  // By light's corner, four at a time: of the penumbra the least and the greatest places, of the
+  // umbra the greatest of the least ones and the least of the greatest.
+  constexpr Doubles kFar = {1e300, 1e300, 1e300, 1e300};
+  Doubles least_u = kFar, least_v = kFar, most_u = -kFar, most_v = -kFar;
+  Doubles low_u = -kFar, low_v = -kFar, high_u = kFar, high_v = kFar;
+  Doubles gaps = {2, 2, 2, 2}, ratios = {0, 0, 0, 0};
   for (const Seen& light : light_) {
-    Doubles low_u = {2, 2, 2, 2}, low_v = low_u, high_u = -low_u, high_v = -low_u;
-    low_u *= 1e300;
-    low_v *= 1e300;
-    high_u *= 1e300;
-    high_v *= 1e300;
+    Doubles own_low_u = kFar, own_low_v = kFar, own_high_u = -kFar, own_high_v = -kFar;
     const Doubles &light_u = row(light.u), &light_v = row(light.v),
                   &light_height = row(light.height);
     for (const Point3& corner : caster) {
@@ -67,24 +70,26 @@ GNOMON_FOR_AVX2 ShadowBoxes ShadowProjection::boxes(std::span<const Point3> cast
       const Doubles apart = light_height - height, t = height / apart;
       const Doubles u = corner[u_] + (corner[u_] - light_u) * t,
                     v = corner[v_] + (corner[v_] - light_v) * t;
-      low_u = u < low_u ? u : low_u;
-      high_u = u > high_u ? u : high_u;
-      low_v = v < low_v ? v : low_v;
-      high_v = v > high_v ? v : high_v;
-      for (int i = 0; i < 4; ++i) {
-        gap = std::min(gap, apart[i]);
-        largest = std::max(largest, std::fabs(t[i]));
-      }
+      own_low_u = u < own_low_u ? u : own_low_u;
+      own_high_u = u > own_high_u ? u : own_high_u;
+      own_low_v = v < own_low_v ? v : own_low_v;
+      own_high_v = v > own_high_v ? v : own_high_v;
+      const Doubles size = t < 0 ? -t : t;
+      gaps = apart < gaps ? apart : gaps;
+      ratios = size > ratios ? size : ratios;
     }
-    for (int i = 0; i < 4; ++i) {
-      const ChartBox own{{low_u[i], low_v[i]}, {high_u[i], high_v[i]}};
-      for (int k = 0; k < 2; ++k) {
-        penumbra.low[k] = std::min(penumbra.low[k], own.low[k]);
-        penumbra.high[k] = std::max(penumbra.high[k], own.high[k]);
-      }
-      umbra.clip(own);
-    }
+    least_u = own_low_u < least_u ? own_low_u : least_u;
+    least_v = own_low_v < least_v ? own_low_v : least_v;
+    most_u = own_high_u > most_u ? own_high_u : most_u;
+    most_v = own_high_v > most_v ? own_high_v : most_v;
+    low_u = own_low_u > low_u ? own_low_u : low_u;
+    low_v = own_low_v > low_v ? own_low_v : low_v;
+    high_u = own_high_u < high_u ? own_high_u : high_u;
+    high_v = own_high_v < high_v ? own_high_v : high_v;
   }
+  const double gap = least_of(gaps), largest = most_of(ratios);
+  const ChartBox penumbra{{least_of(least_u), least_of(least_v)}, {most_of(most_u), most_of(most_v)}};
+  const ChartBox umbra{{most_of(low_u), most_of(low_v)}, {least_of(high_u), least_of(high_v)}};
   if (!(gap > kLeastGap)) return result;
   const double error = 4 * error_ * (1 + largest) / gap;
   if (!(error < kMostWidth)) return result;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "algorithms/area_contour/share_classes.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "kernel/signs/ball.h"
 
 namespace gnomon::area_contour {
@@ -13,7 +16,8 @@ constexpr double kWidest = 0x1p-24;
 std::optional<Interval> covered(const std::optional<UnionShare>& share) {
   if (!share) return Interval{0, 0};
   if (share->hidden) return Interval{1, 1};
-  const Interval bounds{share->covered - share->error, share->covered + share->error};
+  Interval bounds{share->covered - share->error, share->covered + share->error};
+  if (share->some) bounds.lower = std::max(bounds.lower, std::numeric_limits<double>::denorm_min());
   if (!(share->error < kWidest) || !(bounds.lower > 0) || !(bounds.upper < 1)) return std::nullopt;
   return bounds;
 }
@@ -21,10 +25,14 @@ std::optional<Interval> covered(const std::optional<UnionShare>& share) {
 /// 1 - a - b, rounded outwards: each operation rounds by at most half a unit of a number below 2.
 Interval rest_of(const Interval& a, const Interval& b) {
   constexpr double kOutwards = 4 * Ball::kUnit;
-  return {1 - a.upper - b.upper - kOutwards, 1 - a.lower - b.lower + kOutwards};
+  return {1 - a.upper - b.upper - kOutwards, std::min(1.0, 1 - a.lower - b.lower + kOutwards)};
 }
 
 }  // namespace
+
+bool may_be_nothing(const UnionShare& share) {
+  return !share.hidden && share.error < kWidest && !(share.covered - share.error > 0);
+}
 
 std::optional<Shares> shares_of(const std::optional<UnionShare>& penumbra, bool all_penumbra,
                                 const std::optional<UnionShare>& umbra) {
@@ -43,7 +51,7 @@ std::optional<Shares> shares_of(const std::optional<UnionShare>& penumbra, bool 
     shares.penumbra = {1, 1};
     return shares;
   }
-  shares.penumbra = rest_of(shares.lit, shares.umbra);
+  shares.penumbra = no_umbra ? *dimmed : rest_of(shares.lit, shares.umbra);
   if (!(shares.penumbra.lower > 0)) return std::nullopt;
   return shares;
 }

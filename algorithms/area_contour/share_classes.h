@@ -19,6 +19,10 @@ struct Shares {
 };
 inline constexpr Shares kAllUmbra{{0, 0}, {0, 0}, {1, 1}};
 
+/// Whether bounds leave open that a union covers nothing. Then, if something is known to be inside
+/// of an outline, UnionShare::some is to be set, and if nothing is inside of any, there is no union.
+bool may_be_nothing(const UnionShare& share);
+
 /// `penumbra`, `umbra`: of the unions; none: no volume of the kind reaches the receiver.
 /// `all_penumbra`: one penumbra holds all of it. None: the bounds leave a class open, or much of a
 /// share.

@@ -15,15 +15,29 @@ double diagonal_of(const Box& box) {
   return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
 }
 
-// As in caster_tree.cc: coordinates are off by 2^-53 and at most 1; a line through two points at
-// least kShortest apart is off by less than 2^-50 / kShortest anywhere.
-constexpr double kMargin = 1e-12, kShortest = 1e-3;
-
 /// The bits of a number below 2^10, two places apart.
 std::uint32_t spread(std::uint32_t bits) {
   std::uint32_t result = 0;
   for (std::uint32_t k = 0; k < 10; ++k) result |= (bits >> k & 1) << 3 * k;
   return result;
+}
+
+/// Components of normals and coordinates are at most 1 and off by 2^-25, offsets at most 3 and off
+/// by 2^-23. Three products are off by 3 2^-25 each, their sums by 2^-24 and 2^-23, and that with
+/// the offset by 2^-22: together below 2^-20. What a box is wider than its middle by adds as much.
+constexpr double kRounding = 0x1p-19;
+
+std::uint32_t blocks_of(std::size_t planes) {
+  return static_cast<std::uint32_t>((planes + PlaneBlock::kSize - 1) / PlaneBlock::kSize);
+}
+
+/// A bit for each lane that is set.
+std::uint64_t bits_of(const FloatBits& lanes) {
+  constexpr FloatBits kLanes = {0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80};
+  const FloatBits own = lanes & kLanes;
+  const Bits& pairs = reinterpret_cast<const Bits&>(own);
+  const long both = pairs[0] | pairs[1] | pairs[2] | pairs[3];
+  return static_cast<std::uint64_t>(both | both >> 32) & 255;
 }
 
 }  // namespace
@@ -52,123 +66,81 @@ LightVolumes::LightVolumes(std::vector<Box> boxes, const Box& light,
     : boxes_(std::move(boxes)),
       light_(light),
       light_corners_(std::move(light_corners)),
-      bound_(bound) {}
+      bound_(bound),
+      block_bound_(static_cast<float>(bound + kRounding)) {}
 
 void LightVolumes::put(std::span<const PlaneDoubles> planes, std::uint32_t first) {
-  constexpr PlaneBlock kFilling{{}, {-1, -1, -1, -1}};
+  constexpr std::size_t kSize = PlaneBlock::kSize;
+  constexpr PlaneBlock kFilling{{}, {-1, -1, -1, -1, -1, -1, -1, -1}};
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    PlaneBlock& block = blocks_[first + i / 4];
-    if (i % 4 == 0) block = kFilling;
+    PlaneBlock& block = blocks_[first + i / kSize];
+    const std::size_t lane = i % kSize;
+    if (lane == 0) block = kFilling;
     const double sign = planes[i].plane.flipped() ? -1 : 1;
-    for (std::size_t k = 0; k < 3; ++k) block.n[k][i % 4] = sign * planes[i].n[k];
-    block.d[i % 4] = sign * planes[i].d;
+    for (std::size_t k = 0; k < 3; ++k) {
+      block.n[k][lane] = static_cast<float>(sign * planes[i].n[k]);
+    }
+    block.d[lane] = static_cast<float>(sign * planes[i].d);
   }
 }
 
-void LightVolumes::add(std::uint32_t number, std::uint32_t part, std::uint32_t support,
-                       std::size_t penumbra, std::size_t umbra) {
-  const auto blocks_of = [](std::size_t planes) {
-    return static_cast<std::uint32_t>((planes + 3) / 4);
-  };
-  volumes_.push_back({number, part, support, 0, blocks_of(penumbra), blocks_of(umbra)});
+void LightVolumes::add(std::uint32_t number, std::uint32_t caster, std::size_t planes) {
+  const auto umbras = static_cast<std::uint32_t>(umbras_.size());
+  volumes_.push_back({number, caster, 0, blocks_of(planes), umbras, umbras});
+}
+
+void LightVolumes::add_umbra(std::uint32_t number, std::uint32_t part, std::uint32_t support,
+                             std::size_t planes) {
+  umbras_.push_back({number, part, support, 0, blocks_of(planes)});
+  ++volumes_.back().umbras_end;
 }
 
 /// Volumes in the order in which the walk comes to them.
 void LightVolumes::sort(unsigned jobs) {
   std::vector<Box> boxes;
   boxes.reserve(volumes_.size());
-  for (const SearchedVolume& volume : volumes_) boxes.push_back(boxes_[volume.part]);
+  for (const SearchedVolume& volume : volumes_) boxes.push_back(boxes_[volume.caster]);
   std::vector<std::uint32_t> members(volumes_.size());
   std::iota(members.begin(), members.end(), 0u);
-  tree_ = BoxTree(std::move(boxes), std::move(members), jobs);
-  const std::span<const BoxTree::Node> nodes = tree_.nodes();
+  const BoxTree tree(std::move(boxes), std::move(members), jobs);
+  const std::span<const BoxTree::Node> nodes = tree.nodes();
   std::vector<SearchedVolume> volumes;
+  std::vector<SearchedUmbra> umbras;
   volumes.reserve(volumes_.size());
+  umbras.reserve(umbras_.size());
   if (!nodes.empty()) {
-    for (const std::uint32_t member : tree_.members(nodes[0])) volumes.push_back(volumes_[member]);
+    for (const std::uint32_t member : tree.members(nodes[0])) volumes.push_back(volumes_[member]);
+  }
+  std::uint32_t blocks = 0;
+  for (SearchedVolume& volume : volumes) {
+    volume.first = blocks;
+    blocks += volume.blocks;
+    const auto begin = static_cast<std::uint32_t>(umbras.size());
+    for (SearchedUmbra umbra : umbras_of(volume)) {
+      umbra.first = blocks;
+      blocks += umbra.blocks;
+      umbras.push_back(umbra);
+    }
+    volume.umbras_begin = begin;
+    volume.umbras_end = static_cast<std::uint32_t>(umbras.size());
   }
   volumes_ = std::move(volumes);
-  std::uint32_t blocks = 0;
-  for (SearchedVolume& volume : volumes_) {
-    volume.first = blocks;
-    blocks += volume.penumbra_blocks + volume.umbra_blocks;
-  }
+  umbras_ = std::move(umbras);
   blocks_ = std::make_unique_for_overwrite<PlaneBlock[]>(blocks);
-  largest_.assign(nodes.size(), 0);
+  std::vector<double> largest(nodes.size(), 0);
   for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parents
     if (nodes[i].right != 0) {
-      largest_[i] = std::max(largest_[i + 1], largest_[nodes[i].right]);
+      largest[i] = std::max(largest[i + 1], largest[nodes[i].right]);
       continue;
     }
     for (std::uint32_t k = nodes[i].begin; k < nodes[i].end; ++k) {
-      largest_[i] = std::max(largest_[i], diagonal_of(boxes_[volumes_[k].part]));
-    }
-  }
-}
-
-/// The convex hull of two boxes (shadow_volumes/caster_tree.h), its tangents four at a time: in
-/// each of the three coordinate planes at most four count. What fills up a row is never exceeded.
-struct VolumeSearch::Shaft {
-  struct alignas(32) Tangents {
-    double u_up[4] = {}, u_down[4] = {}, v_up[4] = {}, v_down[4] = {}, d[4] = {1, 1, 1, 1};
-  };
-  Box hull;
-  std::array<Tangents, 3> tangents;
-
-  Shaft(const Box& receiver, const Box& light) {
-    hull = receiver;
-    hull.add(light);
-    for (std::size_t k = 0; k < 3; ++k) {
-      hull.low[k] -= 2 * kMargin;
-      hull.high[k] += 2 * kMargin;
-    }
-    for (std::size_t u = 0; u < 3; ++u) add_tangents(u, receiver, light);
-  }
-
-  void add_tangents(std::size_t u, const Box& receiver, const Box& light) {
-    const std::size_t v = (u + 1) % 3;
-    Tangents& own = tangents[u];
-    std::size_t count = 0;
-    for (int corner = 0; corner < 4; ++corner) {
-      const bool high_u = (corner & 1) != 0, high_v = (corner & 2) != 0;
-      const double ru = high_u ? receiver.high[u] : receiver.low[u];
-      const double rv = high_v ? receiver.high[v] : receiver.low[v];
-      const double du = (high_u ? light.high[u] : light.low[u]) - ru;
-      const double dv = (high_v ? light.high[v] : light.low[v]) - rv;
-      const double square = du * du + dv * dv;
-      if (!(square > kShortest * kShortest)) continue;
-      const double inverse = 1 / std::sqrt(square);
-      for (const double sign : {1.0, -1.0}) {
-        const double nu = sign * -dv * inverse, nv = sign * du * inverse;
-        // A tangent has both rectangles, and so their outermost corners, on one side.
-        if ((nu > 0) != high_u && nu != 0) continue;
-        if ((nv > 0) != high_v && nv != 0) continue;
-        const double d = nu * ru + nv * rv;
-        own.u_up[count] = std::max(nu, 0.0);
-        own.u_down[count] = std::min(nu, 0.0);
-        own.v_up[count] = std::max(nv, 0.0);
-        own.v_down[count] = std::min(nv, 0.0);
-        own.d[count++] = d + kMargin * (1 + std::fabs(d));
-        break;
+      for (const SearchedUmbra& umbra : umbras_of(volumes_[k])) {
+        largest[i] = std::max(largest[i], diagonal_of(boxes_[umbra.part]));
       }
     }
   }
-
-  bool may_meet(const Box& box) const {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (box.low[k] > hull.high[k] || box.high[k] < hull.low[k]) return false;
-    }
-    for (std::size_t u = 0; u < 3; ++u) {
-      const std::size_t v = (u + 1) % 3;
-      const Tangents& own = tangents[u];
-      // The corner of the box that is deepest inside.
-      const Doubles value = row(own.u_up) * box.low[u] + row(own.u_down) * box.high[u] +
-                            row(own.v_up) * box.low[v] + row(own.v_down) * box.high[v];
-      if (any(value > row(own.d))) return false;
-    }
-    return true;
-  }
-};
+  groups_ = BoxGroups(tree, largest);
+}
 
 void VolumeSearch::Hints::add(std::uint32_t place) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -179,42 +151,43 @@ void VolumeSearch::Hints::add(std::uint32_t place) {
   count = std::max(count, next == 0 ? kHints : next);
 }
 
-std::span<const PlaneBlock> VolumeSearch::penumbra(const SearchedVolume& volume) const {
-  return {light_->blocks_.get() + volume.first, volume.penumbra_blocks};
-}
-std::span<const PlaneBlock> VolumeSearch::umbra(const SearchedVolume& volume) const {
-  return {light_->blocks_.get() + volume.first + volume.penumbra_blocks, volume.umbra_blocks};
-}
-
 /// Whether the receiver's box is behind a plane, and so its corners, whose values are bounded.
 GNOMON_FOR_AVX2 bool VolumeSearch::misses_box(std::span<const PlaneBlock> planes) const {
+  const float bound = light_->block_bound_;
   for (const PlaneBlock& block : planes) {
-    const Doubles &x = row(block.n[0]), &y = row(block.n[1]), &z = row(block.n[2]);
-    const Doubles value = x * middle_[0] + y * middle_[1] + z * middle_[2] - row(block.d) +
-                          (x > 0 ? x : -x) * half_[0] + (y > 0 ? y : -y) * half_[1] +
-                          (z > 0 ? z : -z) * half_[2];
+    const Floats &x = row(block.n[0]), &y = row(block.n[1]), &z = row(block.n[2]);
+    const Floats value = x * middle_[0] + y * middle_[1] + z * middle_[2] - row(block.d) +
+                         (x > 0 ? x : -x) * half_[0] + (y > 0 ? y : -y) * half_[1] +
+                         (z > 0 ? z : -z) * half_[2];
     // The box has been computed, too.
-    if (any(value < -2 * light_->bound_)) return true;
+    if (bits_of(value < -2 * bound) != 0) return true;
   }
   return false;
 }
 
-GNOMON_FOR_AVX2 VolumeSearch::Relation VolumeSearch::relate(
-    std::span<const PlaneBlock> planes) const {
-  const double bound = light_->bound_;
-  bool inside = true;
+GNOMON_FOR_AVX2 VolumeSearch::Relation VolumeSearch::relate(std::span<const PlaneBlock> planes,
+                                                            OpenPlanes& open) const {
+  const float bound = light_->block_bound_;
+  open.bits = 0;
+  unsigned first = 0;  // lane of the block
   for (const PlaneBlock& block : planes) {
-    const Doubles &x = row(block.n[0]), &y = row(block.n[1]), &z = row(block.n[2]);
-    Doubles least = {1, 1, 1, 1}, most = {-1, -1, -1, -1};
-    for (const Point3& corner : receiver_->corners) {
-      const Doubles value = x * corner[0] + y * corner[1] + z * corner[2] - row(block.d);
+    const Floats &x = row(block.n[0]), &y = row(block.n[1]), &z = row(block.n[2]);
+    Floats least = {1, 1, 1, 1, 1, 1, 1, 1}, most = -least;
+    for (const std::array<float, 3>& corner : corners_) {
+      const Floats value = x * corner[0] + y * corner[1] + z * corner[2] - row(block.d);
       least = value < least ? value : least;
       most = value > most ? value : most;
     }
-    if (any(most < -bound)) return Relation::kOutside;
-    inside = inside && all(least > bound);
+    if (bits_of(most < -bound) != 0) return Relation::kOutside;
+    const std::uint64_t own = bits_of(least <= bound);
+    if (first + PlaneBlock::kSize <= OpenPlanes::kMost) {
+      open.bits |= own << first;
+      first += PlaneBlock::kSize;
+    } else if (own != 0) {
+      open.bits |= ~std::uint64_t{0} << first;
+    }
   }
-  return inside ? Relation::kInside : Relation::kOpen;
+  return open.bits == 0 ? Relation::kInside : Relation::kOpen;
 }
 
 const UmbraReach& VolumeSearch::reach() {
@@ -225,19 +198,33 @@ const UmbraReach& VolumeSearch::reach() {
   return reach_;
 }
 
-bool VolumeSearch::may_have_umbra(const SearchedVolume& volume) const {
-  return volume.umbra_blocks != 0 && !misses_box(umbra(volume));
+/// A shell of which the receiver is a face is behind it, and a part's own umbra is its volume's
+/// only one.
+bool VolumeSearch::is_own(const SearchedVolume& volume) const {
+  return volume.caster == receiver_->behind ||
+         (volume.umbras_end - volume.umbras_begin == 1 &&
+          is_own(light_->umbras_[volume.umbras_begin]));
 }
 
-/// Whether a volume's umbra holds the receiver. Notes if its penumbra does.
-bool VolumeSearch::try_to_cover(std::uint32_t place) {
-  const SearchedVolume& volume = light_->volumes_[place];
-  if (is_own(volume) || relate(penumbra(volume)) != Relation::kInside) return false;
-  all_penumbra_ = true;
-  penumbra_hints_.add(place);
-  if (volume.umbra_blocks == 0 || relate(umbra(volume)) != Relation::kInside) return false;
+bool VolumeSearch::is_inside(const SearchedUmbra& umbra) const {
+  return umbra.blocks != 0 && !is_own(umbra) && relate(planes_of(umbra)) == Relation::kInside;
+}
+
+/// Whether one of a volume's umbras holds the receiver.
+bool VolumeSearch::try_umbras(std::uint32_t place) {
+  const auto is_inside = [&](const SearchedUmbra& umbra) { return this->is_inside(umbra); };
+  if (!std::ranges::any_of(light_->umbras_of(light_->volumes_[place]), is_inside)) return false;
   umbra_hints_.add(place);
   return true;
+}
+
+/// Whether an umbra of a volume holds the receiver. Notes if its penumbra does.
+bool VolumeSearch::try_to_cover(std::uint32_t place) {
+  const SearchedVolume& volume = light_->volumes_[place];
+  if (is_own(volume) || relate(planes_of(volume)) != Relation::kInside) return false;
+  all_penumbra_ = true;
+  penumbra_hints_.add(place);
+  return try_umbras(place);
 }
 
 bool VolumeSearch::try_hints() {
@@ -254,34 +241,29 @@ bool VolumeSearch::try_hints() {
 /// penumbra; then only umbras remain to be looked for, which reach less far.
 GNOMON_FOR_AVX2 bool VolumeSearch::try_blocking() {
   Box from, to;
-  from.add(middle_);
+  from.add(Point3{middle_[0], middle_[1], middle_[2]});
   Point3 middle{};
   const Box& light = cut_ != nullptr ? cut_->box : light_->light_;
   for (std::size_t k = 0; k < 3; ++k) middle[k] = (light.low[k] + light.high[k]) / 2;
   to.add(middle);
-  const Shaft shaft(from, to);
+  const GroupShaft shaft(from, to);
   std::size_t tried = 0;
-  std::vector<std::uint32_t> none;
-  bool found = false;
   if (cut_ == nullptr) ++blocking_tried_;
-  const auto goes_on = [&] { return !found && !all_penumbra_ && tried < kMostBlocking; };
-  light_->tree_.find(
-      [&](const BoxTree::Node& node, std::uint32_t) {
-        if (!goes_on() || !shaft.may_meet(node.box)) return false;
-        if (node.right != 0) return true;
-        for (std::uint32_t place = node.begin; place < node.end && goes_on(); ++place) {
-          if (!shaft.may_meet(light_->box(light_->volumes_[place].part))) continue;
-          if (cut_ != nullptr) {
-            found = test_cut(place);
-            tried = found_.size();
-          } else {
-            ++tried;
-            found = try_to_cover(place);
-          }
+  bool found = false;
+  light_->groups_.find(
+      shaft, [](const BoxGroup&, std::uint32_t) { return true; },
+      [&](std::uint32_t place) {
+        if (cut_ != nullptr) {
+          const std::size_t before = found_.size();
+          found = test_cut(place);
+          if (found_.size() > before) blocking_.push_back(place);
+          tried = blocking_.size();
+        } else {
+          ++tried;
+          found = try_to_cover(place);
         }
-        return false;
-      },
-      [](std::uint32_t) { return false; }, none);
+        return found || all_penumbra_ || tried == kMostBlocking;
+      });
   if (all_penumbra_) ++blocking_found_;
   return found;
 }
@@ -293,63 +275,87 @@ bool VolumeSearch::is_worth_blocking() {
   return (++blocking_left_out_ % kAgain) == 0;
 }
 
-/// Puts a volume down if it may reach the receiver. True if its umbra holds all of it.
+/// Puts a volume and its umbras down if they may reach the receiver. True if an umbra holds all of
+/// it.
 bool VolumeSearch::test(std::uint32_t place) {
   const SearchedVolume& volume = light_->volumes_[place];
-  if (is_own(volume) || misses_box(penumbra(volume))) return false;
-  const Relation relation = relate(penumbra(volume));
+  if (is_own(volume) || misses_box(planes_of(volume))) return false;
+  FoundVolume found{volume.number, volume.caster, true, false, {}, {}};
+  const Relation relation = relate(planes_of(volume), found.of_penumbra);
   if (relation == Relation::kOutside) return false;
   if (relation == Relation::kInside && !all_penumbra_) {
     all_penumbra_ = true;
     penumbra_hints_.add(place);
   }
-  bool umbra_may = may_have_umbra(volume);
-  if (umbra_may) {
-    const Relation own = relate(umbra(volume));
+  const std::size_t before = found_.size();
+  found_.push_back(found);
+  for (const SearchedUmbra& umbra : light_->umbras_of(volume)) {
+    if (umbra.blocks == 0 || is_own(umbra) || misses_box(planes_of(umbra))) continue;
+    OpenPlanes open;
+    const Relation own = relate(planes_of(umbra), open);
     if (own == Relation::kInside) {
       umbra_hints_.add(place);
       return true;
     }
-    umbra_may = own == Relation::kOpen && reach().may_reach(light_->box(volume.part));
+    if (own == Relation::kOpen && reach().may_reach(light_->box(umbra.part))) {
+      add_umbra(umbra, open);
+    }
   }
-  if (!all_penumbra_ || umbra_may) found_.push_back({volume.number, volume.part, umbra_may});
+  if (all_penumbra_) drop_penumbra(before);
   return false;
 }
 
 /// The same where the receiver's plane cuts the light: nothing but an umbra is known to hold it.
 bool VolumeSearch::test_cut(std::uint32_t place) {
   const SearchedVolume& volume = light_->volumes_[place];
-  if (is_own(volume) || misses_box(penumbra(volume))) return false;
-  const bool umbra_may = reach().may_reach(light_->box(volume.part));
-  if (all_penumbra_ && !umbra_may) return false;
-  if (relate(penumbra(volume)) == Relation::kOutside) return false;
-  if (may_have_umbra(volume) && relate(umbra(volume)) == Relation::kInside) {
-    umbra_hints_.add(place);
-    return true;
+  if (is_own(volume) || misses_box(planes_of(volume))) return false;
+  const std::span<const SearchedUmbra> umbras = light_->umbras_of(volume);
+  const auto may_reach = [&](const SearchedUmbra& umbra) {
+    return !is_own(umbra) && reach().may_reach(light_->box(umbra.part));
+  };
+  if (all_penumbra_ && std::ranges::none_of(umbras, may_reach)) return false;
+  if (relate(planes_of(volume)) == Relation::kOutside) return false;
+  for (const SearchedUmbra& umbra : umbras) {
+    if (umbra.blocks != 0 && !misses_box(planes_of(umbra)) && is_inside(umbra)) {
+      umbra_hints_.add(place);
+      return true;
+    }
   }
-  if (std::ranges::find(blocking_, volume.number) == blocking_.end()) {
-    found_.push_back({volume.number, volume.part, umbra_may});
+  if (std::ranges::find(blocking_, place) != blocking_.end()) return false;
+  const std::size_t before = found_.size();
+  found_.push_back({volume.number, volume.caster, true, false, {}, {}});
+  for (const SearchedUmbra& umbra : umbras) {
+    if (may_reach(umbra)) add_umbra(umbra, {});
   }
+  if (all_penumbra_) drop_penumbra(before);
   return false;
 }
 
+/// Puts an umbra down that is in the last penumbra found, or in one found just before.
+void VolumeSearch::add_umbra(const SearchedUmbra& umbra, OpenPlanes open) {
+  FoundVolume& last = found_.back();
+  if (last.number == umbra.number) {
+    last.umbra = true;
+    last.of_umbra = open;
+  } else {
+    found_.push_back({umbra.number, umbra.part, false, true, {}, open});
+  }
+}
+
+/// Drops the penumbra at that place of what is found.
+void VolumeSearch::drop_penumbra(std::size_t place) {
+  found_[place].penumbra = false;
+  if (!found_[place].umbra) found_.erase(found_.begin() + static_cast<std::ptrdiff_t>(place));
+}
+
 GNOMON_FOR_AVX2 bool VolumeSearch::walk() {
-  const Shaft shaft(box_, cut_ != nullptr ? cut_->box : light_->light_);
-  std::vector<std::uint32_t> none;
-  bool found = false;
-  light_->tree_.find(
-      [&](const BoxTree::Node& node, std::uint32_t index) {
-        if (found || !shaft.may_meet(node.box)) return false;
-        if (all_penumbra_ && !reach().may_reach(node.box, light_->largest_[index])) return false;
-        if (node.right != 0) return true;
-        for (std::uint32_t place = node.begin; place < node.end && !found; ++place) {
-          if (!shaft.may_meet(light_->box(light_->volumes_[place].part))) continue;
-          found = cut_ != nullptr ? test_cut(place) : test(place);
-        }
-        return false;
+  const GroupShaft shaft(box_, cut_ != nullptr ? cut_->box : light_->light_);
+  return light_->groups_.find(
+      shaft,
+      [&](const BoxGroup& group, std::uint32_t lane) {
+        return !all_penumbra_ || reach().may_reach(group.box(lane), group.largest[lane]);
       },
-      [](std::uint32_t) { return false; }, none);
-  return found;
+      [&](std::uint32_t place) { return cut_ != nullptr ? test_cut(place) : test(place); });
 }
 
 void VolumeSearch::begin(const LightVolumes& light, const SearchedReceiver& receiver,
@@ -359,8 +365,13 @@ void VolumeSearch::begin(const LightVolumes& light, const SearchedReceiver& rece
   cut_ = cut;
   box_ = light.box(receiver.part);
   for (std::size_t k = 0; k < 3; ++k) {
-    middle_[k] = (box_.low[k] + box_.high[k]) / 2;
-    half_[k] = (box_.high[k] - box_.low[k]) / 2;
+    middle_[k] = static_cast<float>((box_.low[k] + box_.high[k]) / 2);
+    half_[k] = static_cast<float>((box_.high[k] - box_.low[k]) / 2);
+  }
+  corners_.clear();
+  for (const Point3& corner : receiver.corners) {
+    corners_.push_back({static_cast<float>(corner[0]), static_cast<float>(corner[1]),
+                        static_cast<float>(corner[2])});
   }
   has_reach_ = all_penumbra_ = false;
   found_.clear();
@@ -373,6 +384,7 @@ VolumeSearch::Outcome VolumeSearch::find(const LightVolumes& light,
     return Outcome::kAllUmbra;
   }
   if (!all_penumbra_) return Outcome::kSome;
+  for (FoundVolume& volume : found_) volume.penumbra = false;
   std::erase_if(found_, [](const FoundVolume& volume) { return !volume.umbra; });
   return Outcome::kAllPenumbra;
 }
@@ -383,8 +395,9 @@ bool VolumeSearch::begin_cut(const LightVolumes& light, const SearchedReceiver& 
   blocking_.clear();
   for (std::size_t i = 0; i < umbra_hints_.count; ++i) {
     const SearchedVolume& volume = light.volumes_[umbra_hints_.places[i]];
-    if (!is_own(volume) && relate(penumbra(volume)) != Relation::kOutside &&
-        volume.umbra_blocks != 0 && relate(umbra(volume)) == Relation::kInside) {
+    if (!is_own(volume) && relate(planes_of(volume)) != Relation::kOutside &&
+        std::ranges::any_of(light.umbras_of(volume),
+                            [&](const SearchedUmbra& umbra) { return is_inside(umbra); })) {
       return true;
     }
   }
@@ -392,9 +405,7 @@ bool VolumeSearch::begin_cut(const LightVolumes& light, const SearchedReceiver& 
 }
 
 bool VolumeSearch::find_blocking() {
-  if (try_blocking()) return true;
-  for (const FoundVolume& volume : found_) blocking_.push_back(volume.number);
-  return false;
+  return try_blocking();
 }
 
 bool VolumeSearch::find_others(bool all_penumbra) {

@@ -67,6 +67,10 @@ class ReceiverRun {
         space_(scene_space_, options.kernel.options()),
         tree_(light_geometry_.geometry, scene, casters(scene), options.tuning.jobs) {
     if (options.method.options.casters == CastersAre::kSolids) find_solids();
+    if (makes_contours() && rules.straddling_light_is_cut &&
+        std::ranges::any_of(scene.lights, &PreparedLight::has_area)) {
+      find_shells();
+    }
   }
 
   /// Lights that results are wanted of one by one, and those that fragments are combined of.
@@ -94,8 +98,22 @@ class ReceiverRun {
       solids_.solids.push_back(std::move(component.parts));
     }
   }
+  void find_shells() {
+    // Larger ones have so many planes that their faces are sooner told apart.
+    constexpr std::uint32_t kMostFaces = 128;
+    shells_.of_part.assign(scene_.parts.size(), ShellCasters::kNone);
+    for (ConvexShell& shell : find_convex_shells(scene_, kMostFaces)) {
+      const auto casts = [&](std::uint32_t part) { return scene_.parts[part].casts; };
+      if (!std::ranges::all_of(shell.parts, casts)) continue;
+      for (const std::uint32_t part : shell.parts) {
+        shells_.of_part[part] = static_cast<std::uint32_t>(shells_.shells.size());
+      }
+      shells_.shells.push_back(std::move(shell));
+    }
+  }
   unsigned jobs() const { return Space::kParallel ? options_.tuning.jobs : 1; }
   const SolidCasters* solids() const { return solids_.solids.empty() ? nullptr : &solids_; }
+  const ShellCasters* shells() const { return shells_.shells.empty() ? nullptr : &shells_; }
   /// Calls body(workspace, i) for [0, n). False if it was stopped.
   template <class Body>
   bool for_each(std::size_t n, double from, double to, const Body& body);
@@ -128,6 +146,11 @@ class ReceiverRun {
   /// Whether classes and shares of a light are all that is wanted, and no trees are.
   bool by_contour(const LightInSpace<Space>& light) const {
     return light.has_area() && options_.method.area == MethodId::kContour;
+  }
+  /// Whether area lights have their shares by contours, but for receivers that stay open.
+  bool makes_contours() const {
+    return area_contour::HasPlaneDoubles<Space> && options_.method.area == MethodId::kContour &&
+           !options_.output.exact_fractions;
   }
   using Order = InterleavedOrder<Space>;
   bool is_interleaved() const { return options_.method.options.interleaved; }
@@ -178,6 +201,7 @@ class ReceiverRun {
   Space space_;
   CasterTree tree_;
   SolidCasters solids_;
+  ShellCasters shells_;
   std::optional<area_contour::LightVolumes> volumes_;  // of the light at hand, by contour
   std::optional<std::vector<BspNode>> order_;          // nodes of a scene BSP of all parts
   std::atomic<std::uint64_t> pieces_ = 0;
@@ -188,6 +212,7 @@ class ReceiverRun {
 template <VolumeSpaceModel Space>
 template <class Body>
 bool ReceiverRun<Space>::for_each(std::size_t n, double from, double to, const Body& body) {
+  if constexpr (TakesPlanes<Space>) space_.share_planes();
   Workspaces workspaces;
   std::mutex mutex;
   std::size_t done = 0;
@@ -341,7 +366,8 @@ template <VolumeSpaceModel Space>
 LightResult ReceiverRun<Space>::run_light(std::uint32_t index, double from, double to) {
   pieces_ = 0;
   const std::uint32_t mark = space_.plane_mark();
-  const LightInSpace<Space> light(space_, light_geometry_, tree_, index, rules_, solids(), jobs());
+  const LightInSpace<Space> light(space_, light_geometry_, tree_, index, rules_, solids(), shells(),
+                                  jobs());
   stages_ += light.stage_counts();
   LightResult result;
   result.light = index;
@@ -420,7 +446,7 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
   }
   volumes_.reset();
   if constexpr (area_contour::HasPlaneDoubles<Space>) {
-    if (by_contour(light) && !options_.output.exact_fractions) {
+    if (makes_contours() && light.has_area()) {
       volumes_.emplace(area_contour::light_volumes(space_, light_geometry_, tree_, light, jobs()));
     }
   }
@@ -502,7 +528,7 @@ void ReceiverRun<Space>::combine(const LightList& indices, double from, double t
   std::deque<LightInSpace<Space>> lights;
   std::deque<std::optional<Trees>> trees;
   for (const std::uint32_t light : indices) {
-    lights.emplace_back(space_, light_geometry_, tree_, light, rules_, solids(), jobs());
+    lights.emplace_back(space_, light_geometry_, tree_, light, rules_, solids(), nullptr, jobs());
     stages_ += lights.back().stage_counts();
     trees.emplace_back();
   }

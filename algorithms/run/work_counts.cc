@@ -57,7 +57,7 @@ constexpr std::array<CounterInfo, kCounterCount> kCounters = {{
     {Counter::kWallBytes, "wall bytes", "memory of walls and caps", kMost},
     {Counter::kDepthComplexity, "depth complexity", "polygons that cover a sample, on average",
      kMost, kMillion},
-    {Counter::kSolids, "solids", "closed convex ones that cast as wholes", kSum},
+    {Counter::kSolids, "solids", "convex ones that cast as wholes", kSum},
     {Counter::kVolumePlanes, "volume planes", "of all shadow volumes", kSum},
     {Counter::kMerged, "merged", "fragments that went into neighbours", kSum},
     {Counter::kEvents, "events", "where spans of a row begin or end", kSum},

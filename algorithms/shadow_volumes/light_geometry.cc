@@ -35,6 +35,7 @@ class Builder {
       result_.faces.push_back(std::move(face));
     }
     put_positions();
+    reserve_edges_and_planes();
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
       if (scene.lights[i].has_area()) complete(result_.faces[i]);
     }
@@ -59,6 +60,7 @@ class Builder {
   void put_positions() {
     if (added_.empty()) return;
     Geometry& geometry = result_.geometry;
+    geometry.positions.reserve(geometry.positions.size() + added_.size());
     for (const GridPoint& point : added_) {
       std::array<double, 3> nearest{};
       for (int k = 0; k < 3; ++k) {
@@ -69,6 +71,19 @@ class Builder {
     }
     geometry.grid = with_added(geometry.grid);
     geometry.light_vertices += static_cast<std::uint32_t>(added_.size());
+  }
+
+  /// A list that grows by one more takes twice its memory.
+  void reserve_edges_and_planes() {
+    std::size_t edges = 0, planes = 0;
+    for (const LightFace& face : result_.faces) {
+      if (face.loop.size() < 2) continue;
+      edges += face.loop.size();
+      ++planes;
+    }
+    Geometry& geometry = result_.geometry;
+    geometry.edges.reserve(geometry.edges.size() + edges);
+    geometry.planes.reserve(geometry.planes.size() + planes);
   }
 
   GridPositions with_added(const GridPositions& grid) const {

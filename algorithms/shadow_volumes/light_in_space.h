@@ -26,8 +26,9 @@
 #include "algorithms/shadow_volumes/light_geometry.h"
 #include "algorithms/shadow_volumes/receiver_cutter.h"
 #include "algorithms/shadow_volumes/shadow_volume.h"
+#include "algorithms/shadow_volumes/shell_casters.h"
 #include "algorithms/shadow_volumes/solid_casters.h"
-#include "algorithms/shadow_volumes/volumes_of_parts.h"
+#include "algorithms/shadow_volumes/volumes_of_casters.h"
 #include "gnomon/algorithms/shadow_result.h"
 #include "kernel/concept/kernel_concept.h"
 
@@ -44,12 +45,13 @@ struct Sight {
 template <VolumeSpaceModel Space>
 struct ReceiverWorkspace {
   ReceiverWorkspace(Space fork, const Rules& rules)
-      : space(std::move(fork)), builder(space, rules), cutter(space, rules) {}
+      : space(std::move(fork)), builder(space, rules), shells(space), cutter(space, rules) {}
   ReceiverWorkspace(const ReceiverWorkspace&) = delete;
   ReceiverWorkspace& operator=(const ReceiverWorkspace&) = delete;
 
   Space space;
   VolumeBuilder<Space> builder;
+  ShellBuilder<Space> shells;
   ReceiverCutter<Space> cutter;
   LoopStore<typename Space::Vertex> whole, caster, front, light;
   VolumeStore own;
@@ -66,18 +68,21 @@ class LightInSpace {
   using Loop = LoopView<Vertex>;
   using Workspace = ReceiverWorkspace<Space>;
 
-  /// Adds the planes of all volumes to `space`, which must be forked afterwards. `tree`, `scene`
-  /// and `solids`, which may be null, must outlive it. `jobs` other than 1: on the threads of the
-  /// arena that the caller is in.
+  /// Adds the planes of all volumes to `space`, which must be forked afterwards. `tree`, `scene`,
+  /// `solids` and `shells`, which may be null, must outlive it. `solids` cast as wholes under a
+  /// light without an area; `shells` cast their penumbras as wholes under one with an area, so that
+  /// their parts have umbras alone. `jobs` other than 1: on the threads of the arena that the
+  /// caller is in.
   LightInSpace(Space& space, const LightGeometry& scene, const CasterTree& tree,
                std::uint32_t light, const Rules& rules, const SolidCasters* solids = nullptr,
-               unsigned jobs = 1)
+               const ShellCasters* shells = nullptr, unsigned jobs = 1)
       : scene_(*scene.scene),
         number_(light),
         light_(&scene.scene->lights[light]),
         tree_(&tree),
         rules_(rules),
-        solids_(solids) {
+        solids_(solids),
+        shells_(shells) {
     const LightFace& face = scene.faces[light];
     for (std::size_t i = 0; i < face.loop.size(); ++i) {
       PlaneRef edge;
@@ -113,7 +118,8 @@ class LightInSpace {
   /// The solid that a witness stands for; kNone: it is a part.
   std::uint32_t solid_of(std::uint32_t caster) const {
     const auto parts = static_cast<std::uint32_t>(scene_.parts.size());
-    return caster == Fragment::kNoCaster || caster < parts ? SolidCasters::kNone : caster - parts;
+    const bool is_none = caster == Fragment::kNoCaster || caster < parts || solid_volumes_.empty();
+    return is_none ? SolidCasters::kNone : caster - parts;
   }
   /// The volumes that make up all shadows: those of solids that cast as wholes, and of all parts
   /// that cast by themselves.
@@ -156,6 +162,28 @@ class LightInSpace {
   /// The volumes of a part's sides, by index: two for a two-sided part whose plane cuts the light.
   std::pair<std::uint32_t, std::uint32_t> volumes_of(std::uint32_t part) const {
     return {first_volume_[part], first_volume_[part + 1]};
+  }
+
+  /// Shells are casters, too, with numbers after those of parts.
+  std::uint32_t shell_count() const {
+    return static_cast<std::uint32_t>(first_volume_.size() - 1 - scene_.parts.size());
+  }
+  const ConvexShell& shell(std::uint32_t caster) const {
+    return shells_->shells[caster - scene_.parts.size()];
+  }
+  /// Whether a caster is a shell, or a solid.
+  bool is_solid(std::uint32_t caster) const { return caster >= scene_.parts.size(); }
+  /// Those of a part or of a shell.
+  std::span<const VertexId> vertices_of(std::uint32_t caster) const {
+    if (is_solid(caster)) return shell(caster).vertices;
+    return scene_.loop(scene_.parts[caster]);
+  }
+  /// The shell that casts a part's penumbra; kNone: the part does.
+  std::uint32_t shell_of(std::uint32_t part) const {
+    if (casts_as_one_.empty()) return ShellCasters::kNone;
+    const std::uint32_t shell = shells_->of_part[part];
+    if (shell == ShellCasters::kNone || !casts_as_one_[shell]) return ShellCasters::kNone;
+    return static_cast<std::uint32_t>(scene_.parts.size()) + shell;
   }
   LightShape<Vertex> shape() const {
     return {loop_.view({0, loop_.size(), 0}, plane_id_),
@@ -236,15 +264,33 @@ class LightInSpace {
   StageCounts stages_;
   const SolidCasters* solids_ = nullptr;
   std::vector<std::uint32_t> solid_volumes_;  // by solid; kNone: its parts cast
+  const ShellCasters* shells_ = nullptr;
+  std::vector<bool> casts_as_one_;  // by shell; empty: there are none
 };
 
 template <VolumeSpaceModel Space>
 void LightInSpace<Space>::make_volumes(Space& space, unsigned jobs) {
-  // A polygon in the light's plane casts nothing.
-  const auto casts = [&](const Part& part) {
-    return casts_under(*light_, part) && part.plane != plane_id_;
+  const auto parts = static_cast<std::uint32_t>(scene_.parts.size());
+  if (shells_ != nullptr && has_area()) {
+    ShellBuilder<Space> builder(space);
+    for (const ConvexShell& shell : shells_->shells) {
+      casts_as_one_.push_back(builder.casts_as_one(scene_, shell, shape()));
+    }
+  }
+  const auto casters = parts + static_cast<std::uint32_t>(casts_as_one_.size());
+  const auto add = [&](VolumeTools<Space>& tools, std::uint32_t caster, VolumeStore& store) {
+    if (caster >= parts) {
+      if (!casts_as_one_[caster - parts]) return;
+      return tools.shells.add(scene_, shells_->shells[caster - parts], caster, shape(), store);
+    }
+    const Part& part = scene_.parts[caster];
+    // A polygon in the light's plane casts nothing.
+    if (!casts_under(*light_, part) || part.plane == plane_id_) return;
+    const bool umbra_alone = shell_of(caster) != ShellCasters::kNone;
+    add_part_volumes(tools.builder, tools.space, scene_, caster, shape(), tools.loops, store,
+                     umbra_alone ? VolumesWanted::kUmbra : VolumesWanted::kBoth);
   };
-  VolumesOfParts made = make_volumes_of_parts(space, rules_, scene_, shape(), casts, jobs);
+  VolumesOfCasters made = gnomon::make_volumes(space, rules_, casters, parts, add, jobs);
   store_ = std::move(made.store);
   first_volume_ = std::move(made.first);
   stages_ = made.stages;
@@ -340,6 +386,9 @@ std::vector<std::uint32_t> LightInSpace<Space>::casting_volumes() const {
       volumes.push_back(i);
     }
   }
+  for (std::uint32_t i = first_volume_[scene_.parts.size()]; i < first_volume_.back(); ++i) {
+    volumes.push_back(i);
+  }
   std::ranges::copy_if(solid_volumes_, std::back_inserter(volumes),
                        [](std::uint32_t volume) { return volume != SolidCasters::kNone; });
   return volumes;
@@ -349,9 +398,11 @@ template <VolumeSpaceModel Space>
 void LightInSpace<Space>::count(WorkCounts& counts) const {
   for (const std::uint32_t i : casting_volumes()) {
     const ShadowVolume& volume = store_[i];
+    const std::uint32_t planes = volume.penumbra_count + volume.umbra_count;
+    if (planes == 0) continue;
     ++counts[Counter::kVolumes];
-    counts[Counter::kVolumePlanes] += volume.penumbra_count + volume.umbra_count;
-    if (solid_of(volume.caster) != SolidCasters::kNone) ++counts[Counter::kSolids];
+    counts[Counter::kVolumePlanes] += planes;
+    if (is_solid(volume.caster)) ++counts[Counter::kSolids];
   }
 }
 
@@ -471,6 +522,7 @@ void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Sid
     return std::any_of(planes.begin(), planes.end(),
                        [&](PlaneRef plane) { return workspace.cutter.is_outside(loop, plane); });
   };
+  std::vector<std::uint32_t> added;  // shells
   bool covered = false;  // by one penumbra: others do not matter any more
   // Volumes of the whole light cost nothing more, and the cutter asks them again: only where
   // `may_cover` is likely is it worth to ask here.
@@ -480,10 +532,13 @@ void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Sid
     if (const std::uint32_t solid = caster_of(part); solid != SolidCasters::kNone) {
       return add_solid(workspace, solid, index);
     }
+    const std::uint32_t shell = shell_of(part);
     auto [begin, end] = volumes_of(part);
     if (cut) {
       // What hides nothing of the whole light hides nothing of a part of it.
-      const auto whole = store_.volumes().subspan(begin, end - begin);
+      const auto [first, last] = shell == ShellCasters::kNone ? std::pair(begin, end)
+                                                              : volumes_of(shell);
+      const auto whole = store_.volumes().subspan(first, last - first);
       if (std::all_of(whole.begin(), whole.end(), is_missed)) return;
       begin = static_cast<std::uint32_t>(workspace.own.size());
       add_part_volumes(workspace.builder, space, scene_, part, light, workspace.caster,
@@ -491,11 +546,18 @@ void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Sid
       end = static_cast<std::uint32_t>(workspace.own.size());
     }
     const VolumeStore& store = cut ? workspace.own : store_;
-    for (std::uint32_t i = begin; i < end; ++i) {
-      workspace.volumes.push_back({i, umbra});
-      covered =
-          covered || (may_cover && workspace.cutter.is_inside(loop, store.penumbra(store[i])));
+    const auto push = [&](std::uint32_t volume) {
+      workspace.volumes.push_back({volume, umbra});
+      const auto penumbra = store.penumbra(store[volume]);
+      covered = covered ||
+                (may_cover && !penumbra.empty() && workspace.cutter.is_inside(loop, penumbra));
+    };
+    for (std::uint32_t i = begin; i < end; ++i) push(i);
+    if (cut || shell == ShellCasters::kNone || std::ranges::find(added, shell) != added.end()) {
+      return;
     }
+    added.push_back(shell);
+    for (auto [i, last] = volumes_of(shell); i < last; ++i) push(i);
   };
   // Casters before the middle of the light are most likely to have all of the receiver in their
   // penumbra; then only umbras remain to be looked for, which reach less far.

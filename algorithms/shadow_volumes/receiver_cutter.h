@@ -69,6 +69,16 @@ class ReceiverCutter {
     return relation(loop, planes, penumbra_border_, hint) == Relation::kInside;
   }
 
+  /// Is some area of it in front of all planes of a penumbra, or of an umbra?
+  bool has_inside(const Loop& loop, std::span<const PlaneRef> planes, bool is_umbra) {
+    support_ = loop.support;
+    store_.clear();
+    std::uint8_t hint = 0;
+    LoopRange inside;
+    const LoopRange whole = store_.append(loop);
+    return clip(whole, planes, is_umbra ? umbra_border_ : penumbra_border_, hint, inside);
+  }
+
   /// Cuts `loop` by volumes of `store` and calls emit(PieceClass, Loop) for each
   /// fragment. `in_shadow`: what is in an umbra volume (kUmbra, or kShadow of a point). Planes
   /// added to the space stay until the caller releases them. `emit` returns false to stop.

@@ -33,6 +33,7 @@
 #include "algorithms/partition/rules.h"
 #include "algorithms/partition/split.h"
 #include "algorithms/shadow_volumes/light_geometry.h"
+#include "algorithms/shadow_volumes/touching_planes.h"
 #include "kernel/concept/kernel_concept.h"
 #include "kernel/concept/plane_takeover.h"
 
@@ -41,9 +42,11 @@ namespace gnomon {
 /// Half-spaces are in front of their planes. All lists begin with the caster's own plane, turned so
 /// that what is behind the blocking side is in front of it.
 struct ShadowVolume {
-  std::uint32_t caster = 0;          // part
-  std::uint32_t first = 0;           // into VolumeStore::planes: penumbra, then umbra
-  std::uint32_t penumbra_count = 0;  // 0: the light is a point, all of the shadow is "umbra"
+  std::uint32_t caster = 0;  // part
+  PlaneRef side;             // its blocking side's; none: of a solid
+  std::uint32_t first = 0;   // into VolumeStore::planes: penumbra, then umbra
+  std::uint32_t penumbra_count = 0;  // 0: the light is a point, all of the shadow is "umbra"; or the
+                                     // umbra alone was wanted
   std::uint32_t umbra_count = 0;     // 0: no umbra
 };
 
@@ -57,9 +60,9 @@ class VolumeStore {
   std::span<const PlaneRef> umbra(const ShadowVolume& volume) const {
     return {planes_.data() + volume.first + volume.penumbra_count, volume.umbra_count};
   }
-  void add(std::uint32_t caster, std::span<const PlaneRef> penumbra,
+  void add(std::uint32_t caster, PlaneRef side, std::span<const PlaneRef> penumbra,
            std::span<const PlaneRef> umbra) {
-    volumes_.push_back({caster, static_cast<std::uint32_t>(planes_.size()),
+    volumes_.push_back({caster, side, static_cast<std::uint32_t>(planes_.size()),
                         static_cast<std::uint32_t>(penumbra.size()),
                         static_cast<std::uint32_t>(umbra.size())});
     planes_.insert(planes_.end(), penumbra.begin(), penumbra.end());
@@ -73,7 +76,7 @@ class VolumeStore {
   void append(const VolumeStore& other, const PlaneShift& shift) {
     const auto first = static_cast<std::uint32_t>(planes_.size());
     for (ShadowVolume volume : other.volumes_) {
-      volume.first += first;
+      volume.first += first;  // its side is a support plane, whose number stays
       volumes_.push_back(volume);
     }
     for (const PlaneRef plane : other.planes_) planes_.push_back(shift(plane));
@@ -111,19 +114,19 @@ class VolumeBuilder {
   explicit VolumeBuilder(Space& space, const Rules& rules = {}) : space_(&space), rules_(rules) {}
 
   /// Adds the volume of one side of a caster, in front of `side`, if it casts anything. `reversed`:
-  /// the loop is clockwise seen from that side. `wanted`: of an area light, its umbra alone if it
-  /// has one; the penumbra is then not a whole one.
+  /// the loop is clockwise seen from that side. `wanted`: of an area light, perhaps the umbra alone.
   void add(const Loop& caster, PlaneRef side, bool reversed, const LightShape<Vertex>& light,
            VolumeStore& store, VolumesWanted wanted = VolumesWanted::kBoth) {
     penumbra_.assign(1, -side);
     umbra_.assign(1, -side);
     if (light.has_area()) {
       if (!make_area(caster, side, reversed, light, wanted)) return;
-      store.add(caster.part, penumbra_, umbra_);
+      if (wanted == VolumesWanted::kUmbra) penumbra_.clear();
     } else {
       if (!make_point(caster, side, reversed, light)) return;
-      store.add(caster.part, {}, umbra_);
+      penumbra_.clear();
     }
+    store.add(caster.part, side, penumbra_, umbra_);
   }
 
   /// A face of a solid that the light is in front of, with its front.
@@ -153,7 +156,7 @@ class VolumeBuilder {
         if (plane.valid()) umbra_.push_back(plane);
       }
     }
-    store.add(caster, {}, umbra_);
+    store.add(caster, {}, {}, umbra_);
   }
 
   /// On which side of a support plane is the light: in front, all of it or some (area lights).
@@ -191,36 +194,16 @@ class VolumeBuilder {
     const Vertex a = space_->input_vertex(triple.a), b = space_->input_vertex(triple.b),
                  c = space_->input_vertex(triple.c);
     const std::uint32_t mark = space_->plane_mark();
-    const PlaneRef through = space_->add_plane(lone(a), lone(b), direction);
+    const PlaneRef through = space_->add_plane(lone_corner(a), lone_corner(b), direction);
     Side side = Side::kOn;
     if (through.valid()) {
-      side = opposite(space_->side_of_plane(through, lone(c)));
+      side = opposite(space_->side_of_plane(through, lone_corner(c)));
     } else {
-      const PlaneRef other = space_->add_plane(lone(b), lone(c), direction);
-      if (other.valid()) side = opposite(space_->side_of_plane(other, lone(a)));
+      const PlaneRef other = space_->add_plane(lone_corner(b), lone_corner(c), direction);
+      if (other.valid()) side = opposite(space_->side_of_plane(other, lone_corner(a)));
     }
     space_->release_planes(mark);
     return plane.flipped() ? opposite(side) : side;
-  }
-  static CornerOf lone(const Vertex& vertex) { return {{}, vertex, {}, kNoSupport}; }
-  static constexpr PlaneId kNoSupport = 0xffffffffu;
-
-  /// Of the planes through a, b and those corners of the loop that `usable` accepts the one that no
-  /// usable corner is on the side `beyond` of; they must lie in a half-turn around a, b. Invalid if
-  /// all are on the line.
-  template <class Usable>
-  PlaneRef extreme(const CornerOf& a, const CornerOf& b, const Loop& loop, Side beyond,
-                   const Usable& usable) {
-    const std::uint32_t mark = space_->plane_mark();
-    PlaneRef plane;
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      if (!usable(i)) continue;
-      const CornerOf corner = loop.corner(i);
-      if (plane.valid() && space_->side_of_plane(plane, corner) != beyond) continue;
-      space_->release_planes(mark);
-      plane = space_->add_plane(a, b, corner);
-    }
-    return plane;
   }
 
   bool make_point(const Loop& caster, PlaneRef side, bool reversed,
@@ -263,29 +246,48 @@ class VolumeBuilder {
       front_sides_.resize(front.size());
       for (std::uint32_t i = 0; i < front.size(); ++i) front_sides_[i] = light_sides_.side(i);
     }
-    bool umbra = !straddles || !rules_.straddling_light_is_cut;
-    const bool penumbra = wanted == VolumesWanted::kBoth;
-    for (std::uint32_t i = 0; i < caster.size() && (umbra || penumbra); ++i) {
+    if ((straddles && rules_.straddling_light_is_cut) || !make_umbra(caster, reversed, whole)) {
+      umbra_.clear();
+    }
+    if (wanted == VolumesWanted::kBoth) make_penumbra(caster, reversed, front);
+    return true;
+  }
+
+  /// Of a light that is in front of the caster's plane, with whole_sides_. False if there is none.
+  bool make_umbra(const Loop& caster, bool reversed, const Loop& light) {
+    const std::uint32_t mark = space_->plane_mark();
+    for (std::uint32_t i = 0; i < caster.size(); ++i) {
       const CornerOf a = to(caster, reversed, i), b = from(caster, reversed, i);
-      if (penumbra) {
-        const PlaneRef outer = extreme(a, b, front, Side::kFront, [&](std::uint32_t k) {
-          return front_sides_[k] == Side::kFront;
-        });
-        if (outer.valid() && !any_on_caster_plane(front, front_sides_, outer, Side::kFront)) {
-          penumbra_.push_back(outer);
-        }
-      }
-      if (!umbra) continue;
-      const PlaneRef inner = extreme(a, b, whole, Side::kBack, [&](std::uint32_t k) {
+      const PlaneRef inner = extreme_plane(*space_, a, b, light, Side::kBack, [&](std::uint32_t k) {
         return whole_sides_[k] == Side::kFront;
       });
       // A vertex of the light in the caster's plane must be in the caster itself.
-      umbra = inner.valid() && !any_on_caster_plane(whole, whole_sides_, inner, Side::kBack);
+      if (!inner.valid() || any_on_plane(*space_, light, whole_sides_, inner, Side::kBack)) {
+        space_->release_planes(mark);
+        return false;
+      }
       umbra_.push_back(inner);
     }
-    if (!umbra) umbra_.clear();
-    if (penumbra) add_light_edges(caster, front);
-    return umbra || penumbra;
+    return true;
+  }
+
+  /// Of the part of the light in front of the caster's plane, with front_sides_.
+  void make_penumbra(const Loop& caster, bool reversed, const Loop& light) {
+    for (std::uint32_t i = 0; i < caster.size(); ++i) {
+      const CornerOf a = to(caster, reversed, i), b = from(caster, reversed, i);
+      const PlaneRef outer =
+          extreme_plane(*space_, a, b, light, Side::kFront,
+                        [&](std::uint32_t k) { return front_sides_[k] == Side::kFront; });
+      if (outer.valid() && !any_on_plane(*space_, light, front_sides_, outer, Side::kFront)) {
+        penumbra_.push_back(outer);
+      }
+    }
+    bool in_front = true;
+    for (std::uint32_t k = 0; k < caster.size(); ++k) {
+      in_front = in_front && caster_sides_.side(k) == Side::kFront;
+    }
+    // Planes that hold an edge of the caster are there already, and its own is none.
+    add_light_edges(*space_, caster, light, in_front, penumbra_);
   }
 
   bool all_on_or_behind(const Loop& caster) const {
@@ -294,78 +296,6 @@ class VolumeBuilder {
     }
     return true;
   }
-  /// Is a corner of the light that lies in the caster's plane on that side of a plane through one
-  /// of the caster's edges?
-  bool any_on_caster_plane(const Loop& light, const std::vector<Side>& sides, PlaneRef plane,
-                           Side asked) {
-    for (std::uint32_t i = 0; i < light.size(); ++i) {
-      if (sides[i] == Side::kOn && space_->side_of_plane(plane, light.corner(i)) == asked) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  /// Planes through an edge of the light and a vertex of the caster that separate the two. One
-  /// that holds an edge of the caster has been found there; the caster's own plane is none.
-  void add_light_edges(const Loop& caster, const Loop& light) {
-    bool in_front = true;
-    for (std::uint32_t k = 0; k < caster.size(); ++k) {
-      in_front = in_front && caster_sides_.side(k) == Side::kFront;
-    }
-    for (std::uint32_t i = 0; i < light.size(); ++i) {
-      // The light is in front of the planes through a, b and points in front of the light.
-      const CornerOf a = light.corner(light.next(i)), b = light.corner(i);
-      if (in_front) {
-        const std::uint32_t mark = space_->plane_mark();
-        const PlaneRef plane =
-            extreme(a, b, caster, Side::kFront, [](std::uint32_t) { return true; });
-        if (plane.valid() && corners_on(caster, plane) == 1) {
-          penumbra_.push_back(-plane);
-        } else {
-          space_->release_planes(mark);
-        }
-        continue;
-      }
-      // A caster on both sides of the light's plane may be touched twice.
-      for (std::uint32_t k = 0; k < caster.size(); ++k) {
-        const std::uint32_t mark = space_->plane_mark();
-        const PlaneRef plane = space_->add_plane(a, b, caster.corner(k));
-        PlaneRef found;
-        if (plane.valid() && corners_on(caster, plane) == 1) {
-          found = separating(caster, light, plane);
-        }
-        if (found.valid()) {
-          penumbra_.push_back(found);
-        } else {
-          space_->release_planes(mark);
-        }
-      }
-    }
-  }
-  std::uint32_t corners_on(const Loop& loop, PlaneRef plane) {
-    std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < loop.size(); ++i) {
-      if (space_->side_of_plane(plane, loop.corner(i)) == Side::kOn) ++count;
-    }
-    return count;
-  }
-  /// The plane with the caster in front, if the light is then behind it; else invalid.
-  PlaneRef separating(const Loop& caster, const Loop& light, PlaneRef plane) {
-    const auto one_side = [&](const Loop& loop) -> Side {  // kOn: both or none
-      bool front = false, back = false;
-      for (std::uint32_t i = 0; i < loop.size(); ++i) {
-        const Side side = space_->side_of_plane(plane, loop.corner(i));
-        front = front || side == Side::kFront;
-        back = back || side == Side::kBack;
-      }
-      return front == back ? Side::kOn : front ? Side::kFront : Side::kBack;
-    };
-    const Side caster_side = one_side(caster);
-    if (caster_side == Side::kOn || one_side(light) != opposite(caster_side)) return {};
-    return caster_side == Side::kFront ? plane : -plane;
-  }
-
   Space* space_;
   Rules rules_;
   std::vector<PlaneRef> penumbra_, umbra_;

@@ -65,8 +65,8 @@ std::string together_text(const ShadowResult& result) {
 
 /// What is counted of a light. Under area lights contour looks at volumes and at no intervals.
 std::span<const Counter> counters_of(const LoadedScene& loaded, const LightResult& light) {
-  static constexpr std::array kOfAreaByContour = {Counter::kVolumes, Counter::kVolumePlanes,
-                                                  Counter::kOpenPolygons};
+  static constexpr std::array kOfAreaByContour = {Counter::kVolumes, Counter::kSolids,
+                                                  Counter::kVolumePlanes, Counter::kOpenPolygons};
   const bool has_area = loaded.prepared.lights[light.light].has_area();
   if (has_area && light.method == MethodId::kContour) return kOfAreaByContour;
   return method_info(light.method).counters;

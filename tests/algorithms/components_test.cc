@@ -182,5 +182,128 @@ TEST(Components, OfACityAreOpenHousesAndTheGround) {
   EXPECT_EQ(parts, prepared.parts.size());
 }
 
+// --- Convex shells ---
+
+/// By shell: its numbers of parts, vertices, edges and missing faces.
+std::vector<std::string> shells_of(const Scene& scene, std::uint32_t most = 100) {
+  std::vector<std::string> result;
+  for (const ConvexShell& shell : find_convex_shells(prepare(scene).value(), most)) {
+    result.push_back(std::to_string(shell.parts.size()) + ' ' +
+                     std::to_string(shell.vertices.size()) + ' ' +
+                     std::to_string(shell.edges.size()) + ' ' +
+                     std::to_string(shell.missing.size()));
+  }
+  return result;
+}
+
+/// A box without those of its faces.
+Scene box_without(std::vector<std::size_t> faces) {
+  Scene scene = ScenePen().box({0, 0, 0}, {2, 3, 4}).take();
+  std::ranges::sort(faces, std::greater());
+  for (const std::size_t face : faces) {
+    scene.polygons.erase(scene.polygons.begin() + static_cast<std::ptrdiff_t>(face));
+  }
+  return scene;
+}
+
+TEST(ConvexShells, OfABoxWithAndWithoutFaces) {
+  EXPECT_THAT(shells_of(box_without({})), ElementsAre("6 8 12 0"));
+  std::size_t two_missing = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_THAT(shells_of(box_without({i})), ElementsAre("5 8 12 1")) << i;
+    for (std::size_t k = 0; k < i; ++k) {
+      // Two faces that share an edge leave a border in no plane.
+      const std::vector<std::string> told = shells_of(box_without({k, i}));
+      if (told.empty()) continue;
+      EXPECT_THAT(told, ElementsAre("4 8 12 2")) << k << ' ' << i;
+      ++two_missing;
+    }
+  }
+  EXPECT_EQ(two_missing, 3u);
+}
+
+TEST(ConvexShells, MissingFacesLookOutwards) {
+  const PreparedScene prepared = prepare(generate("city", {{"n", 4}}).value()).value();
+  const std::vector<ConvexShell> shells = find_convex_shells(prepared, 100);
+  ASSERT_EQ(shells.size(), 4u);
+  for (const ConvexShell& shell : shells) {
+    ASSERT_EQ(shell.missing.size(), 1u);
+    const auto& positions = prepared.geometry.positions;
+    const auto &a = positions[shell.missing[0].a], &b = positions[shell.missing[0].b],
+               &c = positions[shell.missing[0].c];
+    EXPECT_EQ(a[2], 0);
+    EXPECT_EQ(b[2], 0);
+    EXPECT_EQ(c[2], 0);
+    EXPECT_LT((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]), 0);
+  }
+}
+
+TEST(ConvexShells, EdgesRunWithTheirLeftParts) {
+  const PreparedScene prepared = prepare(box_without({1})).value();
+  const std::vector<ConvexShell> shells = find_convex_shells(prepared, 100);
+  ASSERT_EQ(shells.size(), 1u);
+  const auto has = [&](std::uint32_t place, VertexId from, VertexId to) {
+    const auto loop = prepared.loop(prepared.parts[shells[0].parts[place]]);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      if (loop[i] == from && loop[(i + 1) % loop.size()] == to) return true;
+    }
+    return false;
+  };
+  std::size_t missing = 0;
+  for (const ShellEdge& edge : shells[0].edges) {
+    EXPECT_TRUE(has(edge.left, edge.from, edge.to));
+    if (edge.right == ShellEdge::kMissing) {
+      ++missing;
+    } else {
+      EXPECT_TRUE(has(edge.right, edge.to, edge.from));
+    }
+  }
+  EXPECT_EQ(missing, 4u);
+}
+
+TEST(ConvexShells, NoneOfWhatIsNotConvexOrFlatOrLarge) {
+  EXPECT_THAT(shells_of(ScenePen().box({0, 0, 0}, {2, 3, 4}, true).take()), ElementsAre());
+  EXPECT_THAT(shells_of(box_without({}), 5), ElementsAre());
+  // A sheet of two coplanar squares, and an open fan of three that are not.
+  EXPECT_THAT(shells_of(ScenePen()
+                            .polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}})
+                            .polygon({{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}})
+                            .take()),
+              ElementsAre());
+  EXPECT_THAT(shells_of(ScenePen()
+                            .polygon({{0, 0, 0}, {4, 0, 0}, {2, 2, 3}})
+                            .polygon({{4, 0, 0}, {4, 4, 0}, {2, 2, 3}})
+                            .polygon({{4, 4, 0}, {0, 4, 1}, {2, 2, 3}})
+                            .take()),
+              ElementsAre());
+  // A wedge of two faces has its missing ones in no common plane; a pyramid without its base has.
+  ScenePen pyramid;
+  const std::vector<Triple> ring = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    pyramid.polygon({ring[i], ring[(i + 1) % ring.size()], {2, 2, 3}});
+  }
+  EXPECT_THAT(shells_of(pyramid.take()), ElementsAre("4 5 8 1"));
+  // Far coordinates, which need more than 128 bits.
+  const std::int64_t far = std::int64_t{1} << 52;
+  EXPECT_THAT(shells_of(ScenePen().box({0, 0, 0}, {far, far - 1, far - 3}).take()),
+              ElementsAre("6 8 12 0"));
+}
+
+TEST(ConvexShells, ABoxWithASplitFaceAndTwoThatTouch) {
+  Scene scene = box_without({0});
+  EXPECT_THAT(shells_of(ScenePen().box({0, 0, 0}, {1, 1, 1}).box({1, 0, 0}, {2, 1, 1}).take()),
+              ElementsAre("6 8 12 0", "6 8 12 0"));
+  // The same polygon in two triangles: two faces of one plane.
+  const Scene whole = box_without({});
+  Polygon triangle = whole.polygons[0], other = whole.polygons[0];
+  triangle.loop = {whole.polygons[0].loop[0], whole.polygons[0].loop[1], whole.polygons[0].loop[2]};
+  other.loop = {whole.polygons[0].loop[0], whole.polygons[0].loop[2], whole.polygons[0].loop[3]};
+  triangle.id = "one";
+  other.id = "other";
+  scene.polygons.push_back(triangle);
+  scene.polygons.push_back(other);
+  EXPECT_THAT(shells_of(scene), ElementsAre("7 8 13 0"));
+}
+
 }  // namespace
 }  // namespace gnomon

@@ -23,6 +23,7 @@ constexpr int kSide = 8;  // of the receiver, a square in the lattice
 /// a x + b y + c >= 0 in integers.
 struct HalfPlane {
   long a, b, c;
+  friend bool operator==(const HalfPlane&, const HalfPlane&) = default;
 };
 using Convex = std::vector<HalfPlane>;
 using Point = std::array<mpq_class, 2>;
@@ -79,11 +80,13 @@ class Lattice final : public ExactLines {
   std::vector<HalfPlane> lines;
 
   bool is_known_same(const OutlineLine& a, const OutlineLine& b) override {
-    return a.plane == b.plane;
+    return of(a) == of(b);
   }
-  bool is_same(const OutlineLine& a, const OutlineLine& b) override {
-    const HalfPlane &p = of(a), &q = of(b);
-    return p.a * q.b == p.b * q.a && p.a * q.c == p.c * q.a && p.b * q.c == p.c * q.b;
+  Side side_of_corner(const OutlineLine& line, std::uint32_t corner) override {
+    return side(of(line), receiver_[corner]);
+  }
+  double distance_of(const OutlineLine& line, std::uint32_t corner) override {
+    return std::fabs(value(of(line), receiver_[corner]).get_d());
   }
   Side side_of_meet(const OutlineLine& line, const OutlineLine& a, const OutlineLine& b) override {
     return side(of(line), meet(of(a), of(b)));
@@ -104,8 +107,10 @@ class Lattice final : public ExactLines {
  private:
   const HalfPlane& of(const OutlineLine& line) const { return lines[line.plane.index()]; }
   static Point meet(const HalfPlane& p, const HalfPlane& q) {
-    const mpq_class det = p.a * q.b - p.b * q.a;
-    return {(p.b * q.c - p.c * q.b) / det, (p.c * q.a - p.a * q.c) / det};
+    const auto product = [](long x, long y) { return mpq_class(mpz_class(x) * y); };
+    const mpq_class det = product(p.a, q.b) - product(p.b, q.a);
+    return {(product(p.b, q.c) - product(p.c, q.b)) / det,
+            (product(p.c, q.a) - product(p.a, q.c)) / det};
   }
   static Side side(const HalfPlane& line, const Point& p) {
     const int sign = sgn(value(line, p));
@@ -122,9 +127,11 @@ ReceiverChart chart(const std::vector<Point>& receiver) {
   return result;
 }
 
-/// What a union says, or nothing where some outline holds all of the receiver.
-void check(const std::vector<Convex>& outlines, const mpq_class& truth, const std::string& what,
-           double most_error = 1e-9, const std::vector<Point>& corners = square()) {
+/// What a union says, or nothing where some outline holds all of the receiver. False if all of it
+/// is covered, and the union does not say so: then that is for exact cuts to tell.
+bool check(const std::vector<Convex>& outlines, const mpq_class& truth, const std::string& what,
+           double most_error = 1e-9, const std::vector<Point>& corners = square(),
+           bool may_be_open = false) {
   const ReceiverChart receiver = chart(corners);
   Lattice exact(corners);
   OutlineUnion outline_union;
@@ -151,17 +158,19 @@ void check(const std::vector<Convex>& outlines, const mpq_class& truth, const st
       if (line.before != 0 && line.behind != 0) lines.push_back(line);
     }
     if (is_outside) continue;
-    if (lines.empty()) return;
+    if (lines.empty()) return true;
     outline_union.add(lines);
   }
   if (outline_union.size() == 0) {
     EXPECT_EQ(truth, 0) << what;
-    return;
+    return true;
   }
   const UnionShare share = outline_union.share();
   EXPECT_LT(share.error, most_error) << what;
   EXPECT_LE(std::fabs(share.covered - truth.get_d()), share.error) << what;
-  EXPECT_EQ(share.hidden, truth == 1) << what;
+  EXPECT_TRUE(truth == 1 || !share.hidden) << what;
+  EXPECT_TRUE(truth != 1 || share.hidden || may_be_open) << what;
+  return truth != 1 || share.hidden;
 }
 
 void check(const std::vector<Convex>& outlines, const std::string& what) {
@@ -306,6 +315,39 @@ TEST(OutlineUnion, LatticeOfOutlines) {
     check(outlines, "round " + std::to_string(round));
     if (HasFailure()) return;
   }
+}
+
+/// Every line is turned and moved by so little that bounds do not tell it from those that were one
+/// with it, nor from the receiver's edges.
+TEST(OutlineUnion, LinesThatAreAllButOne) {
+  constexpr long kAllBut = 1L << 50;
+  Lots lots(11);
+  std::size_t hidden = 0, open = 0;
+  for (int round = 0; round < 700; ++round) {
+    std::vector<Convex> outlines(2 + static_cast<std::size_t>(lots.upto(5)));
+    for (Convex& outline : outlines) {
+      outline = lots.outline();
+      for (HalfPlane& line : outline) {
+        line.a = line.a * kAllBut + lots.upto(5) - 2;
+        line.b = line.b * kAllBut + lots.upto(5) - 2;
+        line.c = line.c * kAllBut + lots.upto(9) - 4;
+      }
+    }
+    if (round % 3 == 0) {  // four quarters of the square, with slits and overlaps
+      const long middle = 4 * kAllBut;
+      const auto bit = [&] { return static_cast<long>(lots.upto(5)) - 2; };
+      for (const auto [x, y] : {std::array{1L, 1L}, {1L, -1L}, {-1L, 1L}, {-1L, -1L}}) {
+        outlines.push_back({{x * kAllBut + bit(), bit(), -x * middle + lots.upto(12) - 2},
+                            {bit(), y * kAllBut + bit(), -y * middle + lots.upto(12) - 2}});
+      }
+    }
+    const mpq_class truth = covered(outlines);
+    hidden += truth == 1 ? 1 : 0;
+    open += check(outlines, truth, "round " + std::to_string(round), 1e-9, square(), true) ? 0 : 1;
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(hidden, 20u);
+  EXPECT_LT(open * 2, hidden);
 }
 
 /// Each outline in two halves, many times: so many that the square is halved into cells. They cover

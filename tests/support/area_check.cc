@@ -276,6 +276,12 @@ std::string check_area_exact(const Case& scene) {
   return {};
 }
 
+std::string check_area_contour(const Case& scene) {
+  const ShadowOptions options = options_for(KernelId::kPlane);
+  const Expected<ShadowResult> exact = compute_shadows(scene.prepared(), options);
+  return exact ? check_contour(scene, *exact, options) : to_string(exact.error());
+}
+
 Fractions3 area_fractions_of(const Case& scene, const ShadowOptions& options,
                              const std::string& light, const std::string& polygon, Side side) {
   const Expected<ShadowResult> result = compute_shadows(scene.prepared(), options);

@@ -14,6 +14,10 @@ namespace gnomon::test {
 /// Empty if all is well; else the first thing that is wrong.
 std::string check_area_exact(const Case& scene);
 
+/// Of classes and shares by contour, held against exact ones by `receiver`: every class is told for
+/// certain, and bounds hold.
+std::string check_area_contour(const Case& scene);
+
 /// Exact lit, penumbra and umbra of one side of a polygon of one part.
 struct Fractions3 {
   mpq_class lit, penumbra, umbra;

@@ -12,6 +12,7 @@
 #define GNOMON_ALGORITHMS_COMPONENTS_H
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,32 @@ struct Component {
 ///
 /// Cost: linear, and for closed components without reflex edges vertices times planes.
 std::vector<Component> find_components(const PreparedScene& scene);
+
+/// An edge of a convex shell. Seen from outside the left part runs along it, from `from` to `to`.
+struct ShellEdge {
+  static constexpr std::uint32_t kMissing = std::numeric_limits<std::uint32_t>::max();
+
+  VertexId from = 0, to = 0;
+  std::uint32_t left = 0, right = 0;  // places in ConvexShell::parts; right: or kMissing
+};
+
+/// The surface of a convex solid, but perhaps for some of its faces: a closed box, or a house
+/// without a floor.
+struct ConvexShell {
+  std::vector<std::uint32_t> parts;    // ascending; their fronts look outwards
+  std::vector<VertexId> vertices;      // ascending
+  std::vector<ShellEdge> edges;        // each once
+  std::vector<SupportTriple> missing;  // of each face that is not there, counter-clockwise as seen
+                                       // from outside
+};
+
+/// The components of two to `most_parts` parts that are convex shells: two parts run along every
+/// edge, one each way, or one does and the edge is on the border of a missing face; and every
+/// vertex is behind or on the plane of every part and of every missing face, not all of them on
+/// one.
+///
+/// Cost: linear, and for each shell vertices times planes.
+std::vector<ConvexShell> find_convex_shells(const PreparedScene& scene, std::uint32_t most_parts);
 
 /// "edge (x,y,z)-(x,y,z) of polygon P has no partner", with the nearest doubles.
 std::string unpaired_edge_text(const Scene& scene, const PreparedScene& prepared,

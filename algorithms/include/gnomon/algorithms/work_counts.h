@@ -54,7 +54,7 @@ enum class Counter : std::uint8_t {
   kNeighbourMisses,  // samples that neighbours alone would have counted otherwise
   kWallBytes,        // memory of walls and caps
   kDepthComplexity,  // polygons that face the eye and cover a sample, of all samples
-  kSolids,           // closed convex solids that cast as wholes
+  kSolids,           // convex solids that cast as wholes
   kVolumePlanes,     // of all shadow volumes
   kMerged,           // fragments that went into neighbours
   kEvents,           // where spans of a row begin or end

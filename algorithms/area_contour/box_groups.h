@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A hierarchy of boxes, eight to a group, and the shaft between a receiver and a light
+// (shadow_volumes/caster_tree.h), which is tried against a group at once.
+//
+// Guarantee: what a shaft is said to miss, it misses. Boxes and shaft are in single precision,
+// wider by more than its roundings: coordinates are fractions of the grid's extent, at most 1, so
+// that a place is off by 2^-25, a tangent's value, of two products of numbers below 1, by less than
+// 2^-21, and both are given more room.
+#ifndef GNOMON_ALGORITHMS_AREA_CONTOUR_BOX_GROUPS_H
+#define GNOMON_ALGORITHMS_AREA_CONTOUR_BOX_GROUPS_H
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "algorithms/area_contour/four_doubles.h"
+#include "algorithms/partition/box.h"
+#include "algorithms/partition/box_tree.h"
+
+namespace gnomon::area_contour {
+
+/// Boxes of eight groups, or of eight members; what fills up the last lanes meets nothing.
+struct alignas(32) BoxGroup {
+  static constexpr std::uint32_t kSize = 8;
+
+  float low[3][kSize], high[3][kSize];
+  float largest[kSize];   // by group: the longest diagonal below it, or more
+  std::uint32_t first;    // member, if it is of members
+  std::uint32_t is_of_members;
+  std::uint32_t child[kSize];  // else its groups
+
+  void set(std::uint32_t lane, const Box& box);
+  Box box(std::uint32_t lane) const;
+};
+
+/// The convex hull of two boxes, against eight at a time.
+class GroupShaft {
+ public:
+  GroupShaft(const Box& from, const Box& to);
+
+  /// The lanes of a group that it may meet.
+  unsigned may_meet(const BoxGroup& group) const {
+    constexpr FloatBits kLanes = {0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80};
+    FloatBits meets = kLanes;
+    for (std::size_t k = 0; k < 3; ++k) {
+      meets &= (row(group.low[k]) <= high_[k]) & (row(group.high[k]) >= low_[k]);
+    }
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Tangent& own = tangents_[i];
+      // The corner of a box that is deepest inside.
+      const Floats& u = row(own.u > 0 ? group.low[own.axis] : group.high[own.axis]);
+      const std::size_t next = own.axis == 2 ? 0 : own.axis + 1;
+      const Floats& v = row(own.v > 0 ? group.low[next] : group.high[next]);
+      meets &= own.u * u + own.v * v <= own.d;
+    }
+    const Bits& pairs = reinterpret_cast<const Bits&>(meets);
+    const long both = pairs[0] | pairs[1] | pairs[2] | pairs[3];
+    return static_cast<unsigned>(both | both >> 32) & 255;
+  }
+
+ private:
+  /// In the plane of an axis and the next one, the hull is where u x + v y <= d.
+  struct Tangent {
+    float u, v, d;
+    std::size_t axis;
+  };
+  void add_tangents(std::size_t axis, const Box& from, const Box& to);
+
+  float low_[3], high_[3];
+  std::array<Tangent, 12> tangents_;
+  std::size_t count_ = 0;
+};
+
+class BoxGroups {
+ public:
+  BoxGroups() = default;
+  /// Of the members of a tree, which have its order. `largest`: of each node the longest diagonal
+  /// below it.
+  BoxGroups(const BoxTree& tree, std::span<const double> largest);
+
+  /// Calls visit(member) for those that may meet the shaft, in order, below groups that
+  /// enters(group, lane) accepts, until it says so.
+  template <class Enters, class Visit>
+  bool find(const GroupShaft& shaft, const Enters& enters, const Visit& visit) const {
+    if (groups_.empty()) return false;
+    // Three levels of the tree are one here, and it has at most 32.
+    std::array<std::uint32_t, 11 * BoxGroup::kSize> stack;
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const BoxGroup& group = groups_[stack[--depth]];
+      unsigned lanes = shaft.may_meet(group);
+      if (group.is_of_members != 0) {
+        for (; lanes != 0; lanes &= lanes - 1) {
+          if (visit(group.first + static_cast<std::uint32_t>(std::countr_zero(lanes)))) return true;
+        }
+        continue;
+      }
+      while (lanes != 0) {  // the last first, so that the first is taken first
+        const auto lane = static_cast<std::uint32_t>(std::bit_width(lanes)) - 1;
+        lanes ^= 1U << lane;
+        if (enters(group, lane)) stack[depth++] = group.child[lane];
+      }
+    }
+    return false;
+  }
+
+ private:
+  std::vector<BoxGroup> groups_;
+};
+
+}  // namespace gnomon::area_contour
+
+#endif  // GNOMON_ALGORITHMS_AREA_CONTOUR_BOX_GROUPS_H
