@@ -27,8 +27,8 @@ struct alignas(32) BoxGroup {
   static constexpr std::uint32_t kSize = 8;
 
   float low[3][kSize], high[3][kSize];
-  float largest[kSize];   // by group: the longest diagonal below it, or more
-  std::uint32_t first;    // member, if it is of members
+  float largest[kSize];  // by group: the longest diagonal below it, or more
+  std::uint32_t first;   // member, if it is of members
   std::uint32_t is_of_members;
   std::uint32_t child[kSize];  // else its groups
 

@@ -52,7 +52,7 @@ class CoverMask {
   double margin() const { return margin_; }
 
  private:
-  static constexpr int kCells = 32;  // along each axis
+  static constexpr int kCells = 32;              // along each axis
   static constexpr std::size_t kMostLines = 32;  // of an outline; one with more is not marked
   struct Line {
     double a, b, c;  // inside where a x + b y + c > 0

@@ -38,9 +38,9 @@ struct alignas(32) OutlineUnion::FourStretches {
   /// Of the receiver's edges that lines meet: the corners at their beginnings and ends.
   struct alignas(32) {
     double x[4] = {}, y[4] = {}, next_x[4] = {}, next_y[4] = {};
-    std::int64_t is_met[4] = {};  // that at its end: all bits
+    std::int64_t is_met[4] = {};   // that at its end: all bits
     std::uint32_t corner[4] = {};  // at its beginning
-  } met[2];                       // where lines enter, and where they leave
+  } met[2];                        // where lines enter, and where they leave
   for (std::uint32_t i = 0; i < 4; ++i) {
     const auto [before, behind] = sides_of(block.sides[i]);
     if (behind == 0) continue;  // no line

@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/area_contour/light_volumes.h"
 #include "algorithms/area_contour/lines_in_space.h"
 #include "algorithms/area_contour/outline_union.h"
 #include "algorithms/area_contour/placed_volumes.h"
@@ -33,75 +34,6 @@
 #include "kernel/implicit/filter_bounds.h"
 
 namespace gnomon::area_contour {
-
-/// A space whose planes have doubles with proven bounds, and tell what they were made from.
-template <class Space>
-concept HasPlaneDoubles = requires(const Space& space, PlaneRef plane) {
-  space.load(plane).n;
-  space.source_of(plane);
-};
-
-template <class Space>
-PlaneDoubles doubles_of(const Space& space, PlaneRef plane) {
-  const auto loaded = space.load(plane);
-  return {loaded.n, loaded.d, plane, nullptr};
-}
-
-/// The volumes of a light for the search. `jobs`: as LightVolumes::finish() has it.
-template <VolumeSpaceModel Space>
-LightVolumes light_volumes(const Space& space, const LightGeometry& geometry,
-                           const CasterTree& tree, const LightInSpace<Space>& light,
-                           unsigned jobs) {
-  const PreparedScene& scene = light.scene();
-  const auto parts = static_cast<std::uint32_t>(scene.parts.size());
-  std::vector<Box> boxes;
-  boxes.reserve(parts + std::size_t{light.shell_count()});
-  for (std::uint32_t part = 0; part < parts; ++part) boxes.push_back(tree.box(part));
-  for (std::uint32_t shell = parts; shell < parts + light.shell_count(); ++shell) {
-    Box box;
-    for (const std::uint32_t part : light.shell(shell).parts) box.add(boxes[part]);
-    boxes.push_back(box);
-  }
-  Box box;
-  std::vector<Point3> corners;
-  double bound = 0;
-  for (const VertexId vertex : geometry.faces[light.number()].loop) {
-    corners.push_back(grid_fraction(geometry.geometry.grid, vertex));
-    box.add(corners.back());
-    bound = static_cast<double>(space.input_vertex(vertex).bound);  // all have the same
-  }
-  LightVolumes result(std::move(boxes), box, std::move(corners), bound);
-  const VolumeStore& store = light.volumes();
-  const auto add_umbras = [&](std::uint32_t part, std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      result.add_umbra(i, part, scene.parts[part].plane, store[i].umbra_count);
-    }
-  };
-  for (std::uint32_t part = 0; part < parts; ++part) {
-    if (light.shell_of(part) != ShellCasters::kNone) continue;
-    for (auto [i, end] = light.volumes_of(part); i < end; ++i) {
-      result.add(i, part, store[i].penumbra_count);
-      add_umbras(part, i, i + 1);
-    }
-  }
-  for (std::uint32_t shell = parts; shell < parts + light.shell_count(); ++shell) {
-    const auto [begin, end] = light.volumes_of(shell);
-    if (begin == end) continue;
-    result.add(begin, shell, store[begin].penumbra_count);
-    for (const std::uint32_t part : light.shell(shell).parts) {
-      const auto [first, last] = light.volumes_of(part);
-      add_umbras(part, first, last);
-    }
-  }
-  result.finish(jobs, [&](std::uint32_t volume, bool umbra, std::vector<PlaneDoubles>& planes) {
-    planes.clear();
-    const ShadowVolume& own = store[volume];
-    for (const PlaneRef plane : umbra ? store.umbra(own) : store.penumbra(own)) {
-      planes.push_back(doubles_of(space, plane));
-    }
-  });
-  return result;
-}
 
 /// Of one thread and one light.
 template <VolumeSpaceModel Space>
@@ -157,8 +89,10 @@ class ReceiverShares {
   std::vector<Point3> caster_;
   OutlineUnion penumbras_, umbras_;
   const Loop* whole_ = nullptr;
-  bool is_whole_ = false;                                     // the receiver's plane cuts no light
-  std::vector<std::uint32_t> added_penumbras_, added_umbras_;  // then: volumes of the light's store
+  bool is_partly_behind_ = false;  // the light; the rest of the receiver is not
+  bool has_volumes_ = false;       // some volume has been added
+  bool is_whole_ = false;          // the receiver's plane cuts no light; then, of its store:
+  std::vector<std::uint32_t> added_penumbras_, added_umbras_;
 };
 
 template <VolumeSpaceModel Space>
@@ -224,6 +158,7 @@ typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_volume(
         relate(space, store.penumbra(volume), found.of_penumbra, Border::kOpen);
     if (relation == Relation::kOutside) return Verdict::kGoesOn;
     if (relation == Relation::kOpen) return Verdict::kOpen;
+    has_volumes_ = true;
     all_penumbra_ = relation == Relation::kInside;
     if (!all_penumbra_) {
       penumbras_.add(lines_);
@@ -236,6 +171,7 @@ typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_volume(
   if (relation == Relation::kOpen) return Verdict::kOpen;
   if (relation == Relation::kInside) return Verdict::kAllUmbra;
   if (relation == Relation::kCrossing) {
+    has_volumes_ = true;
     umbras_.add(lines_);
     if (is_whole_) added_umbras_.push_back(found.number);
     if (masked_ != nullptr) placed_.umbras.add(lines_, masked_->umbra);
@@ -249,14 +185,14 @@ bool ReceiverShares<Space>::has_inside(Workspace& workspace, const LightInSpace<
   const VolumeStore& store = light.volumes();
   return std::ranges::any_of(umbra ? added_umbras_ : added_penumbras_, [&](std::uint32_t number) {
     const ShadowVolume& volume = store[number];
-    return workspace.cutter.has_inside(
-        *whole_, umbra ? store.umbra(volume) : store.penumbra(volume), umbra);
+    return workspace.cutter.has_inside(*whole_,
+                                       umbra ? store.umbra(volume) : store.penumbra(volume), umbra);
   });
 }
 
 /// None: no outline has any area. Where bounds do not tell whether one has, which is so of slivers
-/// beside a caster that is nearly in the receiver's plane, it is asked exactly, if all outlines are
-/// those of the whole light's volumes.
+/// beside a caster that is nearly in the receiver's plane, it is asked exactly, if all outlines but
+/// that of what is behind the light are those of the whole light's volumes.
 template <VolumeSpaceModel Space>
 std::optional<UnionShare> ReceiverShares<Space>::share_of(Workspace& workspace,
                                                           const LightInSpace<Space>& light,
@@ -264,8 +200,8 @@ std::optional<UnionShare> ReceiverShares<Space>::share_of(Workspace& workspace,
   OutlineUnion& outlines = umbra ? umbras_ : penumbras_;
   if (outlines.size() == 0) return std::nullopt;
   UnionShare share = outlines.share();
-  const std::size_t known = (umbra ? added_umbras_ : added_penumbras_).size();
-  if (known == outlines.size() && may_be_nothing(share)) {
+  share.some = is_partly_behind_;
+  if (!share.some && is_whole_ && may_be_nothing(share)) {
     share.some = has_inside(workspace, light, umbra);
     if (!share.some) return std::nullopt;
   }
@@ -275,8 +211,12 @@ std::optional<UnionShare> ReceiverShares<Space>::share_of(Workspace& workspace,
 template <VolumeSpaceModel Space>
 std::optional<Shares> ReceiverShares<Space>::shares(Workspace& workspace,
                                                     const LightInSpace<Space>& light) {
+  const std::optional<UnionShare> umbra = share_of(workspace, light, true);
+  if (is_partly_behind_ && !has_volumes_ && !all_penumbra_) {
+    return umbra ? shares_of(*umbra) : std::nullopt;
+  }
   return shares_of(all_penumbra_ ? std::nullopt : share_of(workspace, light, false), all_penumbra_,
-                   share_of(workspace, light, true));
+                   umbra);
 }
 
 /// Whether a caster is partly in front of the receiver.
@@ -340,8 +280,8 @@ std::optional<Shares> ReceiverShares<Space>::find_masked(Workspace& workspace,
   for (const PlacedVolume& volume : placed_.largest_first()) {
     FoundVolume found = volume.found;
     found.umbra = found.umbra && !placed_.umbras.holds(volume.boxes.umbra);
-    found.penumbra = found.penumbra && !all_penumbra_ &&
-                     !placed_.penumbras.holds(volume.boxes.penumbra);
+    found.penumbra =
+        found.penumbra && !all_penumbra_ && !placed_.penumbras.holds(volume.boxes.penumbra);
     if (!found.umbra && !found.penumbra) continue;
     if (volume.boxes.place != ShadowBoxes::Place::kInFront &&
         !blocks(workspace, receiving, light, found.caster)) {
@@ -350,7 +290,8 @@ std::optional<Shares> ReceiverShares<Space>::find_masked(Workspace& workspace,
     masked_ = &volume.boxes;
     const Verdict verdict = add_volume(workspace.space, light.volumes(), found);
     if (verdict == Verdict::kOpen) return std::nullopt;
-    if (verdict == Verdict::kAllUmbra || (found.umbra && placed_.umbras.is_full())) return kAllUmbra;
+    if (verdict == Verdict::kAllUmbra || (found.umbra && placed_.umbras.is_full()))
+      return kAllUmbra;
     all_penumbra_ = all_penumbra_ || placed_.penumbras.is_full();
   }
   return shares(workspace, light);
@@ -406,7 +347,8 @@ typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_cut_volume(
                           penumbra ? VolumesWanted::kBoth : VolumesWanted::kUmbra);
   }
   if (workspace.own.size() == 0) return Verdict::kGoesOn;
-  return add_volume(workspace.space, workspace.own, {0, found.caster, penumbra, found.umbra, {}, {}});
+  return add_volume(workspace.space, workspace.own,
+                    {0, found.caster, penumbra, found.umbra, {}, {}});
 }
 
 template <VolumeSpaceModel Space>
@@ -429,13 +371,15 @@ std::optional<Shares> ReceiverShares<Space>::find(Workspace& workspace,
   all_penumbra_ = false;
   masked_ = nullptr;
   whole_ = &whole;
+  has_volumes_ = false;
   added_penumbras_.clear();
   added_umbras_.clear();
   // What is behind the light gets nothing, as if it were in every umbra.
   const PlaneRef behind = -light.plane();
   const Relation relation = relate(space, {&behind, 1}, {}, Border::kClosed);
   if (relation == Relation::kOpen) return std::nullopt;
-  if (relation == Relation::kCrossing) {
+  is_partly_behind_ = relation == Relation::kCrossing;
+  if (is_partly_behind_) {
     penumbras_.add(lines_);
     umbras_.add(lines_);
   }

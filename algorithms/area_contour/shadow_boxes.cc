@@ -88,7 +88,8 @@ GNOMON_FOR_AVX2 ShadowBoxes ShadowProjection::boxes(std::span<const Point3> cast
     high_v = own_high_v < high_v ? own_high_v : high_v;
   }
   const double gap = least_of(gaps), largest = most_of(ratios);
-  const ChartBox penumbra{{least_of(least_u), least_of(least_v)}, {most_of(most_u), most_of(most_v)}};
+  const ChartBox penumbra{{least_of(least_u), least_of(least_v)},
+                          {most_of(most_u), most_of(most_v)}};
   const ChartBox umbra{{most_of(low_u), most_of(low_v)}, {least_of(high_u), least_of(high_v)}};
   if (!(gap > kLeastGap)) return result;
   const double error = 4 * error_ * (1 + largest) / gap;

@@ -2,7 +2,6 @@
 #include "algorithms/area_contour/share_classes.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "kernel/signs/ball.h"
 
@@ -17,8 +16,10 @@ std::optional<Interval> covered(const std::optional<UnionShare>& share) {
   if (!share) return Interval{0, 0};
   if (share->hidden) return Interval{1, 1};
   Interval bounds{share->covered - share->error, share->covered + share->error};
-  if (share->some) bounds.lower = std::max(bounds.lower, std::numeric_limits<double>::denorm_min());
-  if (!(share->error < kWidest) || !(bounds.lower > 0) || !(bounds.upper < 1)) return std::nullopt;
+  if (share->some) bounds.lower = std::max(bounds.lower, 0.0);
+  if (!(share->error < kWidest) || !(bounds.lower > 0 || share->some) || !(bounds.upper < 1)) {
+    return std::nullopt;
+  }
   return bounds;
 }
 
@@ -51,8 +52,23 @@ std::optional<Shares> shares_of(const std::optional<UnionShare>& penumbra, bool 
     shares.penumbra = {1, 1};
     return shares;
   }
-  shares.penumbra = no_umbra ? *dimmed : rest_of(shares.lit, shares.umbra);
+  if (no_umbra) {
+    shares.penumbra = *dimmed;
+    return shares;
+  }
+  shares.penumbra = rest_of(shares.lit, shares.umbra);
   if (!(shares.penumbra.lower > 0)) return std::nullopt;
+  return shares;
+}
+
+std::optional<Shares> shares_of(const UnionShare& behind_light) {
+  const std::optional<Interval> dark = covered(behind_light);
+  if (!dark) return std::nullopt;
+  Shares shares;
+  shares.umbra = *dark;
+  if (dark->lower == 1) return shares;
+  shares.lit = rest_of(*dark, {0, 0});
+  if (!(shares.lit.lower > 0)) return std::nullopt;
   return shares;
 }
 

@@ -20,7 +20,8 @@ struct Shares {
 inline constexpr Shares kAllUmbra{{0, 0}, {0, 0}, {1, 1}};
 
 /// Whether bounds leave open that a union covers nothing. Then, if something is known to be inside
-/// of an outline, UnionShare::some is to be set, and if nothing is inside of any, there is no union.
+/// of an outline, UnionShare::some is to be set, and if nothing is inside of any, there is no
+/// union.
 bool may_be_nothing(const UnionShare& share);
 
 /// `penumbra`, `umbra`: of the unions; none: no volume of the kind reaches the receiver.
@@ -28,6 +29,10 @@ bool may_be_nothing(const UnionShare& share);
 /// share.
 std::optional<Shares> shares_of(const std::optional<UnionShare>& penumbra, bool all_penumbra,
                                 const std::optional<UnionShare>& umbra);
+
+/// The same where nothing but the light's own plane dims the receiver: what is behind it is umbra,
+/// and there is no penumbra.
+std::optional<Shares> shares_of(const UnionShare& behind_light);
 
 }  // namespace gnomon::area_contour
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "algorithms/area_contour/volume_search.h"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -43,22 +45,27 @@ std::uint64_t bits_of(const FloatBits& lanes) {
 }  // namespace
 
 /// By the Morton codes of their boxes' middles.
-void sort_by_space(const CasterTree& tree, std::vector<std::uint32_t>& parts) {
-  constexpr std::size_t kFirst = 64;
-  if (parts.size() <= kFirst) return;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> codes;
-  codes.reserve(parts.size() - kFirst);
-  for (std::size_t i = kFirst; i < parts.size(); ++i) {
-    const Box& box = tree.box(parts[i]);
-    std::uint32_t code = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double middle = (box.low[k] + box.high[k]) / 2;
-      code |= spread(static_cast<std::uint32_t>(std::clamp(middle, 0.0, 1.0) * 1023)) << k;
+void sort_by_space(const CasterTree& tree, std::span<std::uint32_t> parts, unsigned jobs) {
+  constexpr std::uint32_t kGrain = 2048;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> codes(parts.size());
+  const auto size = static_cast<std::uint32_t>(parts.size());
+  in_parallel(jobs, size, kGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const Box& box = tree.box(parts[i]);
+      std::uint32_t code = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double middle = (box.low[k] + box.high[k]) / 2;
+        code |= spread(static_cast<std::uint32_t>(std::clamp(middle, 0.0, 1.0) * 1023)) << k;
+      }
+      codes[i] = {code, parts[i]};
     }
-    codes.emplace_back(code, parts[i]);
+  });
+  if (jobs == 1) {
+    std::ranges::sort(codes);
+  } else {
+    tbb::parallel_sort(codes.begin(), codes.end());
   }
-  std::ranges::sort(codes);
-  for (std::size_t i = 0; i < codes.size(); ++i) parts[kFirst + i] = codes[i].second;
+  for (std::size_t i = 0; i < codes.size(); ++i) parts[i] = codes[i].second;
 }
 
 LightVolumes::LightVolumes(std::vector<Box> boxes, const Box& light,
@@ -201,9 +208,8 @@ const UmbraReach& VolumeSearch::reach() {
 /// A shell of which the receiver is a face is behind it, and a part's own umbra is its volume's
 /// only one.
 bool VolumeSearch::is_own(const SearchedVolume& volume) const {
-  return volume.caster == receiver_->behind ||
-         (volume.umbras_end - volume.umbras_begin == 1 &&
-          is_own(light_->umbras_[volume.umbras_begin]));
+  return volume.caster == receiver_->behind || (volume.umbras_end - volume.umbras_begin == 1 &&
+                                                is_own(light_->umbras_[volume.umbras_begin]));
 }
 
 bool VolumeSearch::is_inside(const SearchedUmbra& umbra) const {
@@ -404,9 +410,7 @@ bool VolumeSearch::begin_cut(const LightVolumes& light, const SearchedReceiver& 
   return false;
 }
 
-bool VolumeSearch::find_blocking() {
-  return try_blocking();
-}
+bool VolumeSearch::find_blocking() { return try_blocking(); }
 
 bool VolumeSearch::find_others(bool all_penumbra) {
   found_.clear();

@@ -113,8 +113,8 @@ struct SearchedReceiver {
   std::vector<Point3> corners;
 };
 
-/// Which planes of a volume may have corners of a receiver behind or on them: bit i for plane i, and
-/// the last one for all that follow, too.
+/// Which planes of a volume may have corners of a receiver behind or on them: bit i for plane i,
+/// and the last one for all that follow, too.
 struct OpenPlanes {
   std::uint64_t bits = ~std::uint64_t{0};
   static constexpr std::size_t kMost = 63;
@@ -134,9 +134,11 @@ struct CutLight {
   std::vector<Point3> corners;  // to within UmbraReach::kMargin; none: not known so well
 };
 
-/// Sorts parts, but for the first few, so that neighbours in space follow one another: what holds
-/// one receiver is likely to hold the next, and lies in the caches.
-void sort_by_space(const CasterTree& tree, std::vector<std::uint32_t>& parts);
+/// So many of the largest receivers come before all others: what is started last is waited for.
+inline constexpr std::size_t kLargestFirst = 64;
+/// Sorts parts so that neighbours in space follow one another: what holds one receiver is likely to
+/// hold the next, and lies in the caches. `jobs`: as LightVolumes::finish() has it.
+void sort_by_space(const CasterTree& tree, std::span<std::uint32_t> parts, unsigned jobs);
 
 /// Of one thread and one light.
 class VolumeSearch {

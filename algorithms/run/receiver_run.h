@@ -17,9 +17,11 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "algorithms/area_contour/light_volumes.h"
 #include "algorithms/area_contour/receiver_shares.h"
 #include "algorithms/partition/fragment_sink.h"
 #include "algorithms/partition/rules.h"
@@ -102,7 +104,7 @@ class ReceiverRun {
     // Larger ones have so many planes that their faces are sooner told apart.
     constexpr std::uint32_t kMostFaces = 128;
     shells_.of_part.assign(scene_.parts.size(), ShellCasters::kNone);
-    for (ConvexShell& shell : find_convex_shells(scene_, kMostFaces)) {
+    for (ConvexShell& shell : find_convex_shells(scene_, kMostFaces, jobs())) {
       const auto casts = [&](std::uint32_t part) { return scene_.parts[part].casts; };
       if (!std::ranges::all_of(shell.parts, casts)) continue;
       for (const std::uint32_t part : shell.parts) {
@@ -459,9 +461,15 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
     const Box& box = tree_.box(i);
     for (std::size_t k = 0; k < 3; ++k) size[i] += box.high[k] - box.low[k];
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return size[a] > size[b]; });
-  if (by_contour(light)) area_contour::sort_by_space(tree_, order);
+  const auto largest_first = [&](std::uint32_t i) { return std::pair(-size[i], i); };
+  if (by_contour(light)) {
+    const std::size_t few = std::min(order.size(), area_contour::kLargestFirst);
+    std::ranges::partial_sort(order, order.begin() + static_cast<std::ptrdiff_t>(few), {},
+                              largest_first);
+    area_contour::sort_by_space(tree_, std::span(order).subspan(few), jobs());
+  } else {
+    std::ranges::sort(order, {}, largest_first);
+  }
   std::atomic<std::uint64_t> cells = 0, vanished = 0, open = 0;
   for_each(order.size(), from, to, [&](Workspace& workspace, std::size_t i) {
     const std::uint64_t cells_before = workspace.cutter.cells(),

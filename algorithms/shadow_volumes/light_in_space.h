@@ -12,12 +12,14 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "algorithms/partition/import_export.h"
+#include "algorithms/partition/in_parallel.h"
 #include "algorithms/partition/loop_store.h"
 #include "algorithms/partition/piece_class.h"
 #include "algorithms/partition/rules.h"
@@ -182,7 +184,7 @@ class LightInSpace {
   std::uint32_t shell_of(std::uint32_t part) const {
     if (casts_as_one_.empty()) return ShellCasters::kNone;
     const std::uint32_t shell = shells_->of_part[part];
-    if (shell == ShellCasters::kNone || !casts_as_one_[shell]) return ShellCasters::kNone;
+    if (shell == ShellCasters::kNone || casts_as_one_[shell] == 0) return ShellCasters::kNone;
     return static_cast<std::uint32_t>(scene_.parts.size()) + shell;
   }
   LightShape<Vertex> shape() const {
@@ -224,6 +226,7 @@ class LightInSpace {
   static constexpr double kNearestToLight = 1e-12;
 
   void make_volumes(Space& space, unsigned jobs);
+  void find_who_cast_as_one(Space& space, unsigned jobs);
   void make_solid_volumes(Space& space, VolumeBuilder<Space>& builder);
   /// The solid that casts in place of a part; kNone: the part casts.
   std::uint32_t caster_of(std::uint32_t part) const {
@@ -265,22 +268,17 @@ class LightInSpace {
   const SolidCasters* solids_ = nullptr;
   std::vector<std::uint32_t> solid_volumes_;  // by solid; kNone: its parts cast
   const ShellCasters* shells_ = nullptr;
-  std::vector<bool> casts_as_one_;  // by shell; empty: there are none
+  std::vector<char> casts_as_one_;  // by shell, whether it does; empty: there are none
 };
 
 template <VolumeSpaceModel Space>
 void LightInSpace<Space>::make_volumes(Space& space, unsigned jobs) {
   const auto parts = static_cast<std::uint32_t>(scene_.parts.size());
-  if (shells_ != nullptr && has_area()) {
-    ShellBuilder<Space> builder(space);
-    for (const ConvexShell& shell : shells_->shells) {
-      casts_as_one_.push_back(builder.casts_as_one(scene_, shell, shape()));
-    }
-  }
+  if (shells_ != nullptr && has_area()) find_who_cast_as_one(space, jobs);
   const auto casters = parts + static_cast<std::uint32_t>(casts_as_one_.size());
   const auto add = [&](VolumeTools<Space>& tools, std::uint32_t caster, VolumeStore& store) {
     if (caster >= parts) {
-      if (!casts_as_one_[caster - parts]) return;
+      if (casts_as_one_[caster - parts] == 0) return;
       return tools.shells.add(scene_, shells_->shells[caster - parts], caster, shape(), store);
     }
     const Part& part = scene_.parts[caster];
@@ -293,11 +291,29 @@ void LightInSpace<Space>::make_volumes(Space& space, unsigned jobs) {
   VolumesOfCasters made = gnomon::make_volumes(space, rules_, casters, parts, add, jobs);
   store_ = std::move(made.store);
   first_volume_ = std::move(made.first);
-  stages_ = made.stages;
+  stages_ += made.stages;
   if (solids_ != nullptr && !has_area()) {
     VolumeBuilder<Space> builder(space, rules_);
     make_solid_volumes(space, builder);
   }
+}
+
+template <VolumeSpaceModel Space>
+void LightInSpace<Space>::find_who_cast_as_one(Space& space, unsigned jobs) {
+  constexpr std::uint32_t kGrain = 256;
+  const auto shells = static_cast<std::uint32_t>(shells_->shells.size());
+  casts_as_one_.resize(shells);
+  std::mutex mutex;
+  in_parallel(Space::kParallel ? jobs : 1, shells, kGrain,
+              [&](std::uint32_t begin, std::uint32_t end) {
+                Space fork = space.fork();
+                ShellBuilder<Space> builder(fork);
+                for (std::uint32_t i = begin; i < end; ++i) {
+                  casts_as_one_[i] = builder.casts_as_one(scene_, shells_->shells[i], shape());
+                }
+                const std::lock_guard lock(mutex);
+                stages_ += fork.stage_counts();
+              });
 }
 
 /// One volume a solid, besides those of its faces, by which its witnesses are told. Of a light
@@ -523,7 +539,7 @@ void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Sid
                        [&](PlaneRef plane) { return workspace.cutter.is_outside(loop, plane); });
   };
   std::vector<std::uint32_t> added;  // shells
-  bool covered = false;  // by one penumbra: others do not matter any more
+  bool covered = false;              // by one penumbra: others do not matter any more
   // Volumes of the whole light cost nothing more, and the cutter asks them again: only where
   // `may_cover` is likely is it worth to ask here.
   const auto add = [&](std::uint32_t part, bool may_cover) {
@@ -536,8 +552,8 @@ void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Sid
     auto [begin, end] = volumes_of(part);
     if (cut) {
       // What hides nothing of the whole light hides nothing of a part of it.
-      const auto [first, last] = shell == ShellCasters::kNone ? std::pair(begin, end)
-                                                              : volumes_of(shell);
+      const auto [first, last] =
+          shell == ShellCasters::kNone ? std::pair(begin, end) : volumes_of(shell);
       const auto whole = store_.volumes().subspan(first, last - first);
       if (std::all_of(whole.begin(), whole.end(), is_missed)) return;
       begin = static_cast<std::uint32_t>(workspace.own.size());
@@ -549,8 +565,8 @@ void LightInSpace<Space>::prepare(Workspace& workspace, std::uint32_t index, Sid
     const auto push = [&](std::uint32_t volume) {
       workspace.volumes.push_back({volume, umbra});
       const auto penumbra = store.penumbra(store[volume]);
-      covered = covered ||
-                (may_cover && !penumbra.empty() && workspace.cutter.is_inside(loop, penumbra));
+      covered =
+          covered || (may_cover && !penumbra.empty() && workspace.cutter.is_inside(loop, penumbra));
     };
     for (std::uint32_t i = begin; i < end; ++i) push(i);
     if (cut || shell == ShellCasters::kNone || std::ranges::find(added, shell) != added.end()) {

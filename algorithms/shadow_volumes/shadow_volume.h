@@ -42,12 +42,12 @@ namespace gnomon {
 /// Half-spaces are in front of their planes. All lists begin with the caster's own plane, turned so
 /// that what is behind the blocking side is in front of it.
 struct ShadowVolume {
-  std::uint32_t caster = 0;  // part
-  PlaneRef side;             // its blocking side's; none: of a solid
-  std::uint32_t first = 0;   // into VolumeStore::planes: penumbra, then umbra
-  std::uint32_t penumbra_count = 0;  // 0: the light is a point, all of the shadow is "umbra"; or the
-                                     // umbra alone was wanted
-  std::uint32_t umbra_count = 0;     // 0: no umbra
+  std::uint32_t caster = 0;          // part
+  PlaneRef side;                     // its blocking side's; none: of a solid
+  std::uint32_t first = 0;           // into VolumeStore::planes: penumbra, then umbra
+  std::uint32_t penumbra_count = 0;  // 0: the light is a point, all of the shadow is "umbra"; or
+                                     // the umbra alone was wanted
+  std::uint32_t umbra_count = 0;  // 0: no umbra
 };
 
 class VolumeStore {
@@ -114,7 +114,8 @@ class VolumeBuilder {
   explicit VolumeBuilder(Space& space, const Rules& rules = {}) : space_(&space), rules_(rules) {}
 
   /// Adds the volume of one side of a caster, in front of `side`, if it casts anything. `reversed`:
-  /// the loop is clockwise seen from that side. `wanted`: of an area light, perhaps the umbra alone.
+  /// the loop is clockwise seen from that side. `wanted`: of an area light, perhaps the umbra
+  /// alone.
   void add(const Loop& caster, PlaneRef side, bool reversed, const LightShape<Vertex>& light,
            VolumeStore& store, VolumesWanted wanted = VolumesWanted::kBoth) {
     penumbra_.assign(1, -side);

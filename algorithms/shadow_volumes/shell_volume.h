@@ -49,11 +49,11 @@ class ShellBuilder {
     const auto is_in_light_plane = [&](std::uint32_t part) {
       return scene.parts[part].plane == light.plane.index();
     };
-    return std::ranges::any_of(faces_, [](const Face& face) { return face.light == Where::kFront; }) &&
+    return std::ranges::any_of(faces_,
+                               [](const Face& face) { return face.light == Where::kFront; }) &&
            std::ranges::none_of(shell.parts, is_in_light_plane) &&
-           std::ranges::all_of(shell.missing, [&](const SupportTriple& face) {
-             return is_behind(light, face);
-           });
+           std::ranges::all_of(shell.missing,
+                               [&](const SupportTriple& face) { return is_behind(light, face); });
   }
 
   /// Adds the penumbra of a shell that casts as one. `caster`: as ShadowVolume has it.
@@ -66,8 +66,7 @@ class ShellBuilder {
     }
     bool all_in_front = true, any_in_front = false;
     for (std::uint32_t i = 0; i < corners_.size(); ++i) {
-      const bool in_front =
-          space_->side_of_plane(light.plane, corners_.corner(i)) == Side::kFront;
+      const bool in_front = space_->side_of_plane(light.plane, corners_.corner(i)) == Side::kFront;
       all_in_front = all_in_front && in_front;
       any_in_front = any_in_front || in_front;
     }
@@ -167,9 +166,9 @@ class ShellBuilder {
                   const LoopView<Vertex>& light) {
     own_sides_.assign(sides_.begin() + face.first, sides_.begin() + face.first + light.size());
     const std::uint32_t mark = space_->plane_mark();
-    const PlaneRef plane =
-        extreme_plane(*space_, a, b, light, Side::kFront,
-                      [&](std::uint32_t k) { return own_sides_[k] == Side::kFront; });
+    const PlaneRef plane = extreme_plane(*space_, a, b, light, Side::kFront, [&](std::uint32_t k) {
+      return own_sides_[k] == Side::kFront;
+    });
     if (plane.valid() && !any_on_plane(*space_, light, own_sides_, plane, Side::kFront)) {
       planes_.push_back(plane);
     } else {

@@ -129,8 +129,8 @@ void add_light_edges(Space& space, const Corners& caster, const Light& light, bo
     const auto a = light.corner(light.next(i)), b = light.corner(i);
     if (in_front) {
       const std::uint32_t mark = space.plane_mark();
-      const PlaneRef plane = extreme_plane(space, a, b, caster, Side::kFront,
-                                           [](std::uint32_t) { return true; });
+      const PlaneRef plane =
+          extreme_plane(space, a, b, caster, Side::kFront, [](std::uint32_t) { return true; });
       if (plane.valid() && corners_on(space, caster, plane) == 1) {
         found.push_back(-plane);
       } else {

@@ -51,7 +51,8 @@ class VolumePlanes {
 
   /// As TakesPlanes has them.
   void reserve_planes(std::size_t more) {
-    if (own_.size() > 0) explicit_.reserve(explicit_.size() + explicit_.size() * more / own_.size());
+    if (own_.size() > 0)
+      explicit_.reserve(explicit_.size() + explicit_.size() * more / own_.size());
     own_.reserve(own_.size() + more);
   }
   void share_planes() {

@@ -188,10 +188,9 @@ TEST(Components, OfACityAreOpenHousesAndTheGround) {
 std::vector<std::string> shells_of(const Scene& scene, std::uint32_t most = 100) {
   std::vector<std::string> result;
   for (const ConvexShell& shell : find_convex_shells(prepare(scene).value(), most)) {
-    result.push_back(std::to_string(shell.parts.size()) + ' ' +
-                     std::to_string(shell.vertices.size()) + ' ' +
-                     std::to_string(shell.edges.size()) + ' ' +
-                     std::to_string(shell.missing.size()));
+    result.push_back(
+        std::to_string(shell.parts.size()) + ' ' + std::to_string(shell.vertices.size()) + ' ' +
+        std::to_string(shell.edges.size()) + ' ' + std::to_string(shell.missing.size()));
   }
   return result;
 }

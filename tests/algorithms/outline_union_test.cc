@@ -79,9 +79,7 @@ class Lattice final : public ExactLines {
   explicit Lattice(std::vector<Point> receiver) : receiver_(std::move(receiver)) {}
   std::vector<HalfPlane> lines;
 
-  bool is_known_same(const OutlineLine& a, const OutlineLine& b) override {
-    return of(a) == of(b);
-  }
+  bool is_known_same(const OutlineLine& a, const OutlineLine& b) override { return of(a) == of(b); }
   Side side_of_corner(const OutlineLine& line, std::uint32_t corner) override {
     return side(of(line), receiver_[corner]);
   }

@@ -68,8 +68,10 @@ struct ConvexShell {
 /// vertex is behind or on the plane of every part and of every missing face, not all of them on
 /// one.
 ///
-/// Cost: linear, and for each shell vertices times planes.
-std::vector<ConvexShell> find_convex_shells(const PreparedScene& scene, std::uint32_t most_parts);
+/// `jobs` other than 1: on the threads of the arena that the caller is in; they are the same. Cost:
+/// linear, and for each shell vertices times planes.
+std::vector<ConvexShell> find_convex_shells(const PreparedScene& scene, std::uint32_t most_parts,
+                                            unsigned jobs = 1);
 
 /// "edge (x,y,z)-(x,y,z) of polygon P has no partner", with the nearest doubles.
 std::string unpaired_edge_text(const Scene& scene, const PreparedScene& prepared,
