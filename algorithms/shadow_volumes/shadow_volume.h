@@ -47,7 +47,7 @@ struct ShadowVolume {
   std::uint32_t first = 0;           // into VolumeStore::planes: penumbra, then umbra
   std::uint32_t penumbra_count = 0;  // 0: the light is a point, all of the shadow is "umbra"; or
                                      // the umbra alone was wanted
-  std::uint32_t umbra_count = 0;  // 0: no umbra
+  std::uint32_t umbra_count = 0;     // 0: no umbra
 };
 
 class VolumeStore {
