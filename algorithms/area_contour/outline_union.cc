@@ -105,9 +105,11 @@ OutlineUnion::BorderShare OutlineUnion::share_of_border(const OutlineLine& line,
   const double here = distance(corner), both = here + distance(next);
   const double radius = 4 * (line.error + 2 * receiver.error + slack_) / both;
   if (radius < kKnownShare) return {here / both, radius + 8 * Ball::kUnit};
-  // Two sums and a quotient of numbers that are off by 4u: below 16u.
+  // Two sums and a quotient of numbers that are off by 4u: below 16u, unless they underflow.
   const double exact = exact_->distance_of(line, corner);
-  return {exact / (exact + exact_->distance_of(line, next)), 16 * Ball::kUnit};
+  const double sum = exact + exact_->distance_of(line, next);
+  if (!(sum > 0x1p-900)) return {0.5, 0.5};
+  return {exact / sum, 16 * Ball::kUnit};
 }
 
 /// Along the longest edge of the receiver, from the middle of its heights.
