@@ -43,8 +43,7 @@ class GroupShaft {
 
   /// The lanes of a group that it may meet.
   unsigned may_meet(const BoxGroup& group) const {
-    constexpr FloatBits kLanes = {0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80};
-    FloatBits meets = kLanes;
+    FloatBits meets = {-1, -1, -1, -1, -1, -1, -1, -1};
     for (std::size_t k = 0; k < 3; ++k) {
       meets &= (row(group.low[k]) <= high_[k]) & (row(group.high[k]) >= low_[k]);
     }
@@ -56,9 +55,7 @@ class GroupShaft {
       const Floats& v = row(own.v > 0 ? group.low[next] : group.high[next]);
       meets &= own.u * u + own.v * v <= own.d;
     }
-    const Bits& pairs = reinterpret_cast<const Bits&>(meets);
-    const long both = pairs[0] | pairs[1] | pairs[2] | pairs[3];
-    return static_cast<unsigned>(both | both >> 32) & 255;
+    return lanes_of(meets);
   }
 
  private:

@@ -3,6 +3,8 @@
 #ifndef GNOMON_ALGORITHMS_AREA_CONTOUR_FOUR_DOUBLES_H
 #define GNOMON_ALGORITHMS_AREA_CONTOUR_FOUR_DOUBLES_H
 
+#include <algorithm>
+
 namespace gnomon::area_contour {
 
 // Never passed by value, since below AVX it is not settled how.
@@ -17,6 +19,22 @@ inline bool all(const Bits& bits) { return (bits[0] & bits[1] & bits[2] & bits[3
 /// A bit for each of four.
 inline unsigned lanes_of(const Bits& bits) {
   return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
+}
+
+/// A bit for each of eight that are all bits.
+inline unsigned lanes_of(const FloatBits& bits) {
+  constexpr FloatBits kLanes = {0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80};
+  const FloatBits own = bits & kLanes;
+  const Bits& pairs = reinterpret_cast<const Bits&>(own);
+  const long both = pairs[0] | pairs[1] | pairs[2] | pairs[3];
+  return static_cast<unsigned>(both | both >> 32) & 255;
+}
+
+inline double least_of(const Doubles& x) {
+  return std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
+}
+inline double most_of(const Doubles& x) {
+  return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
 }
 
 inline const Doubles& row(const double* values) {

@@ -214,7 +214,6 @@ bool OutlineUnion::hides_or_note(const Edge& edge, std::uint32_t other, const Op
 /// has corners on both sides of its line. Values there are sums of three numbers below 8 reach, off
 /// by less than 2^-19 of that.
 GNOMON_FOR_AVX2 void OutlineUnion::add_edge(const Edge& edge) {
-  constexpr FloatBits kLanes = {0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80};
   const EdgeLanes lanes(edge, slack_);
   covers_.clear();
   if (hides(edge, lanes, last_hider_)) return;
@@ -231,10 +230,8 @@ GNOMON_FOR_AVX2 void OutlineUnion::add_edge(const Edge& edge) {
     const Floats most = a * row(block.x[1 - right_x]) + b * row(block.y[1 - right_y]) + high_c;
     const FloatBits meets = (row(block.x[0]) <= box.high[0]) & (row(block.x[1]) >= box.low[0]) &
                             (row(block.y[0]) <= box.high[1]) & (row(block.y[1]) >= box.low[1]) &
-                            (least <= 0) & (most >= 0) & kLanes;
-    const Bits pairs = reinterpret_cast<const Bits&>(meets);
-    const long both = pairs[0] | pairs[1] | pairs[2] | pairs[3];
-    for (auto left = static_cast<unsigned>(both | both >> 32) & 255; left != 0; left &= left - 1) {
+                            (least <= 0) & (most >= 0);
+    for (unsigned left = lanes_of(meets); left != 0; left &= left - 1) {
       if (hides(edge, lanes, block.outline[std::countr_zero(left)])) return;
     }
   }

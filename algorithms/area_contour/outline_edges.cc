@@ -336,10 +336,10 @@ GNOMON_FOR_AVX2 bool OutlineUnion::find_edges(Outline& outline, std::uint32_t co
   // Where no block is spared it would cost more, but for lines that are others, too.
   const bool is_worth = (edges + 3) / 4 < outline.end - outline.first || !twins_.empty();
   if (is_worth && any(has_certain)) drop_lines(outline, count);
-  low[0] = std::min(std::min(low_x[0], low_x[1]), std::min(low_x[2], low_x[3]));
-  low[1] = std::min(std::min(low_y[0], low_y[1]), std::min(low_y[2], low_y[3]));
-  high[0] = std::max(std::max(high_x[0], high_x[1]), std::max(high_x[2], high_x[3]));
-  high[1] = std::max(std::max(high_y[0], high_y[1]), std::max(high_y[2], high_y[3]));
+  low[0] = least_of(low_x);
+  low[1] = least_of(low_y);
+  high[0] = most_of(high_x);
+  high[1] = most_of(high_y);
   return edges != 0;
 }
 

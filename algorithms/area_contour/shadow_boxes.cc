@@ -13,9 +13,6 @@ namespace {
 /// worse, are not asked.
 constexpr double kLeastGap = 0x1p-16, kMostWidth = 0x1p-24;
 
-double least_of(const Doubles& x) { return std::min(std::min(x[0], x[1]), std::min(x[2], x[3])); }
-double most_of(const Doubles& x) { return std::max(std::max(x[0], x[1]), std::max(x[2], x[3])); }
-
 }  // namespace
 
 void ShadowProjection::begin(const ReceiverChart& receiver, const Point3& n, double d, double error,

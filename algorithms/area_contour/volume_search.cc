@@ -33,15 +33,6 @@ std::uint32_t blocks_of(std::size_t planes) {
   return static_cast<std::uint32_t>((planes + PlaneBlock::kSize - 1) / PlaneBlock::kSize);
 }
 
-/// A bit for each lane that is set.
-std::uint64_t bits_of(const FloatBits& lanes) {
-  constexpr FloatBits kLanes = {0x1, 0x2, 0x4, 0x8, 0x10, 0x20, 0x40, 0x80};
-  const FloatBits own = lanes & kLanes;
-  const Bits& pairs = reinterpret_cast<const Bits&>(own);
-  const long both = pairs[0] | pairs[1] | pairs[2] | pairs[3];
-  return static_cast<std::uint64_t>(both | both >> 32) & 255;
-}
-
 }  // namespace
 
 /// By the Morton codes of their boxes' middles.
@@ -167,7 +158,7 @@ GNOMON_FOR_AVX2 bool VolumeSearch::misses_box(std::span<const PlaneBlock> planes
                          (x > 0 ? x : -x) * half_[0] + (y > 0 ? y : -y) * half_[1] +
                          (z > 0 ? z : -z) * half_[2];
     // The box has been computed, too.
-    if (bits_of(value < -2 * bound) != 0) return true;
+    if (lanes_of(value < -2 * bound) != 0) return true;
   }
   return false;
 }
@@ -185,8 +176,8 @@ GNOMON_FOR_AVX2 VolumeSearch::Relation VolumeSearch::relate(std::span<const Plan
       least = value < least ? value : least;
       most = value > most ? value : most;
     }
-    if (bits_of(most < -bound) != 0) return Relation::kOutside;
-    const std::uint64_t own = bits_of(least <= bound);
+    if (lanes_of(most < -bound) != 0) return Relation::kOutside;
+    const std::uint64_t own = lanes_of(least <= bound);
     if (first + PlaneBlock::kSize <= OpenPlanes::kMost) {
       open.bits |= own << first;
       first += PlaneBlock::kSize;
@@ -321,12 +312,7 @@ bool VolumeSearch::test_cut(std::uint32_t place) {
   };
   if (all_penumbra_ && std::ranges::none_of(umbras, may_reach)) return false;
   if (relate(planes_of(volume)) == Relation::kOutside) return false;
-  for (const SearchedUmbra& umbra : umbras) {
-    if (umbra.blocks != 0 && !misses_box(planes_of(umbra)) && is_inside(umbra)) {
-      umbra_hints_.add(place);
-      return true;
-    }
-  }
+  if (try_umbras(place)) return true;
   if (std::ranges::find(blocking_, place) != blocking_.end()) return false;
   const std::size_t before = found_.size();
   found_.push_back({volume.number, volume.caster, true, false, {}, {}});
@@ -400,10 +386,9 @@ bool VolumeSearch::begin_cut(const LightVolumes& light, const SearchedReceiver& 
   begin(light, receiver, &cut);
   blocking_.clear();
   for (std::size_t i = 0; i < umbra_hints_.count; ++i) {
-    const SearchedVolume& volume = light.volumes_[umbra_hints_.places[i]];
-    if (!is_own(volume) && relate(planes_of(volume)) != Relation::kOutside &&
-        std::ranges::any_of(light.umbras_of(volume),
-                            [&](const SearchedUmbra& umbra) { return is_inside(umbra); })) {
+    const std::uint32_t place = umbra_hints_.places[i];
+    const SearchedVolume& volume = light.volumes_[place];
+    if (!is_own(volume) && relate(planes_of(volume)) != Relation::kOutside && try_umbras(place)) {
       return true;
     }
   }
