@@ -52,9 +52,7 @@ std::optional<Shares> shares_of(const std::optional<UnionShare>& penumbra, bool 
     shares.penumbra = {1, 1};
     return shares;
   }
-  // Smaller ones are left to exact cuts.
-  constexpr double kLeastPenumbra = 0x1p-60;
-  if (no_umbra && dimmed->lower > kLeastPenumbra) {
+  if (no_umbra) {
     shares.penumbra = *dimmed;
     return shares;
   }

@@ -6,6 +6,7 @@
 
 #include "gnomon/kernel/precision_plan.h"
 #include "kernel/implicit/exact_geometry.h"
+#include "kernel/implicit/scaled_doubles.h"
 
 namespace gnomon {
 
@@ -42,11 +43,35 @@ double ExactValues::line(VertexId a, VertexId b, VertexId v) const {
 
 namespace {
 
+/// An integer is the value times 2^shift, so that the value is no more than pairs of doubles hold.
+struct ScaledPair {
+  DoubleDouble value;
+  long shift = 0;
+};
+template <class Int>
+ScaledPair scaled_pair(const Int& value) {
+  return {double_double(value)};
+}
+template <std::size_t Limbs>
+ScaledPair scaled_pair(const WideInteger<Limbs>& value) {
+  constexpr int kShift = Limbs > 14 ? 512 : 0;
+  return {double_double(value, kShift), kShift};
+}
+template <>
+ScaledPair scaled_pair(const mpz_class& value) {
+  const long shift = std::max(0L, long{bits_of(value)} - 900);
+  return {double_double(mpz_class(value >> static_cast<unsigned>(shift))), shift};
+}
+
 /// The zero between two values; nothing if they have one sign.
 template <class Int>
 std::optional<DoubleDouble> zero_of(const Int& at_from, const Int& at_to) {
   if (sign_of(at_from) == sign_of(at_to)) return std::nullopt;
-  return double_double(at_from) / double_double(Int(at_from - at_to));
+  const ScaledPair from = scaled_pair(at_from), gap = scaled_pair(Int(at_from - at_to));
+  const DoubleDouble zero = from.value / gap.value;
+  const int power = static_cast<int>(from.shift - gap.shift);
+  if (power == 0) return zero;
+  return DoubleDouble{std::ldexp(zero.high, power), std::ldexp(zero.low, power)};
 }
 
 }  // namespace
@@ -78,9 +103,10 @@ double ExactValues::depth(PlaneId plane, VertexId v) const {
         const Vector3<Normal> n = exact.template normal<Normal>(plane);
         const Vector3<Position> l = light_.position<Position>();
         const Vector3<Position> corner = exact.position(light_.geometry->planes[plane].a);
-        const long shift = 2 * static_cast<long>(b) + static_cast<long>(light_.q_bits);
+        const Int height = dot<Int>(n, difference(l, corner));
+        const long shift = excess_bits(height);
         return to_double_scaled(dot<Int>(n, difference(l, exact.position(v))), shift) /
-               to_double_scaled(dot<Int>(n, difference(l, corner)), shift);
+               to_double_scaled(height, shift);
       });
 }
 

@@ -127,7 +127,7 @@ double LightRays<Numbers>::sharp_value(VertexId a, VertexId b, VertexId v, doubl
     if (error <= most * std::fabs(value)) return value;
   }
   const double value = exact->line(a, b, v);
-  error = ExactValues::kLine * std::fabs(value);
+  error = ExactValues::kLine * std::fabs(value) + Ball::kTiny;  // it may have underflowed
   return value;
 }
 
@@ -247,25 +247,30 @@ void fill_certified(const LightIntegers& light, unsigned jobs,
   const Geometry& geometry = *light.geometry;
   const bool directional = light.light.directional;
   const unsigned bits = ray_bits(light);
-  const auto scaled = [&, scale = std::ldexp(1.0, -static_cast<int>(bits))](const Int& x) {
+  // Wide integers are scaled at once: what is small could underflow on the way.
+  struct Scale {
+    long shift = 0;
+    double factor = std::ldexp(1.0, static_cast<int>(-shift));
+  };
+  const Scale scale{long{bits}};
+  const Scale third_scale{long{bits} - (light.is_parallel() ? long{light.grid_bits()} : 0)};
+  const auto scaled = [](const Int& x, const Scale& by) {
     if constexpr (std::is_same_v<Int, std::int64_t> || std::is_same_v<Int, Int128>) {
-      return static_cast<double>(x) * scale;
+      return static_cast<double>(x) * by.factor;
     } else {
-      return to_double_scaled(x, static_cast<long>(bits));
+      return to_double_scaled(x, by.shift);
     }
   };
-  const double stretch = light.far ? std::ldexp(1.0, static_cast<int>(light.grid_bits())) : 1;
   const auto ray = [&](VertexId v) { return light.far ? light.far_ray<Int>(v) : light.q<Int>(v); };
   double third = 0;
   if (directional) {
-    third =
-        to_double_scaled(light.position<Int>()[light.axes.z],
-                         static_cast<long>(light.q_bits) - static_cast<long>(light.grid_bits()));
+    third = to_double_scaled(light.position<Int>()[light.axes.z], third_scale.shift);
   }
   in_parallel(jobs, size_of(result.rays), kRayGrain, [&](std::uint32_t begin, std::uint32_t end) {
     for (VertexId v = begin; v < end; ++v) {
       const Vector3<Int> q = ray(v);
-      result.rays[v] = {scaled(q[0]), scaled(q[1]), directional ? third : stretch * scaled(q[2])};
+      result.rays[v] = {scaled(q[0], scale), scaled(q[1], scale),
+                        directional ? third : scaled(q[2], third_scale)};
     }
   });
   // Rays of at most 52 bits are exactly their doubles, and so are the differences of two.
@@ -286,8 +291,9 @@ void fill_certified(const LightIntegers& light, unsigned jobs,
                     d = difference_of(result.rays[to], a);
                   } else {
                     const Vector3<Int> difference = gnomon::difference(ray(to), ray(from));
-                    for (int k = 0; k < (directional ? 2 : 3); ++k) d[k] = scaled(difference[k]);
-                    d[2] *= stretch;
+                    d[0] = scaled(difference[0], scale);
+                    d[1] = scaled(difference[1], scale);
+                    if (!directional) d[2] = scaled(difference[2], third_scale);
                   }
                   result.lines[e] = cross_product(a, d);
                   result.line_error[e] = ContourBounds::kLine * largest(a) * largest(d);

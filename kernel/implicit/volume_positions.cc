@@ -2,6 +2,7 @@
 // Positions of corners of volume space, from doubles, integers, pairs of doubles and rationals.
 #include "kernel/implicit/volume_positions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <type_traits>
@@ -76,7 +77,8 @@ std::array<Ball, 3> VolumePositions::edge_offset(VertexId origin,
                                                  const Corner<Vertex>& corner) const {
   const EdgePoint at = edge_point(corner);
   const double at_a = accurate_value(*at.cut, at.ends.a), at_b = accurate_value(*at.cut, at.ends.b);
-  if (!(std::fabs(at_a) + std::fabs(at_b) > 0x1p-900)) return exact_offset(origin, corner);
+  // The parameter is as exact as the smaller value, which may have underflowed alone.
+  if (!(std::min(std::fabs(at_a), std::fabs(at_b)) > 0x1p-900)) return exact_offset(origin, corner);
   const double t = at_a / (at_a - at_b);
   const Ball parameter(t, VolumeBounds::kParameter * std::fabs(t) + Ball::kTiny);
   const std::array<Ball, 3> from = input_offset(origin, at.ends.a),

@@ -101,9 +101,9 @@ inline DoubleDouble double_double(const mpz_class& value) {
   const mpz_class rest = value - mpz_class(high);
   return quick_two_sum(high, rest.get_d());
 }
-/// Its leading 125 bits: relative error at most 2^-104. Infinite beyond 2^900.
+/// Times 2^-scale_down, the leading 125 bits: relative error at most 2^-104. Infinite beyond 2^900.
 template <std::size_t Limbs>
-DoubleDouble double_double(const WideInteger<Limbs>& value) {
+DoubleDouble double_double(const WideInteger<Limbs>& value, int scale_down = 0) {
   const WideInteger<Limbs> magnitude = value.is_negative() ? -value : value;
   std::size_t top = Limbs - 1;
   while (top > 0 && magnitude.limb(top) == 0) --top;
@@ -116,7 +116,7 @@ DoubleDouble double_double(const WideInteger<Limbs>& value) {
     return shift == 0 ? here : here | next >> (64 - shift);
   };
   const UInt128 bits = UInt128{leading(0)} << 64 | leading(1);
-  const int exponent = 64 * (static_cast<int>(top) - 1) - shift + 3;
+  const int exponent = 64 * (static_cast<int>(top) - 1) - shift + 3 - scale_down;
   if (exponent > 770) return {std::numeric_limits<double>::infinity(), 0};
   DoubleDouble result = double_double(static_cast<Int128>(bits >> 3));
   if (value.is_negative()) result = {-result.high, -result.low};

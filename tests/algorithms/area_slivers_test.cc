@@ -106,5 +106,23 @@ TEST(AreaSlivers, OfALatticeThatIsNotQuiteOne) {
   EXPECT_LT(open * 2, sides);
 }
 
+/// Of a cut edge one end is so near to the cutting plane that its value underflows, and the other
+/// is far from it: the areas are small, and certain none the less.
+TEST(AreaSlivers, OfAnEdgeThatBeginsAtThePlaneThatCutsIt) {
+  const double small = 3.7654997892232564e-183, large = 2.4242905543444787e127;
+  const auto tall = Case::make(scene_of(
+      {{{3, 0, 0}, {1, 1, small}, {0, large, 0}}, {{1, 1, small}, {1, 0, 0}, {0, large, 0}}},
+      {{0, 0, 0}, {1, 0, 1}, {0, -1, 0}}));
+  ASSERT_TRUE(tall);
+  EXPECT_EQ(check_area_exact(*tall), "");
+  const auto low =
+      Case::make(scene_of({{{-1, 0, 0}, {0, 1, 1}, {-1, 1, 0}},
+                           {{0x1p-46, 0, 1}, {-1, 0, 1}, {-1, 1, 0}},
+                           {{-1, 0, 2.781342323134e-309}, {-1, 1, 0}, {0x1p-46, 0, 1}}},
+                          {{0, 1, 0}, {-4, 0, 0}, {0, 0, 0}}));
+  ASSERT_TRUE(low);
+  EXPECT_EQ(check_area_exact(*low), "");
+}
+
 }  // namespace
 }  // namespace gnomon::test

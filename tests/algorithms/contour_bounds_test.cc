@@ -130,7 +130,7 @@ struct BothRays {
       double error;
       const double sharp = rays.sharp_value(a, b, v, most, error);
       ASSERT_LE(abs(truth - mpq_class(sharp)), mpq_class(error));
-      ASSERT_LE(error, std::max(most, ExactValues::kLine) * std::fabs(sharp));
+      ASSERT_LE(error, std::max(most, ExactValues::kLine) * std::fabs(sharp) + Ball::kTiny);
     }
     ASSERT_LE(abs(truth - mpq_class(rays.exact->line(a, b, v))),
               mpq_class(ExactValues::kLine) * abs(truth));
@@ -165,10 +165,17 @@ struct BothRays {
 /// `kFar`: as many times the scene's size away as `far_bits` says, in any direction.
 enum class Kind { kLamp, kSun, kFar };
 
+/// Instead of bits: coordinates of 53 bits and any size down to 2^-260 of the largest.
+constexpr int kMixed = 130;
+
 /// Triangles of random corners with so many bits, and a light: a lamp or a sun of as many.
 PreparedScene random_scene(Random& random, int bits, Kind kind, int far_bits) {
   Scene scene;
   const auto coordinate = [&] {
+    if (bits == kMixed) {
+      const int exponent = static_cast<int>(random.below(2 * kMixed)) - kMixed;
+      return Number(std::ldexp(0.5 + unit(random) / 2, exponent));
+    }
     const auto value = static_cast<double>(random.below(std::uint64_t{1} << bits));
     return Number(value);
   };
@@ -191,7 +198,8 @@ PreparedScene random_scene(Random& random, int bits, Kind kind, int far_bits) {
       double x = std::ldexp(0.5 + unit(random) / 2, bits + far_bits);
       if (k != largest && random.below(2) == 0) x = std::ldexp(unit(random), bits);
       if (k != largest && random.below(4) == 0) x = 0;
-      light.position[k] = Number(std::round(random.below(2) == 0 ? -x : x));
+      if (bits != kMixed) x = std::round(x);
+      light.position[k] = Number(random.below(2) == 0 ? -x : x);
     }
   }
   scene.lights.push_back(light);
@@ -204,6 +212,7 @@ TEST_P(ContourBoundsTest, HoldLinesAndDepths) {
   const auto [bits, kind] = GetParam();
   const bool sun = kind != Kind::kLamp;
   Random random(static_cast<std::uint64_t>(bits) * 2 + static_cast<std::uint64_t>(kind));
+  constexpr double kUnderflow = 0x1p-900;  // FacingPolygons adds it
   double closest = 0, closest_plane = 0;
   for (int round = 0; round < 20; ++round) {
     constexpr std::array kFarBits = {14, 30, 50, 51, 52, 80, 500};
@@ -221,8 +230,8 @@ TEST_P(ContourBoundsTest, HoldLinesAndDepths) {
         const double bound = rays.line_error[edge] * reach;
         const mpq_class off = abs(exact_dot(line, both.exact[v]) -
                                   mpq_class(dot_product(rays.lines[edge], rays.rays[v])));
-        ASSERT_LE(off, mpq_class(bound)) << edge << ' ' << v;
-        closest = std::max(closest, off.get_d() / bound);
+        ASSERT_LE(off, mpq_class(bound + kUnderflow)) << edge << ' ' << v;
+        closest = std::max(closest, off.get_d() / (bound + kUnderflow));
         // What no product or sum can have rounded is exact.
         if (rays.proven(bound) == 0) {
           ASSERT_EQ(off, 0) << edge << ' ' << v;
@@ -235,7 +244,8 @@ TEST_P(ContourBoundsTest, HoldLinesAndDepths) {
       }
     }
     for (PlaneId id = 0; id < scene.geometry.planes.size(); ++id) {
-      if (both.space.light_side(id) == Sign::kZero) continue;
+      if (both.space.light_side(id) == Sign::kZero || !std::isfinite(rays.depth_error[id]))
+        continue;
       const Exact3 depth = both.exact_depth(scene.geometry, id);
       for (VertexId v = 0; v < rays.rays.size(); ++v) {
         const double reach = rays.reach > 0 ? rays.reach : largest(rays.rays[v]);
@@ -265,13 +275,13 @@ TEST_P(ContourBoundsTest, HoldLinesAndDepths) {
     EXPECT_GT(closest, sun ? 0.002 : 0.01);
   }
   // Lamps have planes where their rays are no doubles.
-  if (bits > 52 || (sun && bits > 20)) {
+  if (bits != kMixed && (bits > 52 || (sun && bits > 20))) {
     EXPECT_GT(closest_plane, 0.1);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(BitsAndLights, ContourBoundsTest,
-                         testing::Combine(testing::Values(4, 20, 40, 52, 61),
+                         testing::Combine(testing::Values(4, 20, 40, 52, 61, kMixed),
                                           testing::Values(Kind::kLamp, Kind::kSun, Kind::kFar)));
 
 TEST(ZeroBetween, IsOffByLessThanItsError) {

@@ -111,5 +111,41 @@ TEST(FarLamps, LeaveTheGridToTheVertices) {
   }
 }
 
+/// A polygon all but edge-on, and so much smaller than the scene that the third component of the
+/// difference of two rays underflows unless it is scaled at once.
+TEST(FarLamps, SeeSmallPolygonsOfLargeScenes) {
+  Scene scene;
+  const double wide = 1.2407335761280267e67, thin = 1.349401336733507e-79;
+  const auto put = [&](double x, double y, double z) {
+    scene.vertices.push_back({Number(x), Number(y), Number(z)});
+  };
+  put(-wide, 0, 0);
+  put(0, 0, 0);
+  put(0, 0, 1);
+  put(0, thin, 1);
+  put(-9.263367138985296e77, 0, -1.8092513943330656e75);
+  for (const std::vector<VertexId>& loop :
+       {std::vector<VertexId>{0, 1, 3}, std::vector<VertexId>{0, 2, 3},
+        std::vector<VertexId>{0, 4, 1}}) {
+    Polygon& polygon = scene.polygons.emplace_back();
+    polygon.id = std::to_string(scene.polygons.size());
+    polygon.loop = loop;
+    polygon.two_sided = true;
+  }
+  Light& lamp = scene.lights.emplace_back();
+  lamp.id = "lamp";
+  lamp.type = LightType::kPoint;
+  lamp.position = {Number(0.0), Number(1.8432038655162537e87), Number(0.0)};
+  const PreparedScene prepared = prepare(scene).value();
+  const ShadowResult contour = shadows_of(prepared, MethodId::kContour, KernelId::kPlane);
+  const ShadowResult sectors = shadows_of(prepared, MethodId::kSectors, KernelId::kRational, true);
+  for (std::size_t i = 0; i < prepared.parts.size(); ++i) {
+    const Interval& lit = contour.lights[0].parts[i].lit;
+    const mpq_class& exact = sectors.lights[0].exact_fractions[i].lit;
+    EXPECT_LE(mpq_class(lit.lower), exact) << i;
+    EXPECT_GE(mpq_class(lit.upper), exact) << i;
+  }
+}
+
 }  // namespace
 }  // namespace gnomon::test
