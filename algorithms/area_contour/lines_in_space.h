@@ -9,16 +9,58 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <unordered_map>
 #include <vector>
 
-#include "algorithms/area_contour/outline_union.h"
+#include "algorithms/area_contour/exact_lines.h"
 #include "kernel/concept/kernel_concept.h"
 #include "kernel/implicit/plane_provenance.h"
+#include "kernel/numbers/double_double.h"
 
 namespace gnomon::area_contour {
+
+/// Values of planes at the corners of one receiver, those of a plane found at once. Of a receiver
+/// with very many lines they are forgotten now and then, rather than that memory grows.
+class CornerValues {
+ public:
+  template <class Vertex>
+  void begin(const std::vector<Corner<Vertex>>& corners) {
+    vertices_.clear();
+    for (const Corner<Vertex>& corner : corners) vertices_.push_back(corner.vertex.source);
+    forget();
+  }
+  template <class Space>
+  const DoubleDouble& at(const Space& space, std::uint32_t plane, std::uint32_t corner) {
+    if (rows_.size() == kMost && !rows_.contains(plane)) forget();
+    const auto [row, is_new] = rows_.try_emplace(plane, static_cast<std::uint32_t>(values_.size()));
+    if (is_new) {
+      values_.resize(values_.size() + vertices_.size());
+      space.values_at(plane, vertices_, std::span(values_).subspan(row->second));
+    }
+    return values_[row->second + corner];
+  }
+
+ private:
+  static constexpr std::size_t kMost = 4096;  // planes
+
+  void forget() {
+    values_.clear();
+    // To clear a table takes as long as it is large, which few receivers need.
+    constexpr std::size_t kLarge = 256;
+    if (rows_.bucket_count() > kLarge) {
+      rows_ = {};
+    } else if (!rows_.empty()) {
+      rows_.clear();
+    }
+  }
+
+  std::vector<VertexId> vertices_;
+  std::unordered_map<std::uint32_t, std::uint32_t> rows_;  // of planes: where their values begin
+  std::vector<DoubleDouble> values_;
+};
 
 template <VolumeSpaceModel Space>
 class LinesInSpace final : public ExactLines {
@@ -26,10 +68,12 @@ class LinesInSpace final : public ExactLines {
   using Vertex = typename Space::Vertex;
 
   /// `corners`: those of the receiver in the order of its chart, which may be that of `loop`
-  /// reversed. All must outlive it.
+  /// reversed. `values`: to work with. All must outlive it.
   LinesInSpace(Space& space, const LoopView<Vertex>& loop,
-               const std::vector<Corner<Vertex>>& corners, const ReceiverChart& chart)
-      : space_(space), loop_(loop), corners_(corners), chart_(chart) {
+               const std::vector<Corner<Vertex>>& corners, const ReceiverChart& chart,
+               CornerValues& values)
+      : ExactLines(chart), space_(space), loop_(loop), corners_(corners), values_(values) {
+    values_.begin(corners);
     // Doubles that say nothing: the corner is the point.
     nowhere_.bound = std::numeric_limits<float>::infinity();
   }
@@ -37,28 +81,28 @@ class LinesInSpace final : public ExactLines {
   bool is_known_same(const OutlineLine& a, const OutlineLine& b) override {
     return name_of(a.plane) == name_of(b.plane);
   }
-  Side side_of_corner(const OutlineLine& line, std::uint32_t corner) override {
-    return space_.side_of_plane(line.plane, corners_[corner]);
-  }
-  double distance_of(const OutlineLine& line, std::uint32_t corner) override {
-    return std::fabs(space_.value_at(line.plane, corners_[corner].vertex.source));
-  }
   Side side_of_meet(const OutlineLine& line, const OutlineLine& a, const OutlineLine& b) override {
     return space_.side_of_plane(line.plane,
                                 Corner<Vertex>{a.plane, nowhere_, b.plane, loop_.support});
   }
-  Side side_at_border(const OutlineLine& line, const OutlineLine& a,
-                      std::uint32_t corner) override {
+
+ protected:
+  DoubleDouble value_at(const OutlineLine& line, std::uint32_t corner) override {
+    const DoubleDouble& value = values_.at(space_, line.plane.index(), corner);
+    return line.plane.flipped() ? -value : value;
+  }
+  Side exact_side_at_border(const OutlineLine& line, const OutlineLine& a,
+                            std::uint32_t corner) override {
     const auto n = static_cast<std::uint32_t>(corners_.size());
     // Edge i of the loop runs from its corner i to the next one.
-    const std::uint32_t edge = chart_.reversed ? n - 1 - corner : corner;
+    const std::uint32_t edge = chart().reversed ? n - 1 - corner : corner;
     return space_.side_of_plane(
         line.plane, Corner<Vertex>{loop_.edges[edge], nowhere_, a.plane, loop_.support});
   }
-  Ball place_on(const OutlineLine& line, const OutlineLine& by) override {
+  Ball exact_place_on(const OutlineLine& line, const OutlineLine& by) override {
     const Corner<Vertex> corner{line.plane, nowhere_, by.plane, loop_.support};
     const std::array<Ball, 3> point = space_.offset(corners_[0].vertex.source, corner);
-    return Ball(line.b) * point[chart_.u()] - Ball(line.a) * point[chart_.v()];
+    return Ball(line.b) * point[chart().u()] - Ball(line.a) * point[chart().v()];
   }
 
  private:
@@ -78,7 +122,7 @@ class LinesInSpace final : public ExactLines {
   Space& space_;
   LoopView<Vertex> loop_;
   const std::vector<Corner<Vertex>>& corners_;
-  const ReceiverChart& chart_;
+  CornerValues& values_;
   Vertex nowhere_;
 };
 

@@ -87,29 +87,12 @@ struct alignas(32) OutlineUnion::FourStretches {
   }
 }
 
-std::array<Side, 2> ExactLines::sides_at_ends(const OutlineLine& line, const OutlineLine& along,
-                                              std::uint32_t corners) {
-  std::array<Side, 2> sides = {Side::kOn, Side::kOn};
-  // It has its outline on the left, and enters where corners go over to its other side.
-  for (std::uint32_t k = 0; k < corners; ++k) {
-    const std::uint32_t next = k + 1 == corners ? 0 : k + 1, last = k == 0 ? corners - 1 : k - 1;
-    if (!has(along.before | along.behind, k)) {
-      sides[has(along.before, last) ? 0 : 1] = side_of_corner(line, k);
-    } else if (has(along.before, k) && has(along.behind, next)) {
-      sides[0] = side_at_border(line, along, k);
-    } else if (has(along.behind, k) && has(along.before, next)) {
-      sides[1] = side_at_border(line, along, k);
-    }
-  }
-  return sides;
-}
-
 /// By integers. A line that cuts the stretch is added to what trims it.
 OutlineUnion::Near OutlineUnion::resolve(std::uint32_t line, std::uint32_t by,
                                          Trim& trimmed) const {
   const OutlineLine own = line_of(line), other = line_of(by);
   if (exact_->is_known_same(own, other)) return Near::kSame;
-  const auto [low, high] = exact_->sides_at_ends(other, own, receiver_->size());
+  const auto [low, high] = exact_->sides_at_ends(other, own);
   if (low == Side::kOn && high == Side::kOn) return Near::kSame;
   if (low != Side::kBack && high != Side::kBack) return Near::kInside;
   if (low != Side::kFront && high != Side::kFront) return Near::kOutside;

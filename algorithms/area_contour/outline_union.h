@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "algorithms/area_contour/chunked_list.h"
+#include "algorithms/area_contour/exact_lines.h"
 #include "algorithms/area_contour/receiver_chart.h"
 #include "gnomon/kernel/sign.h"
 #include "kernel/signs/ball.h"
@@ -32,34 +33,6 @@ namespace gnomon::area_contour {
 
 /// Of the unit roundings of a computation on an edge, in units of ReceiverChart::reach.
 inline constexpr double kSlack = 0x1p-47;
-
-/// Exact answers about lines of a receiver.
-class ExactLines {
- public:
-  virtual ~ExactLines() = default;
-  /// Whether two lines are known to be one by what they were made from. False: they may be.
-  virtual bool is_known_same(const OutlineLine& a, const OutlineLine& b) = 0;
-  /// On which side of a line is a corner of the receiver.
-  virtual Side side_of_corner(const OutlineLine& line, std::uint32_t corner) = 0;
-  /// On which side of `line` is the point where two others meet. Requires: they cross.
-  virtual Side side_of_meet(const OutlineLine& line, const OutlineLine& a,
-                            const OutlineLine& b) = 0;
-  /// The same for the point where a line meets the receiver's edge that follows that corner.
-  /// Requires: it crosses it.
-  virtual Side side_at_border(const OutlineLine& line, const OutlineLine& a,
-                              std::uint32_t corner) = 0;
-  /// Where another line meets a line, sharply: along the direction (b, -a) of that, as seen from
-  /// the chart's origin. Requires: they cross.
-  virtual Ball place_on(const OutlineLine& line, const OutlineLine& by) = 0;
-
-  /// How far a corner is from a line, in some measure of that line: off by less than 4u of itself.
-  virtual double distance_of(const OutlineLine& line, std::uint32_t corner) = 0;
-
-  /// On which sides of a line are the points in which another one enters and leaves a receiver of
-  /// so many corners. On it are both only if the two are one.
-  std::array<Side, 2> sides_at_ends(const OutlineLine& line, const OutlineLine& along,
-                                    std::uint32_t corners);
-};
 
 struct UnionShare {
   double covered = 0, error = 0;  // of the receiver's area

@@ -88,6 +88,7 @@ class ReceiverShares {
   const ShadowBoxes* masked_ = nullptr;  // of what is being added, if masks are kept
   std::vector<Point3> caster_;
   OutlineUnion penumbras_, umbras_;
+  CornerValues corner_values_;
   const Loop* whole_ = nullptr;
   bool is_partly_behind_ = false;  // the light; the rest of the receiver is not
   bool has_volumes_ = false;       // some volume has been added
@@ -365,7 +366,7 @@ std::optional<Shares> ReceiverShares<Space>::find(Workspace& workspace,
   searched_.support = receiving.index();
   const std::uint32_t shell = light.shell_of(part);
   searched_.behind = side == Side::kFront && shell != ShellCasters::kNone ? shell : part;
-  LinesInSpace<Space> exact(space, whole, corners_, chart_);
+  LinesInSpace<Space> exact(space, whole, corners_, chart_, corner_values_);
   penumbras_.begin(chart_, exact);
   umbras_.begin(chart_, exact);
   all_penumbra_ = false;

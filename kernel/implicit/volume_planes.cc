@@ -39,15 +39,12 @@ VolumePlanes::VolumePlanes(const Geometry& geometry) {
   shared_ = std::move(made);
 }
 
-std::array<double, 3> VolumePlanes::input_point(const Shared& shared, VertexId v) {
-  const auto scaled = [&](const auto& at) -> std::array<double, 3> {
-    return {to_double(at[0]) * shared.grid_scale, to_double(at[1]) * shared.grid_scale,
-            to_double(at[2]) * shared.grid_scale};
-  };
-  if (shared.narrow) return scaled(shared.geometry->grid.narrow_point(v));
-  if (shared.fixed) return scaled(shared.positions[v]);
+std::array<double, 3> VolumePlanes::long_input_point(const Shared& shared, VertexId v) {
   std::array<double, 3> x;
-  for (int k = 0; k < 3; ++k) x[k] = to_double_scaled(shared.geometry->grid.wide(v, k), shared.b);
+  for (int k = 0; k < 3; ++k) {
+    x[k] = shared.fixed ? to_double(shared.positions[v][k]) * shared.grid_scale
+                        : to_double_scaled(shared.geometry->grid.wide(v, k), shared.b);
+  }
   return x;
 }
 
@@ -154,6 +151,18 @@ double VolumePlanes::accurate_value(const Plane& plane, VertexId v) const {
   with_widths(width_of(is_fixed(), value_bits(plane) + 1),
               std::max(normal_bits(plane), grid_bits()), compute);
   return result;
+}
+
+void VolumePlanes::values_at(std::uint32_t index, std::span<const VertexId> vertices,
+                             std::span<DoubleDouble> values) const {
+  const Plane& plane = plane_at(index);
+  with_widths(width_of(is_fixed(), value_bits(plane) + 1),
+              std::max(normal_bits(plane), grid_bits()), [&]<class Factor, class Int>() {
+                const Vector3<Factor> n = exact_normal<Factor>(plane);
+                for (std::size_t i = 0; i < vertices.size(); ++i) {
+                  values[i] = double_double(exact_value<Int>(plane, n, vertices[i]));
+                }
+              });
 }
 
 }  // namespace gnomon

@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "gnomon/kernel/geometry.h"
@@ -27,6 +28,7 @@
 #include "kernel/implicit/exact_geometry.h"
 #include "kernel/implicit/filter_bounds.h"
 #include "kernel/implicit/plane_provenance.h"
+#include "kernel/implicit/scaled_doubles.h"
 #include "kernel/numbers/double_double.h"
 #include "kernel/signs/corner.h"
 
@@ -72,12 +74,10 @@ class VolumePlanes {
     const Plane& plane = plane_at(ref.index());
     return {plane.n, plane.d, ref};
   }
-  /// The value of a plane at an input vertex, in a measure of the plane's own: off by at most 4u of
-  /// itself. Requires: not the name of an input edge.
-  double value_at(PlaneRef ref, VertexId v) const {
-    const double value = accurate_value(plane_at(ref.index()), v);
-    return ref.flipped() ? -value : value;
-  }
+  /// n . v - d of the plane's integers at input vertices: each off by at most 2^-104 of itself, not
+  /// finite beyond 2^900, and of the right sign. Requires: not the index of an input edge.
+  void values_at(std::uint32_t plane, std::span<const VertexId> vertices,
+                 std::span<DoubleDouble> values) const;
   /// What a plane was made from. Requires: not the name of an input edge.
   const VolumePlaneSource& source_of(PlaneRef ref) const { return plane_at(ref.index()).source; }
 
@@ -216,7 +216,13 @@ class VolumePlanes {
       return ExactGeometry<Position>(*shared.geometry).position(v);
     }
   }
-  static std::array<double, 3> input_point(const Shared& shared, VertexId v);
+  static std::array<double, 3> input_point(const Shared& shared, VertexId v) {
+    if (!shared.narrow) return long_input_point(shared, v);
+    const std::int64_t* at = shared.geometry->grid.narrow_point(v);
+    const double scale = shared.grid_scale;
+    return {to_double(at[0]) * scale, to_double(at[1]) * scale, to_double(at[2]) * scale};
+  }
+  static std::array<double, 3> long_input_point(const Shared& shared, VertexId v);
   static bool plane_through(const Shared& shared, const std::array<VertexId, 3>& vertices,
                             Plane& plane);
   const Explicit& integers(const Plane& plane) const { return explicit_[plane.source.number()]; }

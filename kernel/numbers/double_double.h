@@ -92,7 +92,9 @@ inline DoubleDouble double_double(Int128 value) {
     return two_sum(upper.high, upper.low + static_cast<double>(rest & 0xffffffffu));
   }
   const auto high = static_cast<double>(value);
-  if (!(std::fabs(high) < 0x1p126)) return {std::numeric_limits<double>::infinity(), 0};
+  if (!(std::fabs(high) < 0x1p126)) {
+    return {std::copysign(std::numeric_limits<double>::infinity(), high), 0};
+  }
   return {high, static_cast<double>(value - static_cast<Int128>(high))};
 }
 inline DoubleDouble double_double(const mpz_class& value) {
@@ -117,7 +119,10 @@ DoubleDouble double_double(const WideInteger<Limbs>& value, int scale_down = 0) 
   };
   const UInt128 bits = UInt128{leading(0)} << 64 | leading(1);
   const int exponent = 64 * (static_cast<int>(top) - 1) - shift + 3 - scale_down;
-  if (exponent > 770) return {std::numeric_limits<double>::infinity(), 0};
+  if (exponent > 770) {
+    return {std::copysign(std::numeric_limits<double>::infinity(), value.is_negative() ? -1 : 1),
+            0};
+  }
   DoubleDouble result = double_double(static_cast<Int128>(bits >> 3));
   if (value.is_negative()) result = {-result.high, -result.low};
   return {std::ldexp(result.high, exponent), std::ldexp(result.low, exponent)};

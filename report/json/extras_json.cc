@@ -7,6 +7,7 @@
 
 #include "kernel/signs/nearest_double.h"
 #include "report/json/area_json.h"
+#include "report/json/told_share.h"
 #include "report/sides/count_shares.h"
 #include "report/sides/group_sums.h"
 #include "report/sides/lit_centroid.h"
@@ -25,7 +26,7 @@ void ExtrasWriter::write_fraction(const Interval& share, const std::optional<mpq
     json_.member("fraction", exact->get_str());
     return;
   }
-  json_.member("fraction", share.middle());
+  json_.member("fraction", told_share(share));
   if (share.lower == share.upper || (!exact_ && share.upper - share.lower <= kCertain)) return;
   json_.key("enclosure");
   json_.begin_array(JsonLayout::kInline);

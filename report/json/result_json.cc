@@ -9,6 +9,7 @@
 #include "report/json/area_json.h"
 #include "report/json/extras_json.h"
 #include "report/json/json_writer.h"
+#include "report/json/told_share.h"
 #include "report/sides/part_area.h"
 #include "report/sides/polygon_sides.h"
 #include "report/text/number_text.h"
@@ -309,7 +310,7 @@ class ResultWriter {
         find("light " + light_id(light) + ", polygon " + scene_.polygons[side.polygon].id +
              ": its " + std::string(name) + " fraction is not a number");
       }
-      json_.member("fraction", share.middle());
+      json_.member("fraction", told_share(share));
       if (share.upper - share.lower > kTight) {
         write_bounds("enclosure", share.lower, share.upper);
       }
@@ -358,7 +359,7 @@ class ResultWriter {
         if (options_.exact_fractions) {
           json_.member(name_of(state), exact_share(part, state).get_str());
         } else {
-          json_.member(name_of(state), share_of(part, state).middle());
+          json_.member(name_of(state), told_share(share_of(part, state)));
         }
       }
       write_enclosures(side, part);

@@ -76,34 +76,55 @@ mpq_class covered(const std::vector<Convex>& outlines,
 /// Lines are numbered by their planes here.
 class Lattice final : public ExactLines {
  public:
-  explicit Lattice(std::vector<Point> receiver) : receiver_(std::move(receiver)) {}
-  std::vector<HalfPlane> lines;
+  Lattice(std::vector<Point> receiver, const ReceiverChart& chart)
+      : ExactLines(chart), receiver_(std::move(receiver)) {}
+  OutlineLine add(const HalfPlane& half) {
+    OutlineLine line;
+    const double length = std::hypot(static_cast<double>(half.a), static_cast<double>(half.b));
+    line.a = static_cast<double>(half.a) / length;
+    line.b = static_cast<double>(half.b) / length;
+    line.c = static_cast<double>(half.c) / length;
+    line.error = 0x1p-45;
+    line.plane = PlaneRef(static_cast<std::uint32_t>(lines_.size()));
+    lines_.push_back(half);
+    for (std::uint32_t k = 0; k < receiver_.size(); ++k) {
+      const int sign = sgn(value(half, receiver_[k]));
+      line.before |= static_cast<CornerMask>(sign > 0) << k;
+      line.behind |= static_cast<CornerMask>(sign < 0) << k;
+    }
+    return line;
+  }
+  /// How often integers were asked for what pairs of doubles leave open.
+  int asked() const { return asked_; }
+  Point meet_of(const OutlineLine& a, const OutlineLine& b) const { return meet(of(a), of(b)); }
+  Side side_of_point(const OutlineLine& line, const Point& p) const { return side(of(line), p); }
 
   bool is_known_same(const OutlineLine& a, const OutlineLine& b) override { return of(a) == of(b); }
-  Side side_of_corner(const OutlineLine& line, std::uint32_t corner) override {
-    return side(of(line), receiver_[corner]);
-  }
-  double distance_of(const OutlineLine& line, std::uint32_t corner) override {
-    return std::fabs(value(of(line), receiver_[corner]).get_d());
-  }
   Side side_of_meet(const OutlineLine& line, const OutlineLine& a, const OutlineLine& b) override {
     return side(of(line), meet(of(a), of(b)));
   }
-  Side side_at_border(const OutlineLine& line, const OutlineLine& a,
-                      std::uint32_t corner) override {
+
+ protected:
+  DoubleDouble value_at(const OutlineLine& line, std::uint32_t corner) override {
+    return double_double(value(of(line), receiver_[corner]));
+  }
+  Side exact_side_at_border(const OutlineLine& line, const OutlineLine& a,
+                            std::uint32_t corner) override {
+    ++asked_;
     const Point &p = receiver_[corner], &q = receiver_[(corner + 1) % receiver_.size()];
     const long px = p[0].get_num().get_si(), py = p[1].get_num().get_si();
     const long dx = q[0].get_num().get_si() - px, dy = q[1].get_num().get_si() - py;
     return side(of(line), meet(of(a), {-dy, dx, dy * px - dx * py}));
   }
-  Ball place_on(const OutlineLine& line, const OutlineLine& by) override {
+  Ball exact_place_on(const OutlineLine& line, const OutlineLine& by) override {
+    ++asked_;
     const Point p = meet(of(line), of(by));
     const double place = line.b * p[0].get_d() - line.a * p[1].get_d();
     return {place, 0x1p-48};
   }
 
  private:
-  const HalfPlane& of(const OutlineLine& line) const { return lines[line.plane.index()]; }
+  const HalfPlane& of(const OutlineLine& line) const { return lines_[line.plane.index()]; }
   static Point meet(const HalfPlane& p, const HalfPlane& q) {
     const auto product = [](long x, long y) { return mpq_class(mpz_class(x) * y); };
     const mpq_class det = product(p.a, q.b) - product(p.b, q.a);
@@ -116,6 +137,8 @@ class Lattice final : public ExactLines {
   }
 
   std::vector<Point> receiver_;  // of integers
+  std::vector<HalfPlane> lines_;
+  int asked_ = 0;
 };
 
 ReceiverChart chart(const std::vector<Point>& receiver) {
@@ -131,27 +154,14 @@ bool check(const std::vector<Convex>& outlines, const mpq_class& truth, const st
            double most_error = 1e-9, const std::vector<Point>& corners = square(),
            bool may_be_open = false) {
   const ReceiverChart receiver = chart(corners);
-  Lattice exact(corners);
+  Lattice exact(corners, receiver);
   OutlineUnion outline_union;
   outline_union.begin(receiver, exact);
   for (const Convex& outline : outlines) {
     std::vector<OutlineLine> lines;
     bool is_outside = false;
     for (const HalfPlane& half : outline) {
-      OutlineLine line;
-      const double length = std::hypot(static_cast<double>(half.a), static_cast<double>(half.b));
-      line.a = static_cast<double>(half.a) / length;
-      line.b = static_cast<double>(half.b) / length;
-      line.c = static_cast<double>(half.c) / length;
-      line.error = 0x1p-45;
-      const auto number = static_cast<std::uint32_t>(exact.lines.size());
-      line.plane = PlaneRef(number);
-      exact.lines.push_back(half);
-      for (std::uint32_t k = 0; k < corners.size(); ++k) {
-        const int sign = sgn(value(half, corners[k]));
-        line.before |= static_cast<CornerMask>(sign > 0) << k;
-        line.behind |= static_cast<CornerMask>(sign < 0) << k;
-      }
+      const OutlineLine line = exact.add(half);
       is_outside = is_outside || line.before == 0;
       if (line.before != 0 && line.behind != 0) lines.push_back(line);
     }
@@ -317,6 +327,62 @@ TEST(OutlineUnion, LatticeOfOutlines) {
 
 /// Every line is turned and moved by so little that bounds do not tell it from those that were one
 /// with it, nor from the receiver's edges.
+/// Of two lines that differ by a few units of 2^-50, and of any two: sides where one enters and
+/// leaves the receiver are exact, places are enclosed closely, and pairs of doubles mostly tell.
+TEST(ExactLines, SidesAndPlacesOfLinesThatAreAllButOne) {
+  constexpr long kAllBut = 1L << 50;
+  Lots lots(5);
+  int crossings = 0, asked = 0, on = 0;
+  for (int round = 0; round < 4000; ++round) {
+    const std::vector<Point> corners =
+        round % 2 == 0 ? square() : std::vector<Point>{{0, 0}, {kSide, 1}, {kSide, 3}, {2, kSide}};
+    const ReceiverChart receiver = chart(corners);
+    Lattice exact(corners, receiver);
+    HalfPlane first = lots.line();
+    first = {first.a * kAllBut, first.b * kAllBut, first.c * kAllBut};
+    HalfPlane second = round % 5 == 0 ? lots.line() : first;
+    if (round % 5 != 0) {
+      second.a += lots.upto(5) - 2;
+      second.b += lots.upto(5) - 2;
+      second.c += lots.upto(9) - 4;
+    }
+    if (second.a * first.b == first.a * second.b) continue;
+    const OutlineLine line = exact.add(first), by = exact.add(second);
+    if (line.before == 0 || line.behind == 0 || by.before == 0 || by.behind == 0) continue;
+    const auto [low, high] = exact.sides_at_ends(by, line);
+    // The meet is inside if the ends are on different sides; then it has a place.
+    const Point meet = exact.meet_of(line, by);
+    std::array<mpq_class, 2> ends;
+    std::array<Side, 2> truth{Side::kOn, Side::kOn};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Point &p = corners[k], &q = corners[(k + 1) % corners.size()];
+      const mpq_class at_p = value(first, p), at_q = value(first, q);
+      if (at_p == 0) {
+        const bool enters = value(first, corners[(k + corners.size() - 1) % corners.size()]) > 0;
+        truth[enters ? 0 : 1] = exact.side_of_point(by, p);
+      } else if (sgn(at_p) * sgn(at_q) < 0) {
+        const mpq_class t = at_p / (at_p - at_q);
+        truth[at_p > 0 ? 0 : 1] =
+            exact.side_of_point(by, {p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])});
+      }
+    }
+    ASSERT_EQ(low, truth[0]) << round;
+    ASSERT_EQ(high, truth[1]) << round;
+    on += low == Side::kOn || high == Side::kOn ? 1 : 0;
+    if (low == high || low == Side::kOn || high == Side::kOn) continue;
+    ++crossings;
+    const int before = exact.asked();
+    const Ball place = exact.place_on(line, by);
+    asked += exact.asked() - before;
+    const mpq_class x = mpq_class(line.b) * meet[0] - mpq_class(line.a) * meet[1];
+    ASSERT_LE(abs(x - mpq_class(place.middle)), mpq_class(place.radius)) << round;
+    ASSERT_LT(place.radius, 0x1p-46 * receiver.reach) << round;
+  }
+  EXPECT_GT(crossings, 500);
+  EXPECT_GT(on, 20);
+  EXPECT_LT(asked * 50, crossings);
+}
+
 TEST(OutlineUnion, LinesThatAreAllButOne) {
   constexpr long kAllBut = 1L << 50;
   Lots lots(11);

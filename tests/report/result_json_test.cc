@@ -7,6 +7,7 @@
 #include <rapidjson/document.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "gnomon/algorithms/shadows.h"
@@ -14,6 +15,7 @@
 #include "gnomon/scene/read.h"
 #include "kernel/signs/nearest_double.h"
 #include "report/facts/facing.h"
+#include "report/json/told_share.h"
 #include "report/sides/claims_of.h"
 #include "report/sides/part_area.h"
 #include "report/sides/polygon_sides.h"
@@ -396,6 +398,17 @@ TEST(AreaLights, TheOracleGetsWhatWasClassified) {
     }
   }
   EXPECT_GE(behind, 3u);
+}
+
+/// The middle of an enclosure rounds to 1 or 0 where the share is neither for certain.
+TEST(ToldShare, IsOneOrZeroOnlyOfWhatIs) {
+  EXPECT_EQ(told_share({1, 1}), 1);
+  EXPECT_EQ(told_share({0, 0}), 0);
+  EXPECT_EQ(told_share({0.25, 0.75}), 0.5);
+  const double less = std::nextafter(1.0, 0.0);
+  EXPECT_EQ(told_share({less, 1}), less);
+  EXPECT_EQ(told_share({0, std::numeric_limits<double>::denorm_min()}),
+            std::numeric_limits<double>::denorm_min());
 }
 
 }  // namespace
