@@ -44,21 +44,23 @@ class CornerValues {
   }
 
  private:
-  static constexpr std::size_t kMost = 4096;  // planes
+  using Rows = std::unordered_map<std::uint32_t, std::uint32_t>;  // of planes: where values begin
+  static constexpr std::size_t kMost = 4096;                      // planes
 
   void forget() {
+    if (rows_.empty()) return;
     values_.clear();
     // To clear a table takes as long as it is large, which few receivers need.
     constexpr std::size_t kLarge = 256;
     if (rows_.bucket_count() > kLarge) {
-      rows_ = {};
-    } else if (!rows_.empty()) {
+      rows_ = Rows();  // {} would leave the table as large
+    } else {
       rows_.clear();
     }
   }
 
   std::vector<VertexId> vertices_;
-  std::unordered_map<std::uint32_t, std::uint32_t> rows_;  // of planes: where their values begin
+  Rows rows_;
   std::vector<DoubleDouble> values_;
 };
 

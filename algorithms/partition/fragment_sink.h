@@ -12,7 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -28,23 +28,25 @@
 
 namespace gnomon {
 
-/// The result of one side; put one after another they are a LightResult.
-struct SideResult {
-  PartResult part;
-  AreaFractions area;
-  std::optional<ExactFractions> exact;  // if asked for
+struct SideFragments {
   std::vector<Fragment> fragments;
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<mpq_class, 3>> exact_points;
   std::vector<std::vector<std::uint32_t>> caster_sets;  // of the fragments
+};
+
+/// The result of one side; put one after another they are a LightResult. Many have shares alone,
+/// and there is one of each part at a time, so that what few have is kept elsewhere.
+struct SideResult {
+  PartResult part;
+  AreaFractions area;
+  std::unique_ptr<ExactFractions> exact;  // if asked for
+  std::unique_ptr<SideFragments> cut;     // if there are any
 
   /// Leaves classes and shares alone.
   void drop_fragments() {
     part.fragment_count = 0;
-    fragments.clear();
-    points.clear();
-    exact_points.clear();
-    caster_sets.clear();
+    cut.reset();
   }
 };
 
@@ -57,7 +59,7 @@ inline SideResult dark_side(std::uint32_t part, Side side, ShadowReason reason, 
   result.part.reason = reason;
   (area ? result.area.umbra : result.part.shadow) = {1, 1};
   if (exactly) {
-    result.exact.emplace();
+    result.exact = std::make_unique<ExactFractions>();
     (area ? result.exact->umbra : result.exact->shadow) = 1;
   }
   return result;
@@ -175,7 +177,9 @@ SideResult FragmentSink<Space>::finish(const Space& space, const Loop& whole) {
   measure(space, whole, result);
   const PlaneId plane = scene_->parts[part_].plane;
   const bool keep = options_->keeps_any_points();
-  result.fragments.reserve(pieces_.size());
+  result.cut = std::make_unique<SideFragments>();
+  SideFragments& cut = *result.cut;
+  cut.fragments.reserve(pieces_.size());
   for (const Piece& piece : pieces_) {
     Fragment fragment;
     fragment.state = piece.state.state;
@@ -184,12 +188,12 @@ SideResult FragmentSink<Space>::finish(const Space& space, const Loop& whole) {
     fragment.casters = piece.state.casters;
     if (keep) {
       export_volume_loop(space, *options_, loops_.view(piece.loop, plane), side_ == Side::kBack,
-                         fragment, result.points, result.exact_points);
+                         fragment, cut.points, cut.exact_points);
     }
-    result.fragments.push_back(fragment);
+    cut.fragments.push_back(fragment);
   }
-  result.part.fragment_count = static_cast<std::uint32_t>(result.fragments.size());
-  result.caster_sets = std::move(sets_);
+  result.part.fragment_count = static_cast<std::uint32_t>(cut.fragments.size());
+  cut.caster_sets = std::move(sets_);
   return result;
 }
 
@@ -200,7 +204,8 @@ void FragmentSink<Space>::measure(const Space& space, const Loop& whole, SideRes
   const bool exactly = options_->output.exact_fractions;
   std::array<mpq_class*, 4> exact{};
   if (exactly) {
-    ExactFractions& fractions = result.exact.emplace();
+    result.exact = std::make_unique<ExactFractions>();
+    ExactFractions& fractions = *result.exact;
     exact = {&fractions.lit, &fractions.shadow, &fractions.penumbra, &fractions.umbra};
   }
   std::array<std::size_t, 4> count{};

@@ -178,6 +178,8 @@ class ReceiverRun {
   /// own loop.
   std::optional<SideResult> contour_side(Workspace& workspace, const LightInSpace<Space>& light,
                                          std::uint32_t part, Side side, const Loop& whole) const;
+  /// Puts the fragments of a side at the end of a light's.
+  void append(SideFragments& side, LightResult& result) const;
   /// Readies the trees for all sides that see the light and that they take; these sides are told to
   /// `filtered`. False if stopped.
   bool begin_trees(const LightInSpace<Space>& light, Trees& trees, FilteredSides<Vertex>& filtered);
@@ -365,6 +367,22 @@ std::optional<SideResult> ReceiverRun<Space>::contour_side(Workspace& workspace,
 }
 
 template <VolumeSpaceModel Space>
+void ReceiverRun<Space>::append(SideFragments& side, LightResult& result) const {
+  const auto base = static_cast<std::uint32_t>(options_.output.points ? result.points.size()
+                                                                      : result.exact_points.size());
+  for (Fragment& fragment : side.fragments) {
+    fragment.first += base;
+    if (fragment.casters != Fragment::kNoCaster) {
+      fragment.casters += static_cast<std::uint32_t>(result.caster_sets.size());
+    }
+    result.fragments.push_back(fragment);
+  }
+  std::ranges::move(side.caster_sets, std::back_inserter(result.caster_sets));
+  result.points.insert(result.points.end(), side.points.begin(), side.points.end());
+  std::ranges::move(side.exact_points, std::back_inserter(result.exact_points));
+}
+
+template <VolumeSpaceModel Space>
 LightResult ReceiverRun<Space>::run_light(std::uint32_t index, double from, double to) {
   pieces_ = 0;
   const std::uint32_t mark = space_.plane_mark();
@@ -493,24 +511,12 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
         result.facing_edges += scene_.parts[side.part.part].count;
       }
       side.part.first_fragment = static_cast<std::uint32_t>(result.fragments.size());
-      const auto base = static_cast<std::uint32_t>(
-          options_.output.points ? result.points.size() : result.exact_points.size());
-      for (Fragment& fragment : side.fragments) {
-        fragment.first += base;
-        if (fragment.casters != Fragment::kNoCaster) {
-          fragment.casters += static_cast<std::uint32_t>(result.caster_sets.size());
-        }
-        result.fragments.push_back(fragment);
-      }
-      std::ranges::move(side.caster_sets, std::back_inserter(result.caster_sets));
-      result.points.insert(result.points.end(), side.points.begin(), side.points.end());
-      std::move(side.exact_points.begin(), side.exact_points.end(),
-                std::back_inserter(result.exact_points));
+      if (side.cut) append(*side.cut, result);
       result.parts.push_back(side.part);
       if (light.has_area()) result.area_fractions.push_back(side.area);
       if (side.exact) result.exact_fractions.push_back(*std::move(side.exact));
     }
-    sides = {};
+    std::vector<SideResult>().swap(sides);  // frees what {} would keep
   }
   result.fragment_total = result.fragments.size();
   return result;

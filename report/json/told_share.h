@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: LGPL-3.0-or-later
+// SPDX-License-Identifier: GPL-3.0-or-later
 #ifndef GNOMON_REPORT_JSON_TOLD_SHARE_H
 #define GNOMON_REPORT_JSON_TOLD_SHARE_H
 
