@@ -119,8 +119,8 @@ class Lattice final : public ExactLines {
   Ball exact_place_on(const OutlineLine& line, const OutlineLine& by) override {
     ++asked_;
     const Point p = meet(of(line), of(by));
-    const double place = line.b * p[0].get_d() - line.a * p[1].get_d();
-    return {place, 0x1p-48};
+    const double x = p[0].get_d(), y = p[1].get_d();
+    return {line.b * x - line.a * y, 0x1p-50 * (kSide + std::fabs(x) + std::fabs(y))};
   }
 
  private:
@@ -350,7 +350,6 @@ TEST(ExactLines, SidesAndPlacesOfLinesThatAreAllButOne) {
     const OutlineLine line = exact.add(first), by = exact.add(second);
     if (line.before == 0 || line.behind == 0 || by.before == 0 || by.behind == 0) continue;
     const auto [low, high] = exact.sides_at_ends(by, line);
-    // The meet is inside if the ends are on different sides; then it has a place.
     const Point meet = exact.meet_of(line, by);
     std::array<mpq_class, 2> ends;
     std::array<Side, 2> truth{Side::kOn, Side::kOn};
@@ -369,18 +368,54 @@ TEST(ExactLines, SidesAndPlacesOfLinesThatAreAllButOne) {
     ASSERT_EQ(low, truth[0]) << round;
     ASSERT_EQ(high, truth[1]) << round;
     on += low == Side::kOn || high == Side::kOn ? 1 : 0;
-    if (low == high || low == Side::kOn || high == Side::kOn) continue;
-    ++crossings;
     const int before = exact.asked();
     const Ball place = exact.place_on(line, by);
-    asked += exact.asked() - before;
     const mpq_class x = mpq_class(line.b) * meet[0] - mpq_class(line.a) * meet[1];
     ASSERT_LE(abs(x - mpq_class(place.middle)), mpq_class(place.radius)) << round;
+    if (low == high || low == Side::kOn || high == Side::kOn) continue;  // the meet is outside
+    ++crossings;
+    asked += exact.asked() - before;
     ASSERT_LT(place.radius, 0x1p-46 * receiver.reach) << round;
   }
   EXPECT_GT(crossings, 500);
   EXPECT_GT(on, 20);
   EXPECT_LT(asked * 50, crossings);
+}
+
+/// Where lines meet the lower edge of the square at places -c / a that are one, or 1 / (a a')
+/// apart: their products differ by so little that pairs of doubles do not tell.
+TEST(ExactLines, PlacesOnTheBorderThatNoPairOfDoublesTells) {
+  std::mt19937_64 random(3);
+  const std::vector<Point> corners = square();
+  const ReceiverChart receiver = chart(corners);
+  int on = 0, off = 0;
+  for (int round = 0; round < 2000; ++round) {
+    // Neighbours in a sequence of Farey: c a' - a c' = 1.
+    std::array<long, 2> above = {1, 0}, below = {0, 1};  // c, a of both
+    const long most = 1L << (40 + round % 15);
+    while (above[1] + below[1] < most && above[0] + below[0] < most) {
+      const long times = 1 + static_cast<long>(random() % 3);
+      std::array<long, 2>& moved = random() % 2 == 0 ? above : below;
+      const std::array<long, 2>& by = &moved == &above ? below : above;
+      moved = {moved[0] + times * by[0], moved[1] + times * by[1]};
+    }
+    if (!(above[0] < 7 * above[1]) || !(below[0] > 0)) continue;
+    const bool same = round % 2 == 0;
+    if (same) below = above;
+    const auto line = [&](const std::array<long, 2>& at, long b) {
+      return HalfPlane{at[1], b, -at[0]};
+    };
+    Lattice exact(corners, receiver);
+    const OutlineLine along = exact.add(line(above, static_cast<long>(random() % 1000)));
+    const OutlineLine other = exact.add(line(below, -static_cast<long>(random() % 1000)));
+    // The place of the first is farther right, where the second one is positive.
+    const Side side = exact.side_at_border(other, along, 0);
+    ASSERT_EQ(side, same ? Side::kOn : Side::kFront) << round;
+    ASSERT_EQ(exact.side_at_border(along, other, 0), same ? Side::kOn : Side::kBack) << round;
+    (same ? on : off) += 1;
+  }
+  EXPECT_GT(on, 200);
+  EXPECT_GT(off, 200);
 }
 
 TEST(OutlineUnion, LinesThatAreAllButOne) {
