@@ -119,8 +119,10 @@ Expected<ClaimedPolygon> Reader::polygon(const Json& value, const std::string& p
 Expected<void> Reader::told_shares(const Json& value, const std::string& pointer,
                                    ClaimedPolygon& polygon) const {
   if (shares_ == SharesAlone::kRefused) {
-    return fields_.wrong(ErrorCode::kFormat, pointer, "key \"fragments\" is missing",
-                         "a result written with --fragments");
+    return fields_.wrong(
+        ErrorCode::kFormat, pointer, "key \"fragments\" is missing",
+        "a result written with --fragments; shares alone are judged by 'gnomon certify "
+        "--candidate'");
   }
   auto shares = read_told_shares(fields_, value, pointer);
   if (!shares) return tl::unexpected(shares.error());

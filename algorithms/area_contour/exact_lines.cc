@@ -87,7 +87,7 @@ Ball ExactLines::place_on(const OutlineLine& line, const OutlineLine& by) {
       [&](std::uint32_t end, std::uint32_t k) {
         const double from = place_of(k), to = place_of(chart_.next(k));
         const BorderValue value = value_at_border(by, line, k);
-        const double share = distance_of(line, k) / value.factor;
+        const double share = std::fabs(value_at(line, k).high) / value.factor;
         const double at = value.value / value.factor;
         ends[end] = {from + share * (to - from), at,
                      value.error / value.factor + 4 * Ball::kUnit * std::fabs(at)};

@@ -30,10 +30,9 @@ class ExactLines {
   Side side_of_corner(const OutlineLine& line, std::uint32_t corner) {
     return side_of(value_at(line, corner).high);
   }
-  /// How far a corner is from a line, in some measure of that line: off by less than 4u of itself.
-  double distance_of(const OutlineLine& line, std::uint32_t corner) {
-    return std::fabs(value_at(line, corner).high);
-  }
+  /// How far a corner is from a line, in some measure of that line that is at most 1: off by less
+  /// than 4u of itself, unless it has underflowed.
+  virtual double distance_of(const OutlineLine& line, std::uint32_t corner) = 0;
   /// On which side of `line` is the point where two others meet. Requires: they cross.
   virtual Side side_of_meet(const OutlineLine& line, const OutlineLine& a,
                             const OutlineLine& b) = 0;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -82,6 +83,9 @@ class LinesInSpace final : public ExactLines {
 
   bool is_known_same(const OutlineLine& a, const OutlineLine& b) override {
     return name_of(a.plane) == name_of(b.plane);
+  }
+  double distance_of(const OutlineLine& line, std::uint32_t corner) override {
+    return std::fabs(space_.value_at(line.plane, corners_[corner].vertex.source));
   }
   Side side_of_meet(const OutlineLine& line, const OutlineLine& a, const OutlineLine& b) override {
     return space_.side_of_plane(line.plane,

@@ -74,8 +74,16 @@ class VolumePlanes {
     const Plane& plane = plane_at(ref.index());
     return {plane.n, plane.d, ref};
   }
-  /// n . v - d of the plane's integers at input vertices: each off by at most 2^-104 of itself, not
-  /// finite beyond 2^900, and of the right sign. Requires: not the index of an input edge.
+  /// The value of a plane at an input vertex, in a measure of the plane's own that is at most 1:
+  /// off by at most 4u of itself, unless it has underflowed. Requires: not the name of an input
+  /// edge.
+  double value_at(PlaneRef ref, VertexId v) const {
+    const double value = accurate_value(plane_at(ref.index()), v);
+    return ref.flipped() ? -value : value;
+  }
+  /// n . v - d of the plane's integers at input vertices: each off by at most 2^-104 of itself, or,
+  /// beyond 2^900, perhaps infinite, but of the right sign. Requires: not the index of an input
+  /// edge.
   void values_at(std::uint32_t plane, std::span<const VertexId> vertices,
                  std::span<DoubleDouble> values) const;
   /// What a plane was made from. Requires: not the name of an input edge.

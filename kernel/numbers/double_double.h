@@ -97,9 +97,12 @@ inline DoubleDouble double_double(Int128 value) {
   }
   return {high, static_cast<double>(value - static_cast<Int128>(high))};
 }
+/// Infinite beyond 2^1000.
 inline DoubleDouble double_double(const mpz_class& value) {
+  if (mpz_sizeinbase(value.get_mpz_t(), 2) > 1000) {
+    return {std::copysign(std::numeric_limits<double>::infinity(), sgn(value)), 0};
+  }
   const double high = value.get_d();  // truncated
-  if (!std::isfinite(high)) return {high, 0};
   const mpz_class rest = value - mpz_class(high);
   return quick_two_sum(high, rest.get_d());
 }

@@ -124,5 +124,17 @@ TEST(AreaSlivers, OfAnEdgeThatBeginsAtThePlaneThatCutsIt) {
   EXPECT_EQ(check_area_exact(*low), "");
 }
 
+/// Values of lines at corners are integers of so many bits that no double holds them.
+TEST(AreaSlivers, OfLinesWithValuesBeyondDoubles) {
+  const double high = 1.5426605224886307e62, far = 2.6194299758464335e56;
+  const auto scene = Case::make(
+      scene_of({{{0, 0, high}, {0, far, -1}, {0, 0, 1}}, {{0, 0, high}, {-1, 1, -1}, {0, 0, 1}}},
+               {{5.0407588622375254e-73, 0, 0},
+                {-7.260930269727716e66, 0, 0},
+                {0, 19898029053629694000.0, 0}}));
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(check_area_contour(*scene), "");
+}
+
 }  // namespace
 }  // namespace gnomon::test

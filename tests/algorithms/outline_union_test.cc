@@ -100,6 +100,9 @@ class Lattice final : public ExactLines {
   Side side_of_point(const OutlineLine& line, const Point& p) const { return side(of(line), p); }
 
   bool is_known_same(const OutlineLine& a, const OutlineLine& b) override { return of(a) == of(b); }
+  double distance_of(const OutlineLine& line, std::uint32_t corner) override {
+    return std::fabs(value(of(line), receiver_[corner]).get_d());
+  }
   Side side_of_meet(const OutlineLine& line, const OutlineLine& a, const OutlineLine& b) override {
     return side(of(line), meet(of(a), of(b)));
   }

@@ -261,6 +261,8 @@ TEST(ReadClaims, UnknownFormsAreNamed) {
   // Who needs fragments says so.
   has(message(R"({"lights": [{"id": "sun", "polygons": [{"id": "a", "lit": 1}]}]})"),
       "key \"fragments\" is missing");
+  has(message(R"({"lights": [{"id": "sun", "polygons": [{"id": "a", "lit": 1}]}]})"),
+      "gnomon certify --candidate");
 }
 
 TEST(ReadClaims, HugeExponentsOfSharesAreNoTrouble) {
