@@ -11,7 +11,6 @@ namespace gnomon::area_contour {
 template <class AtCorner, class AtEdge>
 void ExactLines::for_ends(const OutlineLine& line, const AtCorner& at_corner,
                           const AtEdge& at_edge) const {
-  const auto has = [](CornerMask mask, std::uint32_t corner) { return (mask >> corner & 1) != 0; };
   const std::uint32_t n = chart_.size();
   for (std::uint32_t k = 0; k < n; ++k) {
     if (!has(line.before | line.behind, k)) {

@@ -12,8 +12,6 @@ namespace gnomon::area_contour {
 /// A choice: where a line meets an edge of the receiver is known well enough to so much of that.
 inline constexpr double kKnownShare = 0x1p-24;
 
-inline bool has(CornerMask mask, std::uint32_t corner) { return (mask >> corner & 1) != 0; }
-
 /// What lines leave of a stretch of a line. It begins at the greatest of the places at which one of
 /// them lets it begin; those that may be the greatest are known if they are at most two.
 struct OutlineUnion::Trim {

@@ -20,6 +20,7 @@ using Point3 = std::array<double, 3>;
 /// The receiver's corners as a set of bits, by their numbers in the chart.
 using CornerMask = std::uint64_t;
 inline constexpr std::uint32_t kMostCorners = 64;
+inline bool has(CornerMask mask, std::uint32_t corner) { return (mask >> corner & 1) != 0; }
 
 /// A line of the chart that passes through the receiver: a x + b y + c with (a, b) of length 1, its
 /// outline where that is positive. For every point of the receiver the value is within `error` of
