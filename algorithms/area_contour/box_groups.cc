@@ -16,16 +16,16 @@ constexpr double kMargin = 1e-12, kShortest = 1e-3, kRoom = 0x1p-20;
 
 void BoxGroup::set(std::uint32_t lane, const Box& box) {
   for (std::size_t k = 0; k < 3; ++k) {
-    low[k][lane] = static_cast<float>(box.low[k] - kRoom);
-    high[k][lane] = static_cast<float>(box.high[k] + kRoom);
+    ends[k][lane] = static_cast<float>(box.low[k] - kRoom);
+    ends[kHigh + k][lane] = static_cast<float>(box.high[k] + kRoom);
   }
 }
 
 Box BoxGroup::box(std::uint32_t lane) const {
   Box box;
   for (std::size_t k = 0; k < 3; ++k) {
-    box.low[k] = low[k][lane];
-    box.high[k] = high[k][lane];
+    box.low[k] = ends[k][lane];
+    box.high[k] = ends[kHigh + k][lane];
   }
   return box;
 }
@@ -56,8 +56,11 @@ void GroupShaft::add_tangents(std::size_t axis, const Box& from, const Box& to) 
       if ((nv > 0) != high_v && nv != 0) continue;
       const double d = nu * u + nv * v;
       const double room = kRoom + kMargin * (1 + std::fabs(d));
+      const auto end_of = [](double n, std::size_t k) {
+        return static_cast<std::uint32_t>(n > 0 ? k : BoxGroup::kHigh + k);
+      };
       tangents_[count_++] = {static_cast<float>(nu), static_cast<float>(nv),
-                             static_cast<float>(d + room), axis};
+                             static_cast<float>(d + room), end_of(nu, axis), end_of(nv, next)};
       break;
     }
   }
@@ -74,8 +77,8 @@ BoxGroups::BoxGroups(const BoxTree& tree, std::span<const double> largest) {
     const std::uint32_t top = tops[number];
     BoxGroup group{};
     for (std::size_t k = 0; k < 3; ++k) {
-      std::ranges::fill(group.low[k], 2.0F);
-      std::ranges::fill(group.high[k], -2.0F);
+      std::ranges::fill(group.ends[k], 2.0F);
+      std::ranges::fill(group.ends[BoxGroup::kHigh + k], -2.0F);
     }
     if (is_small(top)) {
       group.is_of_members = 1;

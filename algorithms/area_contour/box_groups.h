@@ -25,8 +25,9 @@ namespace gnomon::area_contour {
 /// Boxes of eight groups, or of eight members; what fills up the last lanes meets nothing.
 struct alignas(32) BoxGroup {
   static constexpr std::uint32_t kSize = 8;
+  static constexpr std::size_t kHigh = 3;
 
-  float low[3][kSize], high[3][kSize];
+  float ends[6][kSize];  // the least coordinates, kHigh on the greatest
   float largest[kSize];  // by group: the longest diagonal below it, or more
   std::uint32_t first;   // member, if it is of members
   std::uint32_t is_of_members;
@@ -45,24 +46,21 @@ class GroupShaft {
   unsigned may_meet(const BoxGroup& group) const {
     FloatBits meets = {-1, -1, -1, -1, -1, -1, -1, -1};
     for (std::size_t k = 0; k < 3; ++k) {
-      meets &= (row(group.low[k]) <= high_[k]) & (row(group.high[k]) >= low_[k]);
+      meets &= (row(group.ends[k]) <= high_[k]) & (row(group.ends[BoxGroup::kHigh + k]) >= low_[k]);
     }
     for (std::size_t i = 0; i < count_; ++i) {
       const Tangent& own = tangents_[i];
-      // The corner of a box that is deepest inside.
-      const Floats& u = row(own.u > 0 ? group.low[own.axis] : group.high[own.axis]);
-      const std::size_t next = own.axis == 2 ? 0 : own.axis + 1;
-      const Floats& v = row(own.v > 0 ? group.low[next] : group.high[next]);
-      meets &= own.u * u + own.v * v <= own.d;
+      meets &= own.u * row(group.ends[own.u_end]) + own.v * row(group.ends[own.v_end]) <= own.d;
     }
     return lanes_of(meets);
   }
 
  private:
-  /// In the plane of an axis and the next one, the hull is where u x + v y <= d.
+  /// In the plane of an axis and the next one, the hull is where u x + v y <= d. The corner of a
+  /// box that is deepest inside is at those of its ends.
   struct Tangent {
     float u, v, d;
-    std::size_t axis;
+    std::uint32_t u_end, v_end;
   };
   void add_tangents(std::size_t axis, const Box& from, const Box& to);
 

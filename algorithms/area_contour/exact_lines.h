@@ -24,7 +24,8 @@ class ExactLines {
  public:
   virtual ~ExactLines() = default;
 
-  /// Whether two lines are known to be one by what they were made from. False: they may be.
+  /// Whether two lines are known to be one, by what they were made from or by two vertices that
+  /// both go through. False: they may be.
   virtual bool is_known_same(const OutlineLine& a, const OutlineLine& b) = 0;
   /// On which side of a line is a corner of the receiver.
   Side side_of_corner(const OutlineLine& line, std::uint32_t corner) {

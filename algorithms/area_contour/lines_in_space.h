@@ -14,9 +14,11 @@
 #include <limits>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "algorithms/area_contour/exact_lines.h"
+#include "algorithms/shadow_volumes/touching_planes.h"
 #include "kernel/concept/kernel_concept.h"
 #include "kernel/implicit/plane_provenance.h"
 #include "kernel/numbers/double_double.h"
@@ -82,7 +84,7 @@ class LinesInSpace final : public ExactLines {
   }
 
   bool is_known_same(const OutlineLine& a, const OutlineLine& b) override {
-    return name_of(a.plane) == name_of(b.plane);
+    return name_of(a.plane) == name_of(b.plane) || share_vertices(a.plane, b.plane);
   }
   double distance_of(const OutlineLine& line, std::uint32_t corner) override {
     return std::fabs(space_.value_at(line.plane, corners_[corner].vertex.source));
@@ -123,6 +125,24 @@ class LinesInSpace final : public ExactLines {
     std::array<std::uint32_t, 3> points = source.vertices;
     std::ranges::sort(points);
     return points;
+  }
+
+  /// Whether two planes go through the same two vertices of the receiver's plane: those of an edge
+  /// of a caster that stands on it, mostly.
+  bool share_vertices(PlaneRef a, PlaneRef b) {
+    if (b.index() < space_.edges().planes) std::swap(a, b);
+    const VolumePlaneSource& source = space_.source_of(b);
+    if (source.is_explicit()) return false;
+    int shared = 0;
+    for (const VertexId v : source.vertices) {
+      const Vertex vertex = space_.input_vertex(v);
+      const Corner<Vertex> corner = lone_corner(vertex);
+      if (space_.side_of_plane(PlaneRef(loop_.support), corner) == Side::kOn &&
+          space_.side_of_plane(a, corner) == Side::kOn) {
+        ++shared;
+      }
+    }
+    return shared == 2;
   }
 
   Space& space_;

@@ -3,7 +3,6 @@
 // Only then are edges cut where cells meet, at one place for both sides, so that a cell keeps
 // nothing and its border adds nothing. A cell that one outline holds has no edge that is seen.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "algorithms/area_contour/four_doubles.h"
@@ -174,16 +173,10 @@ void OutlineUnion::add_leaf(const Cell& cell, bool is_cut) {
 
 /// All outlines, the largest first, since they hide most.
 void OutlineUnion::sort_members() {
-  sizes_.clear();
-  for (std::uint32_t i = 0; i < outlines_.size(); ++i) {
-    const float size = size_of(outlines_[i].box);
-    // The bits of numbers that are not negative are in their order.
-    sizes_.push_back(std::uint64_t{~std::bit_cast<std::uint32_t>(size)} << 32 | i);
-  }
-  std::ranges::sort(sizes_);
+  order_.clear();
+  for (const Outline& outline : outlines_) order_.add(size_of(outline.box));
   members_.clear();
-  for (const std::uint64_t size : sizes_) {
-    const auto number = static_cast<std::uint32_t>(size);
+  for (const std::uint32_t number : order_.sorted()) {
     members_.push_back({outlines_[number].box, number});
   }
 }

@@ -74,7 +74,7 @@ struct alignas(32) OutlineUnion::FourStretches {
     Doubles share = here / both, share_error = known + 0x1p-49;
     for (std::uint32_t i = 0; i < 4 && !is_known; ++i) {
       if (known[i] < kKnownShare || sides_of(block.sides[i]).behind == 0) continue;
-      const BorderShare own = share_of_border(line_of(4 * number + i), at.corner[i]);
+      const BorderShare own = share_of_border(4 * number + i, at.corner[i]);
       share[i] = own.share;
       share_error[i] = own.radius;
     }
@@ -153,6 +153,28 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
   return stretch.may_be();
 }
 
+bool OutlineUnion::is_twin(std::uint32_t line) const {
+  return std::ranges::find(twins_, line) != twins_.end();
+}
+
+/// Which lines of a block, of those that `near` names, another one of their outline is known to be.
+/// The later one of each two is a twin; two that look away from each other have nothing between
+/// them.
+unsigned OutlineUnion::find_same(std::uint32_t line, std::uint32_t number, unsigned near) {
+  const OutlineLine other = line_of(line);
+  unsigned same = 0;
+  for (; near != 0; near &= near - 1) {
+    const auto k = static_cast<std::uint32_t>(std::countr_zero(near));
+    const OutlineLine own = line_of(4 * number + k);
+    if (!exact_->is_known_same(own, other)) continue;
+    same |= 1u << k;
+    is_flat_ = is_flat_ || own.a * other.a + own.b * other.b < 0;
+    const std::uint32_t later = std::max(line, 4 * number + k);
+    if (!is_twin(later)) twins_.push_back(later);
+  }
+  return same;
+}
+
 /// Cuts the lines of a block by the others of their outline, as cut_by_own() does, and says of
 /// which that has to be asked, since another one may be the same line. So it is for names of ends
 /// that more than one line may make.
@@ -166,11 +188,13 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
   FourStretches in;
   in_receiver(number, in);
   const Doubles &least = row(in.low_outer), &most = row(in.high_outer);
-  const long place_of_own = 4 * static_cast<long>(number - outline.first);
+  const long first_line = 4 * static_cast<long>(outline.first);
+  const long place_of_own = 4 * static_cast<long>(number) - first_line;
   const Bits places = {place_of_own, place_of_own + 1, place_of_own + 2, place_of_own + 3};
   const Doubles &own_a = row(own.a), &own_b = row(own.b), &own_c = row(own.c);
   const Doubles own_error = row(own.error) + slack_;
   Bits missed = places >= static_cast<long>(count), near = {};
+  for (const std::uint32_t twin : twins_) missed |= places == static_cast<long>(twin) - first_line;
   // As Trim has it, but of the innermost places only two.
   Doubles low_outer = -kBeyond, low = -kBeyond, outer_of_low = -kBeyond, second_low = -kBeyond;
   Doubles high_outer = kBeyond, high = kBeyond, outer_of_high = kBeyond, second_high = kBeyond;
@@ -182,11 +206,21 @@ bool OutlineUnion::cut_by_own(const Outline& outline, std::uint32_t line, Stretc
     const Doubles slope = a * own_b - b * own_a;
     const Doubles error = block.error[i % 4] + own_error;
     const Doubles first = start + slope * least, last = start + slope * most;
-    const Bits cuts = ~((first > error) & (last > error)) & (places != static_cast<long>(i));
+    Bits cuts = ~((first > error) & (last > error)) & (places != static_cast<long>(i));
     if (!any(cuts)) continue;
     missed |= cuts & (first < -error) & (last < -error);
     if (all(missed)) break;  // whatever the others do
-    near |= cuts & (first >= -error) & (first <= error) & (last >= -error) & (last <= error);
+    // Of what is missed nothing is left, whatever it lies along.
+    const Bits is_near =
+        cuts & ~missed & (first >= -error) & (first <= error) & (last >= -error) & (last <= error);
+    if (any(is_near)) {
+      const long found = find_same(4 * outline.first + i, number, lanes_of(is_near & kLanes));
+      const Bits same = (kLanes & found) != 0;
+      near |= is_near & ~same;
+      cuts &= ~same;
+      missed |= same & (places > static_cast<long>(i));
+      if (is_twin(4 * outline.first + i)) continue;  // the line that it is cuts, too
+    }
     const Doubles place = -start / slope, quotient = error / slope;
     const Doubles half = quotient < 0 ? -quotient : quotient;
     const Doubles radius = half + 0x1p-49 * ((place < 0 ? -place : place) + half);
@@ -290,17 +324,17 @@ GNOMON_FOR_AVX2 bool OutlineUnion::find_edges(Outline& outline, std::uint32_t co
   twins_.clear();
   for (std::uint32_t i = outline.first; i < outline.end; ++i) {
     LineBlock& block = blocks_[i];
-    for (unsigned left = find_ends(outline, count, i); left != 0; left &= left - 1) {
+    unsigned left = find_ends(outline, count, i);
+    for (; left != 0 && !is_flat_; left &= left - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(left));
       Stretch stretch;
-      const bool is_left = std::ranges::find(twins_, 4 * i + k) == twins_.end() &&
-                           cut_by_own(outline, 4 * i + k, stretch);
-      if (is_flat_) return false;
+      const bool is_left = !is_twin(4 * i + k) && cut_by_own(outline, 4 * i + k, stretch);
       block.from[k] = is_left ? stretch.low.outer : 0;
       block.to[k] = is_left ? stretch.high.outer : 0;
       block.inner_from[k] = block.inner_to[k] = 0;
       block.from_line[k] = kAsk;
     }
+    if (is_flat_) return false;
     const Doubles &a = row(block.a), &b = row(block.b), &c = row(block.c);
     const Doubles &from = row(block.from), &to = row(block.to);
     const Bits is_edge = from < to;

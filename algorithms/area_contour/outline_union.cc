@@ -82,7 +82,7 @@ bool OutlineUnion::cover_border(std::uint32_t corner, const Outline& outline,
     const bool from_behind = has(behind, corner), to_behind = has(behind, next);
     if (!from_behind && !to_behind) continue;
     if (!has(before, from_behind ? next : corner)) return false;
-    const auto [share, radius] = share_of_border(line_of(i), corner);
+    const auto [share, radius] = share_of_border(i, corner);
     if (from_behind) {
       trim.begin_at(share, radius, i);
     } else {
@@ -95,16 +95,19 @@ bool OutlineUnion::cover_border(std::uint32_t corner, const Outline& outline,
 
 /// Where a line that crosses an edge of the receiver, or nearly does, meets it. By integers if
 /// doubles say little.
-OutlineUnion::BorderShare OutlineUnion::share_of_border(const OutlineLine& line,
+OutlineUnion::BorderShare OutlineUnion::share_of_border(std::uint32_t number,
                                                         std::uint32_t corner) const {
   const ReceiverChart& receiver = *receiver_;
   const std::uint32_t next = receiver.next(corner);
+  const LineBlock& block = blocks_[number / 4];
+  const double a = block.a[number % 4], b = block.b[number % 4], c = block.c[number % 4];
   const auto distance = [&](std::uint32_t k) {
-    return std::fabs(line.a * receiver.corners[k][0] + line.b * receiver.corners[k][1] + line.c);
+    return std::fabs(a * receiver.corners[k][0] + b * receiver.corners[k][1] + c);
   };
   const double here = distance(corner), both = here + distance(next);
-  const double radius = 4 * (line.error + 2 * receiver.error + slack_) / both;
+  const double radius = 4 * (block.error[number % 4] + 2 * receiver.error + slack_) / both;
   if (radius < kKnownShare) return {here / both, radius + 8 * Ball::kUnit};
+  const OutlineLine line = line_of(number);
   // Two sums and a quotient of numbers that are off by 4u: below 16u, unless they underflow.
   const double exact = exact_->distance_of(line, corner);
   const double sum = exact + exact_->distance_of(line, next);

@@ -25,6 +25,7 @@
 
 #include "algorithms/area_contour/chunked_list.h"
 #include "algorithms/area_contour/exact_lines.h"
+#include "algorithms/area_contour/largest_first.h"
 #include "algorithms/area_contour/receiver_chart.h"
 #include "gnomon/kernel/sign.h"
 #include "kernel/signs/ball.h"
@@ -198,6 +199,8 @@ class OutlineUnion {
   Edge edge_on(std::uint32_t line, std::uint32_t outline, double from, double to) const;
   struct FourStretches;
   void in_receiver(std::uint32_t number, FourStretches& stretches) const;
+  bool is_twin(std::uint32_t line) const;
+  unsigned find_same(std::uint32_t line, std::uint32_t number, unsigned near);
   unsigned find_ends(const Outline& outline, std::uint32_t count, std::uint32_t number);
   void drop_lines(Outline& outline, std::uint32_t count);
   bool find_edges(Outline& outline, std::uint32_t count, double (&low)[2], double (&high)[2]);
@@ -214,7 +217,7 @@ class OutlineUnion {
   bool hides_or_note(const Edge& edge, std::uint32_t other, const OpenLines* open);
   bool hides(const Edge& edge, const EdgeLanes& lanes, std::uint32_t other);
   bool cover_border(std::uint32_t corner, const Outline& outline, Stretch& stretch) const;
-  BorderShare share_of_border(const OutlineLine& line, std::uint32_t corner) const;
+  BorderShare share_of_border(std::uint32_t line, std::uint32_t corner) const;
   Near resolve(std::uint32_t line, std::uint32_t by, Trim& trimmed) const;
   bool has_gap(const Carrier& carrier, const End& before, const End& after, bool is_end) const;
   Lengths rest_of(const Carrier& carrier, Stretch stretch);
@@ -256,7 +259,7 @@ class OutlineUnion {
   std::vector<Member> members_, high_members_;
   std::vector<Cell> cells_;     // that are left
   std::vector<BoxBlock> leaf_;  // the cell at hand
-  std::vector<std::uint64_t> sizes_;
+  LargestFirst order_;
   std::vector<double> ends_;
   std::uint32_t last_hider_ = 0;   // the outline that hid the last edge that was hidden
   std::vector<Gap> perhaps_gaps_;  // of the stretch at hand

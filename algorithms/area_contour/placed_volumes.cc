@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "algorithms/area_contour/placed_volumes.h"
 
-#include <algorithm>
-#include <functional>
-
 namespace gnomon::area_contour {
 
 void PlacedVolumes::begin(const ReceiverChart& receiver, const Point3& n, double d,
@@ -31,15 +28,14 @@ void PlacedVolumes::place(const FoundVolume& found, std::span<const Point3> cast
 
 /// Where outlines are so small that they hide little, neighbours in space stay neighbours: that is
 /// how they lie in memory.
-std::span<const PlacedVolume> PlacedVolumes::largest_first() {
-  const auto area = [](const PlacedVolume& volume) {
-    return (volume.found.penumbra ? volume.boxes.penumbra : volume.boxes.umbra).area();
-  };
+std::span<const std::uint32_t> PlacedVolumes::largest_first() {
   const double least = penumbras.box().area() / kSmall;
-  const auto small = std::ranges::stable_partition(
-      volumes_, [&](const PlacedVolume& volume) { return area(volume) > least; });
-  std::ranges::stable_sort(volumes_.begin(), small.begin(), std::greater{}, area);
-  return volumes_;
+  order_.clear();
+  for (const auto& [found, boxes] : volumes_) {
+    const double area = (found.penumbra ? boxes.penumbra : boxes.umbra).area();
+    order_.add(area > least ? static_cast<float>(area) : 0);
+  }
+  return order_.sorted();
 }
 
 }  // namespace gnomon::area_contour

@@ -6,10 +6,12 @@
 #ifndef GNOMON_ALGORITHMS_AREA_CONTOUR_PLACED_VOLUMES_H
 #define GNOMON_ALGORITHMS_AREA_CONTOUR_PLACED_VOLUMES_H
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "algorithms/area_contour/cover_mask.h"
+#include "algorithms/area_contour/largest_first.h"
 #include "algorithms/area_contour/receiver_chart.h"
 #include "algorithms/area_contour/shadow_boxes.h"
 #include "algorithms/area_contour/volume_search.h"
@@ -28,8 +30,9 @@ class PlacedVolumes {
   /// Puts a volume of the caster with those corners down, unless it certainly misses the receiver.
   /// `umbra_alone`: nor if its umbra does.
   void place(const FoundVolume& found, std::span<const Point3> caster, bool umbra_alone);
-  /// To be called once all are placed.
-  std::span<const PlacedVolume> largest_first();
+  const PlacedVolume& operator[](std::uint32_t number) const { return volumes_[number]; }
+  /// The numbers of all that are placed.
+  std::span<const std::uint32_t> largest_first();
 
   /// What the outlines that were added cover.
   CoverMask penumbras, umbras;
@@ -38,6 +41,7 @@ class PlacedVolumes {
   static constexpr double kSmall = 256;  // of the receiver's rectangle
   ShadowProjection projection_;
   std::vector<PlacedVolume> volumes_;
+  LargestFirst order_;
 };
 
 }  // namespace gnomon::area_contour

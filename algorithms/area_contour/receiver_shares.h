@@ -51,6 +51,8 @@ class ReceiverShares {
  private:
   /// Fewer volumes are all asked.
   static constexpr std::size_t kLeastMasked = 8;
+  /// Few receivers have so many: what they took is given back.
+  static constexpr std::size_t kMany = 2048;
   enum class Relation : std::uint8_t { kOutside, kInside, kCrossing, kOpen };
   enum class Border : std::uint8_t { kOpen, kClosed };
   enum class Verdict : std::uint8_t { kGoesOn, kAllUmbra, kOpen };
@@ -62,8 +64,8 @@ class ReceiverShares {
                                  const LightVolumes& volumes, PlaneRef receiving,
                                  const LightShape<Vertex>& cut);
   void set_cut_light(const Space& space, const LightInSpace<Space>& light, const Loop& loop);
-  bool blocks(Workspace& workspace, PlaneRef receiving, const LightInSpace<Space>& light,
-              std::uint32_t caster);
+  static bool blocks(Space& space, PlaneRef receiving, const LightInSpace<Space>& light,
+                     std::uint32_t caster);
   Verdict add_cut_volume(Workspace& workspace, const LightInSpace<Space>& light, PlaneRef receiving,
                          const LightShape<Vertex>& cut, const FoundVolume& found);
   std::optional<Shares> find_masked(Workspace& workspace, const LightInSpace<Space>& light,
@@ -222,20 +224,12 @@ std::optional<Shares> ReceiverShares<Space>::shares(Workspace& workspace,
 
 /// Whether a caster is partly in front of the receiver.
 template <VolumeSpaceModel Space>
-bool ReceiverShares<Space>::blocks(Workspace& workspace, PlaneRef receiving,
+bool ReceiverShares<Space>::blocks(Space& space, PlaneRef receiving,
                                    const LightInSpace<Space>& light, std::uint32_t caster) {
-  Space& space = workspace.space;
-  if (light.is_solid(caster)) {
-    return std::ranges::any_of(light.shell(caster).vertices, [&](VertexId id) {
-      const Vertex vertex = space.input_vertex(id);
-      return space.side_of_plane(receiving, lone_corner(vertex)) == Side::kFront;
-    });
-  }
-  const Loop loop = part_loop(space, light.scene(), caster, workspace.caster);
-  for (std::uint32_t i = 0; i < loop.size(); ++i) {
-    if (space.side_of_plane(receiving, loop.corner(i)) == Side::kFront) return true;
-  }
-  return false;
+  return std::ranges::any_of(light.vertices_of(caster), [&](VertexId id) {
+    const Vertex vertex = space.input_vertex(id);
+    return space.side_of_plane(receiving, lone_corner(vertex)) == Side::kFront;
+  });
 }
 
 /// Of a light that the receiver's plane does not cut.
@@ -251,7 +245,7 @@ std::optional<Shares> ReceiverShares<Space>::find_whole(Workspace& workspace,
     return find_masked(workspace, light, volumes, receiving);
   }
   for (const FoundVolume& found : search_.found()) {
-    if (!blocks(workspace, receiving, light, found.caster)) continue;
+    if (!blocks(workspace.space, receiving, light, found.caster)) continue;
     const Verdict verdict = add_volume(workspace.space, light.volumes(), found);
     if (verdict == Verdict::kOpen) return std::nullopt;
     if (verdict == Verdict::kAllUmbra) return kAllUmbra;
@@ -278,14 +272,15 @@ std::optional<Shares> ReceiverShares<Space>::find_masked(Workspace& workspace,
     }
     placed_.place(found, caster_, all_penumbra_);
   }
-  for (const PlacedVolume& volume : placed_.largest_first()) {
+  for (const std::uint32_t number : placed_.largest_first()) {
+    const PlacedVolume& volume = placed_[number];
     FoundVolume found = volume.found;
     found.umbra = found.umbra && !placed_.umbras.holds(volume.boxes.umbra);
     found.penumbra =
         found.penumbra && !all_penumbra_ && !placed_.penumbras.holds(volume.boxes.penumbra);
     if (!found.umbra && !found.penumbra) continue;
     if (volume.boxes.place != ShadowBoxes::Place::kInFront &&
-        !blocks(workspace, receiving, light, found.caster)) {
+        !blocks(workspace.space, receiving, light, found.caster)) {
       continue;
     }
     masked_ = &volume.boxes;
@@ -335,7 +330,7 @@ typename ReceiverShares<Space>::Verdict ReceiverShares<Space>::add_cut_volume(
     const LightShape<Vertex>& cut, const FoundVolume& found) {
   const bool penumbra = found.penumbra && !all_penumbra_;
   if (!penumbra && !found.umbra) return Verdict::kGoesOn;
-  if (!blocks(workspace, receiving, light, found.caster)) return Verdict::kGoesOn;
+  if (!blocks(workspace.space, receiving, light, found.caster)) return Verdict::kGoesOn;
   const PreparedScene& scene = light.scene();
   workspace.own.clear();
   if (light.is_solid(found.caster)) {
@@ -359,6 +354,11 @@ std::optional<Shares> ReceiverShares<Space>::find(Workspace& workspace,
                                                   Side side, const Loop& whole) {
   Space& space = workspace.space;
   if (whole.size() > kMostCorners) return std::nullopt;
+  if (search_.found().size() > kMany) {  // of the last receiver
+    penumbras_ = {};
+    umbras_ = {};
+    placed_ = {};
+  }
   const PlaneRef receiving = plane_of_side(light.scene().parts[part], side);
   support_ = PlaneRef(receiving.index(), false);
   if (!make_chart(space, whole)) return std::nullopt;

@@ -464,7 +464,6 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
     if (!done) return result;
     from = middle;
   }
-  volumes_.reset();
   if constexpr (area_contour::HasPlaneDoubles<Space>) {
     if (makes_contours() && light.has_area()) {
       volumes_.emplace(area_contour::light_volumes(space_, light_geometry_, tree_, light, jobs()));
@@ -500,6 +499,7 @@ LightResult ReceiverRun<Space>::run_light(const LightInSpace<Space>& light, Ligh
     vanished += workspace.cutter.vanished() - vanished_before;
     open += workspace.open - open_before;
   });
+  volumes_.reset();
   if (by_contour(light)) result.work[Counter::kOpenPolygons] = open;
   result.tree_nodes = cells + (merged ? merged->node_count() : 0);
   result.dropped_slivers += vanished + (merged ? merged->findings() : 0);

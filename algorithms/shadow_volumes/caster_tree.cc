@@ -18,6 +18,10 @@ double diagonal_of(const Box& box) {
   return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
 }
 
+double length_of(const std::array<double, 3>& v) {
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
 std::vector<Box> boxes_of_parts(const Geometry& geometry, const PreparedScene& scene,
                                 unsigned jobs) {
   constexpr std::uint32_t kGrain = 2048;
@@ -37,11 +41,15 @@ std::vector<Box> boxes_of_parts(const Geometry& geometry, const PreparedScene& s
 
 std::array<double, 3> grid_fraction(const GridPositions& grid, VertexId vertex) {
   std::array<double, 3> point{};
+  if (!grid.is_narrow()) {
+    for (int k = 0; k < 3; ++k) {
+      point[static_cast<std::size_t>(k)] = to_double_scaled(grid.wide(vertex, k), grid.bits());
+    }
+    return point;
+  }
+  const double unit = 1 / static_cast<double>(std::uint64_t{1} << grid.bits());
   for (int k = 0; k < 3; ++k) {
-    point[static_cast<std::size_t>(k)] =
-        grid.is_narrow() ? std::ldexp(static_cast<double>(grid.narrow(vertex, k)),
-                                      -static_cast<int>(grid.bits()))
-                         : to_double_scaled(grid.wide(vertex, k), grid.bits());
+    point[static_cast<std::size_t>(k)] = static_cast<double>(grid.narrow(vertex, k)) * unit;
   }
   return point;
 }
@@ -125,22 +133,37 @@ UmbraReach::UmbraReach(std::span<const std::array<double, 3>> light, const Box& 
     square += (receiver.high[k] - receiver.low[k]) * (receiver.high[k] - receiver.low[k]);
   }
   const double radius = std::sqrt(square) / 2 + 4 * kMargin;
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    for (std::size_t j = i + 1; j < light.size(); ++j) {
-      std::array<double, 3> a{}, b{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        a[k] = light[i][k] - middle[k];
-        b[k] = light[j][k] - middle[k];
-      }
-      const double to_a = std::hypot(a[0], a[1], a[2]), to_b = std::hypot(b[0], b[1], b[2]);
-      if (!(to_a > 2 * radius) || !(to_b > 2 * radius)) continue;
-      const double angle =
-          std::atan2(std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                                a[0] * b[1] - a[1] * b[0]),
-                     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-      // A ray turns by at most this where p moves in the receiver's ball.
-      const double smallest = angle - std::asin(radius / to_a) - std::asin(radius / to_b);
-      if (smallest > 0) sine_ = std::max(sine_, std::sin(std::min(smallest, 1.5)));
+  // A ray from p to a corner turns by at most asin(sine) where p moves in the receiver's ball.
+  struct Ray {
+    std::array<double, 3> direction;
+    double sine, cosine;
+  };
+  std::vector<Ray> rays;
+  rays.reserve(light.size());
+  for (const std::array<double, 3>& corner : light) {
+    const std::array<double, 3> to = {corner[0] - middle[0], corner[1] - middle[1],
+                                      corner[2] - middle[2]};
+    const double length = length_of(to);
+    if (!(length > 2 * radius)) continue;
+    const double sine = radius / length;
+    rays.push_back({{to[0] / length, to[1] / length, to[2] / length},
+                    sine,
+                    std::sqrt((1 - sine) * (1 + sine))});
+  }
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    for (std::size_t j = i + 1; j < rays.size(); ++j) {
+      const auto& [a, sine_a, cosine_a] = rays[i];
+      const auto& [b, sine_b, cosine_b] = rays[j];
+      const double sine = length_of({a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                                     a[0] * b[1] - a[1] * b[0]}),
+                   cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+      // Of both turns, each below 30 degrees; then of the angle less both.
+      const double sine_off = sine_a * cosine_b + cosine_a * sine_b,
+                   cosine_off = cosine_a * cosine_b - sine_a * sine_b;
+      const double sine_left = sine * cosine_off - cosine * sine_off,
+                   cosine_left = cosine * cosine_off + sine * sine_off;
+      // Where the angle is not acute, a right one is less.
+      if (sine_left > 0) sine_ = std::max(sine_, cosine_left > 0 ? sine_left : 1);
     }
   }
 }

@@ -41,7 +41,8 @@ class SharedStack {
   void share() {
     if (own_.empty()) return;
     if (shared_size_ > 0) own_.insert(own_.begin(), shared_begin_, shared_begin_ + shared_size_);
-    own_.shrink_to_fit();
+    // A copy that is as large for a while costs more than a little room to spare.
+    if (own_.capacity() - own_.size() > own_.size() / 8) own_.shrink_to_fit();
     shared_ = std::make_shared<const std::vector<T>>(std::exchange(own_, {}));
     shared_begin_ = shared_->data();
     shared_size_ = shared_->size();

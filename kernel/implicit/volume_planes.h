@@ -70,7 +70,7 @@ class VolumePlanes {
     double d;
     PlaneRef plane;
   };
-  LoadedPlane load(PlaneRef ref) const {
+  [[gnu::always_inline]] LoadedPlane load(PlaneRef ref) const {
     const Plane& plane = plane_at(ref.index());
     return {plane.n, plane.d, ref};
   }

@@ -24,6 +24,9 @@ constexpr int kSide = 8;  // of the receiver, a square in the lattice
 struct HalfPlane {
   long a, b, c;
   friend bool operator==(const HalfPlane&, const HalfPlane&) = default;
+  bool has_line_of(const HalfPlane& other) const {
+    return a * other.b == b * other.a && a * other.c == c * other.a && b * other.c == c * other.b;
+  }
 };
 using Convex = std::vector<HalfPlane>;
 using Point = std::array<mpq_class, 2>;
@@ -76,8 +79,9 @@ mpq_class covered(const std::vector<Convex>& outlines,
 /// Lines are numbered by their planes here.
 class Lattice final : public ExactLines {
  public:
-  Lattice(std::vector<Point> receiver, const ReceiverChart& chart)
-      : ExactLines(chart), receiver_(std::move(receiver)) {}
+  /// `knows_lines`: that they are one, however they are given; else only of those given alike.
+  Lattice(std::vector<Point> receiver, const ReceiverChart& chart, bool knows_lines = false)
+      : ExactLines(chart), receiver_(std::move(receiver)), knows_lines_(knows_lines) {}
   OutlineLine add(const HalfPlane& half) {
     OutlineLine line;
     const double length = std::hypot(static_cast<double>(half.a), static_cast<double>(half.b));
@@ -99,7 +103,9 @@ class Lattice final : public ExactLines {
   Point meet_of(const OutlineLine& a, const OutlineLine& b) const { return meet(of(a), of(b)); }
   Side side_of_point(const OutlineLine& line, const Point& p) const { return side(of(line), p); }
 
-  bool is_known_same(const OutlineLine& a, const OutlineLine& b) override { return of(a) == of(b); }
+  bool is_known_same(const OutlineLine& a, const OutlineLine& b) override {
+    return knows_lines_ ? of(a).has_line_of(of(b)) : of(a) == of(b);
+  }
   double distance_of(const OutlineLine& line, std::uint32_t corner) override {
     return std::fabs(value(of(line), receiver_[corner]).get_d());
   }
@@ -140,6 +146,7 @@ class Lattice final : public ExactLines {
   }
 
   std::vector<Point> receiver_;  // of integers
+  bool knows_lines_;
   std::vector<HalfPlane> lines_;
   int asked_ = 0;
 };
@@ -154,10 +161,10 @@ ReceiverChart chart(const std::vector<Point>& receiver) {
 /// What a union says, or nothing where some outline holds all of the receiver. False if all of it
 /// is covered, and the union does not say so: then that is for exact cuts to tell.
 bool check(const std::vector<Convex>& outlines, const mpq_class& truth, const std::string& what,
-           double most_error = 1e-9, const std::vector<Point>& corners = square(),
-           bool may_be_open = false) {
+           double most_error, const std::vector<Point>& corners, bool may_be_open,
+           bool knows_lines) {
   const ReceiverChart receiver = chart(corners);
-  Lattice exact(corners, receiver);
+  Lattice exact(corners, receiver, knows_lines);
   OutlineUnion outline_union;
   outline_union.begin(receiver, exact);
   for (const Convex& outline : outlines) {
@@ -182,6 +189,14 @@ bool check(const std::vector<Convex>& outlines, const mpq_class& truth, const st
   EXPECT_TRUE(truth == 1 || !share.hidden) << what;
   EXPECT_TRUE(truth != 1 || share.hidden || may_be_open) << what;
   return truth != 1 || share.hidden;
+}
+
+bool check(const std::vector<Convex>& outlines, const mpq_class& truth, const std::string& what,
+           double most_error = 1e-9, const std::vector<Point>& corners = square(),
+           bool may_be_open = false) {
+  const bool is_told = check(outlines, truth, what, most_error, corners, may_be_open, false);
+  return check(outlines, truth, what + ", lines known", most_error, corners, may_be_open, true) &&
+         is_told;
 }
 
 void check(const std::vector<Convex>& outlines, const std::string& what) {
@@ -298,7 +313,7 @@ TEST(OutlineUnion, CellsMeetWithinTheBoundsOfAnEnd) {
 class Lots {
  public:
   explicit Lots(unsigned seed) : random_(seed) {}
-  int upto(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+  int upto(long n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
   Convex outline() {
     const int left = upto(6), low = upto(6);
     Convex result = box(left, low, left + 1 + upto(4), low + 1 + upto(4));
@@ -317,6 +332,26 @@ class Lots {
  private:
   std::mt19937 random_;
 };
+
+/// Lines of an outline that are given again, perhaps in other numbers and perhaps as seen from
+/// behind, so that it has no area.
+TEST(OutlineUnion, LinesGivenTwice) {
+  Lots lots(11);
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<Convex> outlines(1 + static_cast<std::size_t>(lots.upto(4)));
+    for (Convex& outline : outlines) {
+      outline = lots.outline();
+      for (int more = lots.upto(4); more > 0; --more) {
+        const HalfPlane line = outline[static_cast<std::size_t>(lots.upto(std::ssize(outline)))];
+        const long times = lots.upto(8) == 0 ? -1 : 1 + lots.upto(3);
+        outline.insert(outline.begin() + lots.upto(std::ssize(outline) + 1),
+                       {times * line.a, times * line.b, times * line.c});
+      }
+    }
+    check(outlines, "round " + std::to_string(round));
+    if (HasFailure()) return;
+  }
+}
 
 TEST(OutlineUnion, LatticeOfOutlines) {
   Lots lots(7);
