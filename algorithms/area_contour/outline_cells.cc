@@ -38,14 +38,27 @@ GNOMON_FOR_AVX2 bool OutlineUnion::holds(const Outline& outline, const double (&
   return true;
 }
 
-/// Whether a box and the cell have more in common than the inside of an outline.
-inline bool OutlineUnion::is_outside(const Outline& outline, const Cell& cell,
+/// Where the box around an outline ends in a cell; beyond all numbers where it does not.
+inline OutlineUnion::Box OutlineUnion::ends_in(const Cell& cell, const Outline& outline) const {
+  Box ends = kEverything;
+  for (int k = 0; k < 2; ++k) {
+    if (cell.low[k] - margin_ < outline.box.low[k]) ends.low[k] = outline.box.low[k];
+    if (cell.high[k] + margin_ > outline.box.high[k]) ends.high[k] = outline.box.high[k];
+  }
+  return ends;
+}
+
+/// Whether a box and the cell have more in common than the inside of an outline. `ends`: those of
+/// its box in the cell.
+inline bool OutlineUnion::is_outside(const Outline& outline, const Cell& cell, const Box& ends,
                                      const Box& box) const {
+  const bool leaves = (box.low[0] < ends.low[0]) | (box.low[1] < ends.low[1]) |
+                      (box.high[0] > ends.high[0]) | (box.high[1] > ends.high[1]);
+  if (leaves) return true;
   double low[2], high[2];
   for (int k = 0; k < 2; ++k) {
     low[k] = std::max<double>(box.low[k], cell.low[k] - margin_);
     high[k] = std::min<double>(box.high[k], cell.high[k] + margin_);
-    if (low[k] < outline.box.low[k] || high[k] > outline.box.high[k]) return true;
   }
   return !holds(outline, low, high);
 }
@@ -53,19 +66,17 @@ inline bool OutlineUnion::is_outside(const Outline& outline, const Cell& cell,
 /// Drops outlines that a large one holds in the cell: it hides their edges and what they hide. True
 /// if one holds all of the cell.
 bool OutlineUnion::drop_held(Cell& cell) {
-  constexpr Box kEverything = {
-      {-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()},
-      {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()}};
   const double area = (cell.high[0] - cell.low[0]) * (cell.high[1] - cell.low[1]);
   for (std::uint32_t i = cell.first; i < cell.end; ++i) {
     const Outline& holder = outlines_[members_[i].outline];
     // The largest come first, and sizes are rounded by far less than that.
     if (i >= cell.first + kHolders && size_of(members_[i].box) < 0.999 * area) break;
-    if (!is_outside(holder, cell, kEverything)) return true;
+    const Box ends = ends_in(cell, holder);
+    if (!is_outside(holder, cell, ends, kEverything)) return true;
     if (i >= cell.first + kHolders) continue;
     std::uint32_t end = i + 1;
     for (std::uint32_t k = end; k < cell.end; ++k) {
-      if (is_outside(holder, cell, members_[k].box)) members_[end++] = members_[k];
+      if (is_outside(holder, cell, ends, members_[k].box)) members_[end++] = members_[k];
     }
     cell.end = end;
   }

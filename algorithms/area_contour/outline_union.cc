@@ -174,6 +174,10 @@ void OutlineUnion::add_borders() {
       }
       covers_.push_back(stretch);
     }
+    if (covers_.empty() && !hidden) {  // nothing holds any of it
+      some_left_ = true;
+      continue;
+    }
     const std::array<double, 2>&p = receiver.corners[k], &q = receiver.corners[receiver.next(k)];
     const double height = frame_.height(p[0], p[1]);
     const Carrier carrier{kNoLine, k, height, frame_.height(q[0], q[1]) - height};

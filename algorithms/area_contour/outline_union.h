@@ -98,6 +98,8 @@ class OutlineUnion {
   struct Box {
     float low[2], high[2];
   };
+  static constexpr float kNoEnd = std::numeric_limits<float>::infinity();
+  static constexpr Box kEverything = {{-kNoEnd, -kNoEnd}, {kNoEnd, kNoEnd}};
   /// Four lines of an outline, and its edges on them: what its own lines and the receiver leave of
   /// each. What fills up the last block is positive everywhere and no edge. A line's number is that
   /// of its block times four and its place there. As small as can be: there may be 100,000.
@@ -236,7 +238,8 @@ class OutlineUnion {
   void sort_members();
   static float size_of(const Box& box);
   bool holds(const Outline& outline, const double (&low)[2], const double (&high)[2]) const;
-  bool is_outside(const Outline& outline, const Cell& cell, const Box& box) const;
+  Box ends_in(const Cell& cell, const Outline& outline) const;
+  bool is_outside(const Outline& outline, const Cell& cell, const Box& ends, const Box& box) const;
   bool drop_held(Cell& cell);
   bool halve(const Cell& cell);
   void clip(const LineBlock& block, const Cell& cell, LineBlock& part) const;

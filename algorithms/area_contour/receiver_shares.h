@@ -266,9 +266,10 @@ std::optional<Shares> ReceiverShares<Space>::find_masked(Workspace& workspace,
   placed_.begin(chart_, {sign * plane.n[0], sign * plane.n[1], sign * plane.n[2]}, sign * plane.d,
                 volumes);
   for (const FoundVolume& found : search_.found()) {
-    caster_.clear();
-    for (const VertexId vertex : light.vertices_of(found.caster)) {
-      caster_.push_back(space.input_vertex(vertex).x);
+    const std::span<const VertexId> vertices = light.vertices_of(found.caster);
+    caster_.resize(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      caster_[i] = space.input_vertex(vertices[i]).x;
     }
     placed_.place(found, caster_, all_penumbra_);
   }

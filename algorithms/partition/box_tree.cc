@@ -14,87 +14,131 @@ namespace gnomon {
 // Nodes stand in the order in which a left child follows its parent, and a right child what is
 // below the left one. How many these are depends on the number of members alone, so that every node
 // has its place before what is above it is made: halves can be sorted by different threads.
+class BoxTree::Maker {
+ public:
+  explicit Maker(BoxTree& tree) : tree_(tree) {
+    members_.reserve(tree.order_.size());
+    for (const std::uint32_t number : tree.order_) {
+      const auto& [low, high] = tree.boxes_[number];
+      members_.push_back({{low[0] + high[0], low[1] + high[1], low[2] + high[2]}, number});
+    }
+  }
+
+  void make(unsigned jobs) {
+    const auto size = static_cast<std::uint32_t>(members_.size());
+    tree_.nodes_.resize(node_count(size));
+    std::vector<Task> level{{0, size, 0}};
+    // All tasks of a level are of the same size, up to one member.
+    while (jobs != 1 && level.front().end - level.front().begin > kMembersOfAThread) {
+      std::vector<Task> next(2 * level.size());
+      tbb::parallel_for(std::size_t{0}, level.size(),
+                        [&](std::size_t i) { make_node(level[i], next[2 * i], next[2 * i + 1]); });
+      level = std::move(next);
+    }
+    in_parallel(jobs, static_cast<std::uint32_t>(level.size()), 1,
+                [&](std::uint32_t begin, std::uint32_t end) {
+                  for (std::uint32_t i = begin; i < end; ++i) make_subtree(level[i]);
+                });
+    find_boxes();
+  }
+
+ private:
+  /// Fewer members are sorted by one thread.
+  static constexpr std::uint32_t kMembersOfAThread = 2048;
+  struct Task {
+    std::uint32_t begin, end;
+    std::uint32_t node;  // that is made of these members
+  };
+  /// They are sorted with what they are sorted by, which else would be fetched from everywhere.
+  struct Member {
+    std::array<double, 3> middle;  // of its box, twice
+    std::uint32_t number;
+  };
+
+  /// Nodes of a hierarchy of so many members. Cost: O(log n).
+  static std::uint32_t node_count(std::uint32_t members) {
+    // On each level nodes have `size` members or one more.
+    std::uint32_t size = members, few = 1, many = 0, count = 0;
+    while (few + many > 0) {
+      count += few + many;
+      if (size <= kLeafSize) few = 0;
+      if (size + 1 <= kLeafSize) many = 0;
+      // 2 h is halved into h and h, and 2 h + 1 into h and h + 1.
+      const bool odd = size % 2 != 0;
+      const std::uint32_t half_few = odd ? few : 2 * few + many;
+      many = odd ? few + 2 * many : many;
+      few = half_few;
+      size /= 2;
+    }
+    return count;
+  }
+
+  /// Makes a node but for its box; says whether it has children, and then of which members.
+  bool make_node(const Task& task, Task& left, Task& right) {
+    Node& node = tree_.nodes_[task.node];
+    node.begin = task.begin;
+    node.end = task.end;
+    if (task.end - task.begin <= kLeafSize) return false;
+    const std::uint32_t half = halve(task);
+    left = {task.begin, half, task.node + 1};
+    right = {half, task.end, left.node + node_count(half - task.begin)};
+    node.right = right.node;
+    return true;
+  }
+
+  void make_subtree(const Task& task) {
+    std::vector<Task> tasks{task};
+    while (!tasks.empty()) {
+      const Task own = tasks.back();
+      tasks.pop_back();
+      Task left, right;
+      if (!make_node(own, left, right)) continue;
+      tasks.push_back(right);
+      tasks.push_back(left);
+    }
+  }
+
+  /// Sorts the members of a task by the axis along which their middles are spread most, as far as
+  /// needed to tell the lower half from the upper one; returns where the upper one begins.
+  std::uint32_t halve(const Task& task) {
+    const auto begin = members_.begin();
+    Box middles;
+    std::for_each(begin + task.begin, begin + task.end,
+                  [&](const Member& member) { middles.add(member.middle); });
+    std::size_t axis = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+      if (middles.high[k] - middles.low[k] > middles.high[axis] - middles.low[axis]) axis = k;
+    }
+    const std::uint32_t half = task.begin + (task.end - task.begin) / 2;
+    std::nth_element(begin + task.begin, begin + half, begin + task.end,
+                     [&](const Member& a, const Member& b) {
+                       const double x = a.middle[axis], y = b.middle[axis];
+                       return x < y || (x == y && a.number < b.number);
+                     });
+    return half;
+  }
+
+  /// Of all nodes, and the order of members: children come after their parents.
+  void find_boxes() {
+    for (std::size_t i = 0; i < members_.size(); ++i) tree_.order_[i] = members_[i].number;
+    for (std::size_t i = tree_.nodes_.size(); i-- > 0;) {
+      Node& node = tree_.nodes_[i];
+      if (node.right != 0) {
+        node.box = tree_.nodes_[i + 1].box;
+        node.box.add(tree_.nodes_[node.right].box);
+      } else {
+        for (const std::uint32_t number : tree_.members(node)) node.box.add(tree_.boxes_[number]);
+      }
+    }
+  }
+
+  BoxTree& tree_;
+  std::vector<Member> members_;  // in the tree's order, in the end
+};
+
 BoxTree::BoxTree(std::vector<Box> boxes, std::vector<std::uint32_t> members, unsigned jobs)
     : boxes_(std::move(boxes)), order_(std::move(members)) {
-  if (order_.empty()) return;
-  const auto size = static_cast<std::uint32_t>(order_.size());
-  nodes_.resize(node_count(size));
-  std::vector<Task> level{{0, size, 0}};
-  // All tasks of a level are of the same size, up to one member.
-  while (jobs != 1 && level.front().end - level.front().begin > kMembersOfAThread) {
-    std::vector<Task> next(2 * level.size());
-    tbb::parallel_for(std::size_t{0}, level.size(),
-                      [&](std::size_t i) { make_node(level[i], next[2 * i], next[2 * i + 1]); });
-    level = std::move(next);
-  }
-  in_parallel(jobs, static_cast<std::uint32_t>(level.size()), 1,
-              [&](std::uint32_t begin, std::uint32_t end) {
-                for (std::uint32_t i = begin; i < end; ++i) make_subtree(level[i]);
-              });
-}
-
-std::uint32_t BoxTree::node_count(std::uint32_t members) {
-  // On each level nodes have `size` members or one more.
-  std::uint32_t size = members, few = 1, many = 0, count = 0;
-  while (few + many > 0) {
-    count += few + many;
-    if (size <= kLeafSize) few = 0;
-    if (size + 1 <= kLeafSize) many = 0;
-    // 2 h is halved into h and h, and 2 h + 1 into h and h + 1.
-    const bool odd = size % 2 != 0;
-    const std::uint32_t half_few = odd ? few : 2 * few + many;
-    many = odd ? few + 2 * many : many;
-    few = half_few;
-    size /= 2;
-  }
-  return count;
-}
-
-bool BoxTree::make_node(const Task& task, Task& left, Task& right) {
-  Node& node = nodes_[task.node];
-  node.begin = task.begin;
-  node.end = task.end;
-  for (std::uint32_t i = task.begin; i < task.end; ++i) node.box.add(boxes_[order_[i]]);
-  if (task.end - task.begin <= kLeafSize) return false;
-  const std::uint32_t half = halve(task);
-  left = {task.begin, half, task.node + 1};
-  right = {half, task.end, left.node + node_count(half - task.begin)};
-  node.right = right.node;
-  return true;
-}
-
-void BoxTree::make_subtree(const Task& task) {
-  std::vector<Task> tasks{task};
-  while (!tasks.empty()) {
-    const Task own = tasks.back();
-    tasks.pop_back();
-    Task left, right;
-    if (!make_node(own, left, right)) continue;
-    tasks.push_back(right);
-    tasks.push_back(left);
-  }
-}
-
-/// Sorts the members of a task by the axis along which their middles are spread most, as far as
-/// needed to tell the lower half from the upper one; returns where the upper one begins.
-std::uint32_t BoxTree::halve(const Task& task) {
-  Box middles;
-  for (std::uint32_t i = task.begin; i < task.end; ++i) {
-    const std::uint32_t number = order_[i];
-    middles.add(std::array{middle(number, 0), middle(number, 1), middle(number, 2)});
-  }
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 3; ++k) {
-    if (middles.high[k] - middles.low[k] > middles.high[axis] - middles.low[axis]) axis = k;
-  }
-  const std::uint32_t half = task.begin + (task.end - task.begin) / 2;
-  const auto begin = order_.begin();
-  std::nth_element(begin + task.begin, begin + half, begin + task.end,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     const double x = middle(a, axis), y = middle(b, axis);
-                     return x < y || (x == y && a < b);
-                   });
-  return half;
+  if (!order_.empty()) Maker(*this).make(jobs);
 }
 
 }  // namespace gnomon

@@ -68,24 +68,7 @@ class BoxTree {
 
  private:
   static constexpr std::uint32_t kLeafSize = 4;
-  /// Fewer members are sorted by one thread.
-  static constexpr std::uint32_t kMembersOfAThread = 2048;
-  struct Task {
-    std::uint32_t begin, end;
-    std::uint32_t node;  // that is made of these members
-  };
-
-  /// Nodes of a hierarchy of so many members. Cost: O(log n).
-  static std::uint32_t node_count(std::uint32_t members);
-
-  /// Twice the middle of a box along an axis.
-  double middle(std::uint32_t number, std::size_t axis) const {
-    return boxes_[number].low[axis] + boxes_[number].high[axis];
-  }
-  std::uint32_t halve(const Task& task);
-  /// Makes a node; says whether it has children, and then of which members.
-  bool make_node(const Task& task, Task& left, Task& right);
-  void make_subtree(const Task& task);
+  class Maker;
 
   std::vector<Box> boxes_;
   std::vector<std::uint32_t> order_;

@@ -65,6 +65,8 @@ struct VolumeTools {
 
 /// Casters of a block; several blocks a thread even out what they cost.
 inline constexpr std::uint32_t kCastersOfABlock = 512;
+/// Room for so many planes is made for each caster of the other kind.
+inline constexpr std::size_t kPlanesOfOthers = 12;
 
 /// Adds the volumes of casters [begin, end), as add(tools, caster, store) does.
 template <VolumeSpaceModel Space, class Add>
@@ -132,10 +134,11 @@ VolumesOfCasters make_volumes(Space& space, const Rules& rules, std::uint32_t ca
                              made);
       if (begin > first) continue;
       // The first ones tell how many planes there will be, about: a list that is moved while it
-      // grows takes twice its memory.
+      // grows takes twice its memory, and room to spare takes none.
       if constexpr (TakesPlanes<Space>) {
         space.reserve_planes((space.plane_mark() - before) * std::size_t{last - first} /
-                             kCastersOfABlock);
+                                 kCastersOfABlock +
+                             kPlanesOfOthers * (casters - last));
       }
     }
   };

@@ -37,12 +37,11 @@ class SharedStack {
   }
   /// Empties it. Requires: copies have nothing in common with it.
   std::vector<T> take() { return std::exchange(own_, {}); }
-  /// What is there now copies that are made from now on have in common.
+  /// What is there now copies that are made from now on have in common. Room to spare stays: nobody
+  /// has touched it, so that it takes no memory, which a tighter copy would for a while.
   void share() {
     if (own_.empty()) return;
     if (shared_size_ > 0) own_.insert(own_.begin(), shared_begin_, shared_begin_ + shared_size_);
-    // A copy that is as large for a while costs more than a little room to spare.
-    if (own_.capacity() - own_.size() > own_.size() / 8) own_.shrink_to_fit();
     shared_ = std::make_shared<const std::vector<T>>(std::exchange(own_, {}));
     shared_begin_ = shared_->data();
     shared_size_ = shared_->size();
