@@ -50,12 +50,13 @@ std::string position_text(const Geometry& geometry, VertexId vertex) {
 
 std::vector<Component> find_components(const PreparedScene& scene) {
   const EdgeUsers users(scene);
-  Partition partition = joined_parts::partition_of(scene, users);
+  const Partition partition = joined_parts::partition_of(scene, users);
   const ConvexityTest test(scene, users, partition.component_of);
-  std::vector<Component> components(partition.parts.size());
+  std::vector<Component> components(partition.size());
   for (std::size_t i = 0; i < components.size(); ++i) {
     Component& component = components[i];
-    component.parts = std::move(partition.parts[i]);
+    const auto parts = partition.parts(i);
+    component.parts.assign(parts.begin(), parts.end());
     find_unpaired(scene, users, partition.component_of, component);
     component.is_convex =
         component.is_closed && test.is_convex(component.parts, test.vertices_of(component.parts));

@@ -95,16 +95,20 @@ std::vector<ConvexShell> find_convex_shells(const PreparedScene& scene, std::uin
                                             unsigned jobs) {
   constexpr std::uint32_t kGrain = 256;
   const EdgeUsers users(scene);
-  Partition partition = joined_parts::partition_of(scene, users);
+  const Partition partition = joined_parts::partition_of(scene, users);
   const ConvexityTest test(scene, users, partition.component_of);
-  // By component; without parts where there is none.
-  std::vector<ConvexShell> found(partition.parts.size());
+  std::vector<std::uint32_t> asked;  // components
+  for (std::uint32_t i = 0; i < partition.size(); ++i) {
+    const std::size_t parts = partition.parts(i).size();
+    if (parts >= 2 && parts <= most_parts) asked.push_back(i);
+  }
+  // Of those asked; without parts where there is none.
+  std::vector<ConvexShell> found(asked.size());
   const auto look_at = [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) {
-      const std::size_t parts = partition.parts[i].size();
-      if (parts < 2 || parts > most_parts) continue;
+      const auto parts = partition.parts(asked[i]);
       ConvexShell shell;
-      shell.parts = std::move(partition.parts[i]);
+      shell.parts.assign(parts.begin(), parts.end());
       if (!find_edges(scene, users, partition.component_of, shell)) continue;
       shell.vertices = test.vertices_of(shell.parts);
       if (test.is_convex(shell.parts, shell.vertices) && find_missing(scene, shell)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "algorithms/facing_chain/joined_parts.h"
 
+#include <numeric>
+
 #include "scene/geometry/joined_sets.h"
 
 namespace gnomon::joined_parts {
@@ -27,18 +29,27 @@ scene_detail::JoinedSets joined_parts(const PreparedScene& scene, const EdgeUser
 
 Partition partition_of(const PreparedScene& scene, const EdgeUsers& users) {
   scene_detail::JoinedSets sets = joined_parts(scene, users);
+  const auto count = static_cast<std::uint32_t>(scene.parts.size());
   Partition partition;
-  partition.component_of.resize(scene.parts.size());
-  for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
+  partition.component_of.resize(count);
+  std::vector<std::uint32_t>& ends = partition.first;  // the numbers of parts, first
+  ends.push_back(0);
+  for (std::uint32_t i = 0; i < count; ++i) {
     const std::uint32_t first = sets.first(i);
     std::uint32_t& own = partition.component_of[i];
     if (first == i) {
-      own = static_cast<std::uint32_t>(partition.parts.size());
-      partition.parts.emplace_back();
+      own = static_cast<std::uint32_t>(ends.size()) - 1;
+      ends.push_back(0);
     } else {
       own = partition.component_of[first];
     }
-    partition.parts[own].push_back(i);
+    ++ends[own + 1];
+  }
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  partition.members.resize(count);
+  std::vector<std::uint32_t> place(ends.begin(), ends.end() - 1);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    partition.members[place[partition.component_of[i]]++] = i;
   }
   return partition;
 }

@@ -135,10 +135,17 @@ class OrientedPlane {
   long double error_bound_ = 0;
 };
 
-/// The parts of each component, by their first parts, and the component of each part.
+/// Components, by their first parts, and the component of each part.
 struct Partition {
-  std::vector<std::vector<std::uint32_t>> parts;
   std::vector<std::uint32_t> component_of;
+  std::vector<std::uint32_t> members;  // component by component
+  std::vector<std::uint32_t> first;    // of each component's, and the end
+
+  std::size_t size() const { return first.size() - 1; }
+  /// Ascending.
+  std::span<const std::uint32_t> parts(std::size_t component) const {
+    return std::span(members).subspan(first[component], first[component + 1] - first[component]);
+  }
 };
 
 Partition partition_of(const PreparedScene& scene, const EdgeUsers& users);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <ranges>
 #include <utility>
 
 #include "algorithms/partition/in_parallel.h"
@@ -28,8 +29,10 @@ class BoxTree::Maker {
     const auto size = static_cast<std::uint32_t>(members_.size());
     tree_.nodes_.resize(node_count(size));
     std::vector<Task> level{{0, size, 0}};
+    std::vector<std::uint32_t> above;  // nodes
     // All tasks of a level are of the same size, up to one member.
     while (jobs != 1 && level.front().end - level.front().begin > kMembersOfAThread) {
+      for (const Task& task : level) above.push_back(task.node);
       std::vector<Task> next(2 * level.size());
       tbb::parallel_for(std::size_t{0}, level.size(),
                         [&](std::size_t i) { make_node(level[i], next[2 * i], next[2 * i + 1]); });
@@ -39,7 +42,7 @@ class BoxTree::Maker {
                 [&](std::uint32_t begin, std::uint32_t end) {
                   for (std::uint32_t i = begin; i < end; ++i) make_subtree(level[i]);
                 });
-    find_boxes();
+    for (const std::uint32_t node : above | std::views::reverse) find_box(node);
   }
 
  private:
@@ -73,7 +76,7 @@ class BoxTree::Maker {
     return count;
   }
 
-  /// Makes a node but for its box; says whether it has children, and then of which members.
+  /// Makes a node without its box; says whether it has children, and then of which members.
   bool make_node(const Task& task, Task& left, Task& right) {
     Node& node = tree_.nodes_[task.node];
     node.begin = task.begin;
@@ -95,6 +98,11 @@ class BoxTree::Maker {
       if (!make_node(own, left, right)) continue;
       tasks.push_back(right);
       tasks.push_back(left);
+    }
+    for (std::uint32_t i = task.begin; i < task.end; ++i) tree_.order_[i] = members_[i].number;
+    // Children come after their parents.
+    for (std::uint32_t i = task.node + node_count(task.end - task.begin); i-- > task.node;) {
+      find_box(i);
     }
   }
 
@@ -118,18 +126,15 @@ class BoxTree::Maker {
     return half;
   }
 
-  /// Of all nodes, and the order of members: children come after their parents.
-  void find_boxes() {
-    for (std::size_t i = 0; i < members_.size(); ++i) tree_.order_[i] = members_[i].number;
-    for (std::size_t i = tree_.nodes_.size(); i-- > 0;) {
-      Node& node = tree_.nodes_[i];
-      if (node.right != 0) {
-        node.box = tree_.nodes_[i + 1].box;
-        node.box.add(tree_.nodes_[node.right].box);
-      } else {
-        for (const std::uint32_t number : tree_.members(node)) node.box.add(tree_.boxes_[number]);
-      }
+  /// Requires: those of its children are found, and what is below it is in order.
+  void find_box(std::uint32_t number) {
+    Node& node = tree_.nodes_[number];
+    if (node.right == 0) {
+      for (const std::uint32_t member : tree_.members(node)) node.box.add(tree_.boxes_[member]);
+      return;
     }
+    node.box = tree_.nodes_[number + 1].box;
+    node.box.add(tree_.nodes_[node.right].box);
   }
 
   BoxTree& tree_;
