@@ -32,22 +32,22 @@ Partition partition_of(const PreparedScene& scene, const EdgeUsers& users) {
   const auto count = static_cast<std::uint32_t>(scene.parts.size());
   Partition partition;
   partition.component_of.resize(count);
-  std::vector<std::uint32_t>& ends = partition.first;  // the numbers of parts, first
-  ends.push_back(0);
+  std::vector<std::uint32_t>& first = partition.first;
+  first.push_back(0);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t first = sets.first(i);
+    const std::uint32_t known = sets.first(i);  // the first part of its component
     std::uint32_t& own = partition.component_of[i];
-    if (first == i) {
-      own = static_cast<std::uint32_t>(ends.size()) - 1;
-      ends.push_back(0);
+    if (known == i) {
+      own = static_cast<std::uint32_t>(partition.size());
+      first.push_back(0);
     } else {
-      own = partition.component_of[first];
+      own = partition.component_of[known];
     }
-    ++ends[own + 1];
+    ++first[own + 1];  // the number of its parts, until all are summed
   }
-  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::partial_sum(first.begin(), first.end(), first.begin());
   partition.members.resize(count);
-  std::vector<std::uint32_t> place(ends.begin(), ends.end() - 1);
+  std::vector<std::uint32_t> place(first.begin(), first.end() - 1);
   for (std::uint32_t i = 0; i < count; ++i) {
     partition.members[place[partition.component_of[i]]++] = i;
   }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "algorithms/partition/in_parallel.h"
-#include "kernel/numbers/exact_integer.h"
+#include "kernel/implicit/scaled_doubles.h"
 
 namespace gnomon {
 namespace {
@@ -18,9 +18,7 @@ double diagonal_of(const Box& box) {
   return std::hypot(box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]);
 }
 
-double length_of(const std::array<double, 3>& v) {
-  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-}
+double length_of(const Double3& v) { return std::sqrt(dot(v, v)); }
 
 std::vector<Box> boxes_of_parts(const Geometry& geometry, const PreparedScene& scene,
                                 unsigned jobs) {
@@ -135,14 +133,13 @@ UmbraReach::UmbraReach(std::span<const std::array<double, 3>> light, const Box& 
   const double radius = std::sqrt(square) / 2 + 4 * kMargin;
   // A ray from p to a corner turns by at most asin(sine) where p moves in the receiver's ball.
   struct Ray {
-    std::array<double, 3> direction;
+    Double3 direction;
     double sine, cosine;
   };
   std::vector<Ray> rays;
   rays.reserve(light.size());
-  for (const std::array<double, 3>& corner : light) {
-    const std::array<double, 3> to = {corner[0] - middle[0], corner[1] - middle[1],
-                                      corner[2] - middle[2]};
+  for (const Double3& corner : light) {
+    const Double3 to = {corner[0] - middle[0], corner[1] - middle[1], corner[2] - middle[2]};
     const double length = length_of(to);
     if (!(length > 2 * radius)) continue;
     const double sine = radius / length;
@@ -154,9 +151,7 @@ UmbraReach::UmbraReach(std::span<const std::array<double, 3>> light, const Box& 
     for (std::size_t j = i + 1; j < rays.size(); ++j) {
       const auto& [a, sine_a, cosine_a] = rays[i];
       const auto& [b, sine_b, cosine_b] = rays[j];
-      const double sine = length_of({a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                                     a[0] * b[1] - a[1] * b[0]}),
-                   cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+      const double sine = length_of(cross(a, b)), cosine = dot(a, b);
       // Of both turns, each below 30 degrees; then of the angle less both.
       const double sine_off = sine_a * cosine_b + cosine_a * sine_b,
                    cosine_off = cosine_a * cosine_b - sine_a * sine_b;
